@@ -1,0 +1,293 @@
+//! [`Lattice`]: whole-number places and cells, where collisions and contacts are exact.
+//!
+//! Invariant: everything is decided in integers; metres appear only in [`Lattice::point`] and [`Lattice::polygon`].
+//! Triangular lattice: point (x, y) is at side·(x + y/2, y·√3/2). Square lattice: at side·(x, y).
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::{Point, Polygon, Vector};
+
+/// Which regular lattice.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LatticeKind {
+    /// Equilateral triangles.
+    Triangular,
+    /// Squares.
+    Square,
+}
+
+/// Which triangle on a bottom edge; a square is [`Half::Whole`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Half {
+    /// A square cell.
+    Whole,
+    /// The triangle above its bottom edge: (x, y), (x+1, y), (x, y+1).
+    Up,
+    /// The triangle below that edge: (x, y), (x+1, y), (x+1, y−1).
+    Down,
+}
+
+/// One cell of a lattice, named by the left end of its horizontal edge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Cell {
+    /// First lattice coordinate.
+    pub x: i64,
+    /// Second lattice coordinate.
+    pub y: i64,
+    /// Which cell there.
+    pub half: Half,
+}
+
+type Node = (i64, i64);
+
+/// A directed lattice edge with its cell on the left.
+pub(crate) type Step = (Node, Node);
+
+impl Cell {
+    /// The corners, anticlockwise, in lattice coordinates.
+    pub fn corners(self) -> Vec<(i64, i64)> {
+        let (x, y) = (self.x, self.y);
+        match self.half {
+            Half::Whole => vec![(x, y), (x + 1, y), (x + 1, y + 1), (x, y + 1)],
+            Half::Up => vec![(x, y), (x + 1, y), (x, y + 1)],
+            Half::Down => vec![(x, y), (x + 1, y - 1), (x + 1, y)],
+        }
+    }
+
+    /// The cell moved by whole lattice steps.
+    pub fn moved(self, by: (i64, i64)) -> Cell {
+        Cell { x: self.x + by.0, y: self.y + by.1, half: self.half }
+    }
+
+    /// The cell turned anticlockwise about the lattice origin by `steps` of 60° (triangles) or 90° (squares).
+    pub fn turned(self, steps: i64) -> Cell {
+        let kind = if self.half == Half::Whole { LatticeKind::Square } else { LatticeKind::Triangular };
+        let corners: Vec<Node> = self.corners().into_iter().map(|c| turned(kind, c, steps)).collect();
+        Cell::from_corners(&corners)
+    }
+
+    fn from_corners(corners: &[Node]) -> Cell {
+        if corners.len() == 4 {
+            let x = corners.iter().map(|c| c.0).min().unwrap_or(0);
+            let y = corners.iter().map(|c| c.1).min().unwrap_or(0);
+            return Cell { x, y, half: Half::Whole };
+        }
+        // Two corners of a triangle share a row: they are its horizontal edge, and the third tells the side.
+        for i in 0..3 {
+            let (a, b, c) = (corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3]);
+            if a.1 == b.1 {
+                let half = if c.1 > a.1 { Half::Up } else { Half::Down };
+                return Cell { x: a.0.min(b.0), y: a.1, half };
+            }
+        }
+        unreachable!("a lattice triangle has a horizontal edge")
+    }
+
+    pub(crate) fn steps(self) -> impl Iterator<Item = Step> {
+        let corners = self.corners();
+        let n = corners.len();
+        (0..n).map(move |i| (corners[i], corners[(i + 1) % n]))
+    }
+}
+
+/// A lattice node turned anticlockwise about the origin by `steps` of 60° (triangular) or 90° (square).
+pub(crate) fn turned(kind: LatticeKind, node: (i64, i64), steps: i64) -> (i64, i64) {
+    let (mut x, mut y) = node;
+    match kind {
+        LatticeKind::Triangular => {
+            for _ in 0..steps.rem_euclid(6) {
+                (x, y) = (-y, x + y);
+            }
+        }
+        LatticeKind::Square => {
+            for _ in 0..steps.rem_euclid(4) {
+                (x, y) = (-y, x);
+            }
+        }
+    }
+    (x, y)
+}
+
+/// A regular lattice with its edge length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lattice {
+    /// Which lattice.
+    pub kind: LatticeKind,
+    /// Edge length in metres.
+    pub side: f64,
+}
+
+impl Lattice {
+    /// Where a lattice point lies, in metres. The coordinates need not be whole.
+    ///
+    /// ```
+    /// use drystone::geometry::{Lattice, LatticeKind};
+    /// let lattice = Lattice { kind: LatticeKind::Triangular, side: 2.0 };
+    /// let p = lattice.point(3.0, 1.0);
+    /// assert_eq!(p.x, 7.0);
+    /// assert!((p.y - 3f64.sqrt()).abs() < 1e-15);
+    /// ```
+    pub fn point(&self, x: f64, y: f64) -> Point {
+        match self.kind {
+            // The half row is added as a whole number of halves, so that equal places get equal bits.
+            LatticeKind::Triangular => Point::new((2.0 * x + y) * (self.side / 2.0), y * (self.side * HALF_SQRT_3)),
+            LatticeKind::Square => Point::new(x * self.side, y * self.side),
+        }
+    }
+
+    pub(crate) fn node(&self, node: Node) -> Point {
+        self.point(node.0 as f64, node.1 as f64)
+    }
+
+    /// Area of one cell in square metres.
+    pub fn cell_area(&self) -> f64 {
+        let square = self.side * self.side;
+        match self.kind {
+            LatticeKind::Triangular => square * HALF_SQRT_3 / 2.0,
+            LatticeKind::Square => square,
+        }
+    }
+
+    /// Centroid of one cell.
+    pub fn cell_centre(&self, cell: Cell) -> Point {
+        let corners = cell.corners();
+        let sum = corners.iter().fold(Vector::zeros(), |s, c| s + self.node(*c).coords);
+        Point::from(sum / corners.len() as f64)
+    }
+
+    /// The outline of a set of cells: outer ring and holes, straight runs of edges joined into one.
+    ///
+    /// `None` where the cells are not all joined by edges.
+    pub fn polygon(&self, cells: &[Cell]) -> Option<Polygon> {
+        let rings = trace(cells)?;
+        Some(Polygon::from_traced(rings.iter().map(|ring| ring.iter().map(|n| self.node(*n)).collect()).collect()))
+    }
+}
+
+const HALF_SQRT_3: f64 = 0.866_025_403_784_438_6;
+
+/// The boundary of a set of cells as directed edges, the cells on their left.
+pub(crate) fn boundary(cells: &[Cell]) -> BTreeSet<Step> {
+    let all: BTreeSet<Step> = cells.iter().flat_map(|c| c.steps()).collect();
+    all.iter().filter(|(a, b)| !all.contains(&(*b, *a))).copied().collect()
+}
+
+/// Outer ring first, straight runs joined. `None` unless the cells hang together by edges.
+fn trace(cells: &[Cell]) -> Option<Vec<Vec<Node>>> {
+    let edges = boundary(cells);
+    if !joined(cells) || edges.is_empty() {
+        return None;
+    }
+    let mut from: BTreeMap<Node, Vec<Node>> = BTreeMap::new();
+    for (a, b) in &edges {
+        from.entry(*a).or_default().push(*b);
+    }
+    let mut rings = Vec::new();
+    let mut left = edges;
+    while let Some(first) = left.iter().next().copied() {
+        let mut ring = vec![];
+        let (mut a, mut b) = first;
+        while left.remove(&(a, b)) {
+            ring.push(a);
+            // Where rings touch in a node, turn as sharply left as possible, so that each cell stays with its own ring.
+            let next = from[&b]
+                .iter()
+                .filter(|c| left.contains(&(b, **c)))
+                .min_by_key(|c| rank(a, b, **c))
+                .copied();
+            let Some(c) = next else { break };
+            (a, b) = (b, c);
+        }
+        rings.push(straightened(&ring));
+    }
+    rings.sort_by_key(|ring| std::cmp::Reverse(doubled_area(ring)));
+    Some(rings)
+}
+
+/// Order of the turn a → b → c: sharp left first. Works in both lattices, whose angles are ordered alike.
+fn rank(a: Node, b: Node, c: Node) -> i64 {
+    let (d, e) = ((b.0 - a.0, b.1 - a.1), (c.0 - b.0, c.1 - b.1));
+    let cross = d.0 * e.1 - d.1 * e.0;
+    // The oblique inner product; exact enough to order the at most five turns of a lattice.
+    let dot = 2 * d.0 * e.0 + 2 * d.1 * e.1 + d.0 * e.1 + d.1 * e.0;
+    match (cross.signum(), dot.signum()) {
+        (1, -1) => 0,
+        (1, 0) => 1,
+        (1, _) => 2,
+        (0, _) => 3,
+        (_, 1) => 4,
+        (_, 0) => 5,
+        (_, _) => 6,
+    }
+}
+
+fn straightened(ring: &[Node]) -> Vec<Node> {
+    let n = ring.len();
+    (0..n)
+        .filter(|i| {
+            let (a, b, c) = (ring[(i + n - 1) % n], ring[*i], ring[(i + 1) % n]);
+            (b.0 - a.0) * (c.1 - b.1) != (b.1 - a.1) * (c.0 - b.0)
+        })
+        .map(|i| ring[i])
+        .collect()
+}
+
+fn doubled_area(ring: &[Node]) -> i64 {
+    let n = ring.len();
+    (0..n).map(|i| ring[i].0 * ring[(i + 1) % n].1 - ring[i].1 * ring[(i + 1) % n].0).sum()
+}
+
+fn joined(cells: &[Cell]) -> bool {
+    let mut owner: BTreeMap<Step, Cell> = BTreeMap::new();
+    for cell in cells {
+        for step in cell.steps() {
+            owner.insert(step, *cell);
+        }
+    }
+    let Some(first) = cells.first() else { return false };
+    let mut seen = BTreeSet::from([*first]);
+    let mut queue = vec![*first];
+    while let Some(cell) = queue.pop() {
+        for (a, b) in cell.steps() {
+            if let Some(next) = owner.get(&(b, a))
+                && seen.insert(*next)
+            {
+                queue.push(*next);
+            }
+        }
+    }
+    seen.len() == cells.iter().collect::<BTreeSet<_>>().len()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn down_cells_turn_with_their_corners() {
+        let cell = Cell { x: 2, y: -1, half: Half::Down };
+        let once = cell.turned(1);
+        let expected: BTreeSet<Node> =
+            cell.corners().into_iter().map(|c| turned(LatticeKind::Triangular, c, 1)).collect();
+        assert_eq!(once.corners().into_iter().collect::<BTreeSet<_>>(), expected);
+        assert_eq!(cell.turned(6), cell);
+    }
+
+    #[test]
+    fn a_ring_of_squares_has_a_hole() {
+        let cells: Vec<Cell> = (0..3)
+            .flat_map(|x| (0..3).map(move |y| Cell { x, y, half: Half::Whole }))
+            .filter(|c| (c.x, c.y) != (1, 1))
+            .collect();
+        let polygon = Lattice { kind: LatticeKind::Square, side: 0.5 }.polygon(&cells).expect("joined");
+        assert_eq!(polygon.holes().len(), 1);
+        assert_eq!(polygon.outline().len(), 4);
+        assert_eq!(polygon.area(), 2.0);
+    }
+
+    #[test]
+    fn cells_that_meet_in_a_corner_only_are_not_one_body() {
+        let cells = [Cell { x: 0, y: 0, half: Half::Whole }, Cell { x: 1, y: 1, half: Half::Whole }];
+        assert!(Lattice { kind: LatticeKind::Square, side: 1.0 }.polygon(&cells).is_none());
+    }
+}

@@ -1,0 +1,36 @@
+//! Places, displacements, outlines and lattices of the plane.
+//!
+//! Makes [`Point`] (a place) and [`Vector`] (a displacement, a force, a direction), kept apart because only places move
+//! when a scene is moved. Axes: x to the right, y up; angles anticlockwise. The only epsilons of the crate live in
+//! [`Tolerance`]. Nothing here knows of forces.
+
+mod lattice;
+mod overlap;
+mod polygon;
+mod tolerance;
+
+pub use lattice::{Cell, Half, Lattice, LatticeKind};
+pub use overlap::{Overlap, Pieces, overlap};
+pub use polygon::{Bounds, Edge, Flaw, Polygon};
+pub use tolerance::Tolerance;
+
+/// A place in the plane, in metres.
+pub type Point = nalgebra::Point2<f64>;
+
+/// A displacement in metres, a direction, or a force in newtons.
+pub type Vector = nalgebra::Vector2<f64>;
+
+/// The plane's cross product `a_x b_y − a_y b_x`: the moment of force `b` with arm `a`, anticlockwise positive.
+///
+/// ```
+/// use drystone::geometry::{Vector, cross};
+/// assert_eq!(cross(Vector::new(2.0, 0.0), Vector::new(5.0, 3.0)), 6.0);
+/// ```
+pub fn cross(a: Vector, b: Vector) -> f64 {
+    a.x * b.y - a.y * b.x
+}
+
+/// The vector turned a quarter anticlockwise, `(−v_y, v_x)`.
+pub fn quarter_turn(v: Vector) -> Vector {
+    Vector::new(-v.y, v.x)
+}

@@ -1,0 +1,36 @@
+//! The only epsilons of the crate that speak of lengths.
+//!
+//! Off a lattice, coordinates carry noise: a file written from 32-bit floats is off by 6·10⁻⁸ of the coordinate, a
+//! hand-rounded one by more. Two edges therefore *touch* when they lie within [`Tolerance::gap`] of each other, and a
+//! common stretch shorter than [`Tolerance::stretch`] is a corner that touches, not an interface.
+
+/// How close is close, in metres, for one scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerance {
+    /// Largest distance between two edges that still touch, and the deepest overlap that is still noise.
+    pub gap: f64,
+    /// A common stretch shorter than this is a touching corner.
+    pub stretch: f64,
+    /// Largest sine of the angle between two edges that still face each other, whatever their length.
+    pub angle: f64,
+}
+
+impl Tolerance {
+    /// Gap in parts of the scene's reach.
+    pub const GAP: f64 = 1e-6;
+    /// Stretch in parts of the scene's reach: a quarter of the gap, four times the noise of a 32-bit float.
+    pub const STRETCH: f64 = 2.5e-7;
+    /// The reach counts for at most so many typical block sizes, so that a far-flung scene keeps its small contacts.
+    pub const REACH: f64 = 1000.0;
+
+    /// The tolerance of a scene whose blocks reach `extent` metres across in all and are `typical` metres large each.
+    ///
+    /// Both are lengths in metres; a scene without blocks has extent 0 and gets the tolerance 0.
+    pub fn of(extent: f64, typical: f64) -> Tolerance {
+        let reach = extent.min(Self::REACH * typical);
+        Tolerance { gap: Self::GAP * reach, stretch: Self::STRETCH * reach, angle: 0.01 }
+    }
+
+    /// Exact comparison, for lattices.
+    pub const EXACT: Tolerance = Tolerance { gap: 0.0, stretch: 0.0, angle: 0.0 };
+}

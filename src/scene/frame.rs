@@ -1,0 +1,37 @@
+//! [`Frame`]: what stands, and who holds what, after one step.
+
+use super::{BlockId, RobotId};
+use crate::geometry::Point;
+
+/// A robot holding a block.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hold {
+    /// The robot.
+    pub robot: RobotId,
+    /// The block held.
+    pub block: BlockId,
+    /// The grip point, metres.
+    pub at: Point,
+}
+
+/// A block a robot is about to place: drawn as an outline, carries no force.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Plan {
+    /// The robot.
+    pub robot: RobotId,
+    /// The block, not yet placed.
+    pub block: BlockId,
+}
+
+/// The state after one step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frame {
+    /// The step's title, empty where there is none.
+    pub title: String,
+    /// The placed blocks, in placing order: the k-th wears colour k of the sequence.
+    pub placed: Vec<BlockId>,
+    /// Who holds what, by robot number.
+    pub holds: Vec<Hold>,
+    /// Planned blocks, by robot number.
+    pub plans: Vec<Plan>,
+}

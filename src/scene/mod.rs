@@ -1,0 +1,81 @@
+//! [`Scene`]: a checked description of blocks, ground, robots and loads.
+//!
+//! Invariant: a `Scene` in hand is sound. Names are resolved, outlines are simple, numbers finite and in range, the
+//! steps have been played into [`Frame`]s, and no block lies in another body in any frame.
+
+mod body;
+mod frame;
+
+pub use body::{Block, BlockId, Body, BodyId, Grip, Ground, Limits, Load, Material, Rgb, Robot, RobotId};
+pub use frame::{Frame, Hold, Plan};
+
+use crate::geometry::{Lattice, Tolerance, Vector};
+
+/// A structure to be examined, checked.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// Title, empty where the file gives none.
+    pub title: String,
+    /// Gravity in m/s². Weights act along it; only its direction matters for blocks with a given weight.
+    pub gravity: Vector,
+    /// The safety kernel in 0 … 1: application points move inward by half this share of the stretch, each.
+    pub kernel: f64,
+    /// The lattice, where the scene has one.
+    pub lattice: Option<Lattice>,
+    /// Whether every body is a set of lattice cells, so that contacts are decided in whole numbers.
+    pub exact: bool,
+    /// How close is close in this scene; exact on a lattice.
+    pub tolerance: Tolerance,
+    /// The ground's parts.
+    pub ground: Vec<Ground>,
+    /// The blocks, in the file's order.
+    pub blocks: Vec<Block>,
+    /// The robots, in the file's order.
+    pub robots: Vec<Robot>,
+    /// Loads on blocks.
+    pub loads: Vec<Load>,
+    /// Materials, in the file's order.
+    pub materials: Vec<Material>,
+    /// Friction coefficients of pairs of materials, by their numbers.
+    pub friction_pairs: Vec<([usize; 2], f64)>,
+    /// Whether tips that touch edges or tips carry force.
+    pub corner_contacts: bool,
+    /// The frames, at least one.
+    pub frames: Vec<Frame>,
+}
+
+impl Scene {
+    /// The body behind an id.
+    pub fn body(&self, id: BodyId) -> &Body {
+        match id {
+            BodyId::Ground(i) => &self.ground[i].body,
+            BodyId::Block(id) => &self.blocks[id.0].body,
+        }
+    }
+
+    /// How results name a body: the block's id, `"ground"` for every part of the ground.
+    pub fn name(&self, id: BodyId) -> &str {
+        match id {
+            BodyId::Ground(_) => "ground",
+            BodyId::Block(id) => &self.blocks[id.0].id,
+        }
+    }
+
+    /// Friction coefficient between two bodies: their materials' pair, else the smaller of their own.
+    pub fn friction_between(&self, a: BodyId, b: BodyId) -> f64 {
+        let (a, b) = (self.body(a), self.body(b));
+        if let (Some(m), Some(n)) = (a.material, b.material) {
+            let wanted = [m.min(n), m.max(n)];
+            if let Some(pair) = self.friction_pairs.iter().find(|p| p.0 == wanted) {
+                return pair.1;
+            }
+        }
+        a.friction.min(b.friction)
+    }
+
+    /// The direction of gravity as a unit vector, zero where there is no gravity.
+    pub fn down(&self) -> Vector {
+        let g = self.gravity.norm();
+        if g > 0.0 { self.gravity / g } else { Vector::zeros() }
+    }
+}
