@@ -1,0 +1,1 @@
+//! Every way a scene is wrong, as a person is told it.
