@@ -1,4 +1,7 @@
 //! All integration tests in one program: what a person or another program sees of drystone.
 
 mod gallery;
+mod laws;
 mod problems;
+mod statics;
+mod structure;
