@@ -1,7 +1,9 @@
 //! All integration tests in one program: what a person or another program sees of drystone.
 
 mod gallery;
+mod hard;
 mod laws;
 mod problems;
 mod statics;
 mod structure;
+
