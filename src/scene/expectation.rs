@@ -421,3 +421,55 @@ impl Walk<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::format;
+
+    #[test]
+    fn a_sound_file_is_written_anew_as_it_was() {
+        for text in [
+            include_str!("../../assets/starter.json"),
+            include_str!("../../assets/thesis/figure-4.json"),
+        ] {
+            let source = Source::parse(text);
+            let root = source.root.as_ref().expect("JSON");
+            let checked = check(&source, root, &format::expected());
+            assert!(checked.findings.is_empty() && checked.doubt.paths.is_empty());
+            let (before, after) = (format::parse(text), format::parse(&checked.text));
+            assert_eq!(after.ok(), before.ok());
+        }
+    }
+
+    #[test]
+    fn what_does_not_fit_is_stood_in_for() {
+        let text = r#"{ "drystone": "1", "blocks": [{ "id": 5, "polygon": [[0, 0], [1], [0, 1]] }], "grid": { "side": 2 } }"#;
+        let source = Source::parse(text);
+        let root = source.root.as_ref().expect("JSON");
+        let checked = check(&source, root, &format::expected());
+        let places: Vec<String> = checked
+            .doubt
+            .paths
+            .iter()
+            .map(ToString::to_string)
+            .collect();
+        assert_eq!(
+            places,
+            [
+                "drystone",
+                "blocks[0].id",
+                "blocks[0].polygon[1]",
+                "grid.kind"
+            ]
+        );
+        let file = format::parse(&checked.text)
+            .ok()
+            .expect("the stand-ins fit");
+        assert_eq!(
+            file.blocks[0].polygon,
+            Some(vec![[0.0, 0.0], [0.0, 0.0], [0.0, 1.0]])
+        );
+        assert_eq!(file.grid.and_then(|g| g.side), Some(2.0));
+    }
+}

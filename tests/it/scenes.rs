@@ -1,5 +1,6 @@
 //! What a sound scene file means: defaults, precedence, places and steps.
 
+use drystone::analysis::{Analysis, Verdict};
 use drystone::geometry::{Point, Vector};
 use drystone::scene::{BlockId, BodyId, Frame, Limits, Rgb, Scene, starter};
 
@@ -307,6 +308,17 @@ fn the_starter_scene_uses_what_a_newcomer_needs() {
     assert!(!scene.robots.is_empty() && !scene.materials.is_empty() && !scene.loads.is_empty());
     assert!(scene.frames.len() >= 3 && scene.frames.iter().all(|f| !f.title.is_empty()));
     assert!(scene.lattice.is_none());
+    let verdicts: Vec<Verdict> = Analysis::of(&scene)
+        .frames
+        .iter()
+        .map(|f| f.verdict)
+        .collect();
+    let (stands, falls) = (Verdict::Stable, Verdict::Unstable);
+    assert_eq!(
+        verdicts,
+        [stands, stands, falls, stands, stands, stands],
+        "as the titles tell"
+    );
 }
 
 #[test]

@@ -168,7 +168,7 @@ impl Resolution<'_> {
         let weight = weight.unwrap_or_else(|| {
             mass.unwrap_or(density * area * self.thickness) * self.gravity.norm()
         });
-        if !(weight <= LARGEST) {
+        if !weight.is_finite() || weight > LARGEST {
             findings.add(at, problem::number::too_heavy(weight, LARGEST));
             return None;
         }
