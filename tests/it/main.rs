@@ -4,6 +4,7 @@ mod gallery;
 mod hard;
 mod laws;
 mod problems;
+mod scenes;
 mod statics;
 mod structure;
 
