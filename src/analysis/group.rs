@@ -219,7 +219,14 @@ impl Case<'_> {
             let normal = amounts.normal[k].map(|v| clean(v * unit).max(0.0));
             let most = contact.friction * (normal[0] + normal[1]);
             let friction = (amounts.friction[k] * unit).clamp(-most, most);
-            contacts.push((normal, if friction.abs() <= 1e-10 * most { 0.0 } else { friction }));
+            contacts.push((
+                normal,
+                if friction.abs() <= 1e-10 * most {
+                    0.0
+                } else {
+                    friction
+                },
+            ));
         }
         let mut grips = Vec::with_capacity(program.grips.len());
         for (k, grip) in program.grips.iter().enumerate() {

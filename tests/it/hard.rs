@@ -1,7 +1,7 @@
 //! Hard cases: where a tolerance, a large number or a small one can turn a verdict over. Each says why it is hard.
 
 use drystone::Analysis;
-use drystone::analysis::{FrameAnalysis, Proof, Verdict};
+use drystone::analysis::{Proof, Verdict};
 use serde_json::{Value, json};
 
 use crate::structure::{arch, block, first, on_floor, on_slope, rectangle, scene, verdict, wall};
@@ -10,20 +10,31 @@ const STANDS: Verdict = Verdict::Stable;
 const FALLS: Verdict = Verdict::Unstable;
 
 fn tower(n: usize, height: f64) -> Value {
-    on_floor(0.5, (0..n).map(|k| block(&format!("{k}"), rectangle(0.0, k as f64 * height, 1.0, height), 6.0)).collect())
+    on_floor(
+        0.5,
+        (0..n)
+            .map(|k| {
+                block(
+                    &format!("{k}"),
+                    rectangle(0.0, k as f64 * height, 1.0, height),
+                    6.0,
+                )
+            })
+            .collect(),
+    )
 }
 
 /// A block with its centre of gravity `beyond` the edge of what it rests on; with `pair`, on another block.
 fn overhang(beyond: f64, pair: bool) -> Value {
-    let mut blocks = vec![block("a", rectangle(0.5 + beyond, if pair { 0.5 } else { 0.0 }, 1.0, 0.5), 6.0)];
+    let mut blocks = vec![block(
+        "a",
+        rectangle(0.5 + beyond, if pair { 0.5 } else { 0.0 }, 1.0, 0.5),
+        6.0,
+    )];
     if pair {
         blocks.push(block("b", rectangle(0.0, 0.0, 1.0, 0.5), 6.0));
     }
     json!({ "drystone": 1, "ground": [{ "polygon": rectangle(0.0, -1.0, 1.0, 1.0) }], "blocks": blocks })
-}
-
-fn thrust(frame: &FrameAnalysis) -> f64 {
-    frame.contacts.iter().flat_map(|c| c.normal_forces).fold(0.0, f64::max)
 }
 
 /// Errors pile up from the top to the foot of a long chain.
@@ -50,10 +61,22 @@ fn a_flat_wedge_stands_however_large_its_thrust() {
             "ground": [{ "polygon": [[-3, 0], [-0.5, 0], [-0.5 - d, 1], [-3, 1]] },
                        { "polygon": [[0.5, 0], [3, 0], [3, 1], [0.5 + d, 1]] }],
             "blocks": [{ "id": "wedge", "polygon": [[-0.5, 0], [0.5, 0], [0.5 + d, 1], [-0.5 - d, 1]], "weight": 6 }] }));
-        assert_eq!(frame.verdict, STANDS, "half-angle 1e-{exponent}: {:?}", frame.proof);
+        assert_eq!(
+            frame.verdict, STANDS,
+            "half-angle 1e-{exponent}: {:?}",
+            frame.proof
+        );
         let expected = 6.0 / (2.0 * libm::sin(half_angle));
-        let sum: f64 = frame.contacts.iter().flat_map(|c| c.normal_forces).sum::<f64>() / 2.0;
-        assert!((sum / expected - 1.0).abs() < 1e-6, "half-angle 1e-{exponent}: {sum} against {expected}");
+        let sum: f64 = frame
+            .contacts
+            .iter()
+            .flat_map(|c| c.normal_forces)
+            .sum::<f64>()
+            / 2.0;
+        assert!(
+            (sum / expected - 1.0).abs() < 1e-6,
+            "half-angle 1e-{exponent}: {sum} against {expected}"
+        );
     }
 }
 
@@ -64,7 +87,10 @@ fn a_feather_on_a_mountain_is_judged_by_its_own_weight() {
         let mountain = 6.0 * libm::exp10(f64::from(exponent));
         let build = |x: f64| {
             let big = block("mountain", rectangle(0.0, 0.0, 2.0, 1.0), mountain);
-            on_floor(0.5, vec![big, block("feather", rectangle(x, 1.0, 1.0, 0.1), 6.0)])
+            on_floor(
+                0.5,
+                vec![big, block("feather", rectangle(x, 1.0, 1.0, 0.1), 6.0)],
+            )
         };
         assert_eq!(verdict(&build(1.6)), FALLS, "1e{exponent}");
         assert_eq!(verdict(&build(1.4)), STANDS, "1e{exponent}");
@@ -81,11 +107,23 @@ fn a_feather_on_a_mountain_is_judged_by_its_own_weight() {
 fn a_centre_of_gravity_on_the_edge() {
     for pair in [false, true] {
         for inside in [0.0, -1e-9, -1e-8, -1e-7, -1e-6, -1e-5] {
-            assert_eq!(verdict(&overhang(inside, pair)), STANDS, "{inside:e}, pair: {pair}");
+            assert_eq!(
+                verdict(&overhang(inside, pair)),
+                STANDS,
+                "{inside:e}, pair: {pair}"
+            );
         }
-        assert_eq!(verdict(&overhang(1e-9, pair)), STANDS, "within the band the forces win");
+        assert_eq!(
+            verdict(&overhang(1e-9, pair)),
+            STANDS,
+            "within the band the forces win"
+        );
         for beyond in [2e-7, 1e-6, 1e-5] {
-            assert_eq!(verdict(&overhang(beyond, pair)), FALLS, "{beyond:e}, pair: {pair}");
+            assert_eq!(
+                verdict(&overhang(beyond, pair)),
+                FALLS,
+                "{beyond:e}, pair: {pair}"
+            );
         }
     }
 }
@@ -114,14 +152,23 @@ fn kernel_none_and_whole() {
     file["kernel"] = json!(1.0);
     let frame = first(&file);
     assert_eq!(frame.verdict, FALLS);
-    assert_eq!(frame.unsupported.len(), 11, "no sticking in the middle of a joint holds a chain of hinges");
+    assert_eq!(
+        frame.unsupported.len(),
+        11,
+        "no sticking in the middle of a joint holds a chain of hinges"
+    );
 }
 
 /// On the edge between two verdicts a status of the solver means little.
 #[test]
 fn an_arch_at_its_minimum_thickness() {
     // The 181-voussoir arch's own limit, between the joints of the continuous one (0.1075).
-    for (thickness, expected) in [(0.10743, FALLS), (0.10746, FALLS), (0.1075, STANDS), (0.1076, STANDS)] {
+    for (thickness, expected) in [
+        (0.10743, FALLS),
+        (0.10746, FALLS),
+        (0.1075, STANDS),
+        (0.1076, STANDS),
+    ] {
         assert_eq!(verdict(&arch(181, thickness, 0.9)), expected, "{thickness}");
     }
 }
@@ -131,20 +178,35 @@ fn an_arch_at_its_minimum_thickness() {
 fn friction_exactly_at_the_slope() {
     for degrees in [10.0f64, 30.0, 45.0, 60.0] {
         let friction = libm::tan(degrees.to_radians());
-        assert_eq!(verdict(&on_slope(degrees, 4.0, 0.5, friction, 0.0)), STANDS, "{degrees}");
+        assert_eq!(
+            verdict(&on_slope(degrees, 4.0, 0.5, friction, 0.0)),
+            STANDS,
+            "{degrees}"
+        );
     }
 }
 
 /// More supports than needed: a face of optima, not a point. The least squares share alike.
 #[test]
 fn redundant_supports_share() {
-    let mut blocks: Vec<Value> =
-        (0..5).map(|k| block(&format!("post {k}"), rectangle(2.0 * k as f64, 0.0, 1.0, 1.0), 1.0)).collect();
+    let mut blocks: Vec<Value> = (0..5)
+        .map(|k| {
+            block(
+                &format!("post {k}"),
+                rectangle(2.0 * k as f64, 0.0, 1.0, 1.0),
+                1.0,
+            )
+        })
+        .collect();
     blocks.push(block("beam", rectangle(0.0, 1.0, 9.0, 0.5), 45.0));
     let frame = first(&on_floor(0.5, blocks));
     assert_eq!(frame.verdict, STANDS);
-    let carried: Vec<f64> =
-        frame.contacts.iter().filter(|c| c.interface.ends[0].y == 1.0).map(|c| c.resultant.force.y.abs()).collect();
+    let carried: Vec<f64> = frame
+        .contacts
+        .iter()
+        .filter(|c| c.interface.ends[0].y == 1.0)
+        .map(|c| c.resultant.force.y.abs())
+        .collect();
     assert_eq!(carried.len(), 5);
     for (a, b) in carried.iter().zip(carried.iter().rev()) {
         assert!((a - b).abs() < 1e-6, "{carried:?}");
@@ -159,7 +221,11 @@ fn a_wall_on_a_tilted_table_fails_in_every_course() {
     file["gravity"] = json!([6.0, -8.0]);
     let frame = first(&file);
     assert_eq!(frame.verdict, FALLS);
-    assert!(frame.total_sticking > 0.0 && frame.failures.len() < 60, "{} points", frame.failures.len());
+    assert!(
+        frame.total_sticking > 0.0 && frame.failures.len() < 60,
+        "{} points",
+        frame.failures.len()
+    );
 }
 
 /// Many small programs, none of which is another's business.
@@ -194,10 +260,13 @@ fn a_block_squeezed_between_walls_counts_as_balanced() {
     let frame = first(&file);
     assert_eq!(frame.verdict, STANDS);
     // The least force that carries: μN on either side is half the weight.
-    assert!((thrust(&frame) - 300.0).abs() < 1e-6 * 300.0 || (thrust(&frame) - 150.0).abs() < 1e-6 * 150.0);
+    for contact in &frame.contacts {
+        let pressed = contact.normal_forces[0] + contact.normal_forces[1];
+        assert!((pressed - 300.0).abs() < 1e-6, "{pressed}");
+    }
 }
 
-/// A sliver 10 long and 1e-5 thick: normals from short differences, centroids from cancelling areas.
+/// A sliver 10 long and 1e-3 thick: normals from short differences, centroids from cancelling areas.
 #[test]
 fn a_needle_under_a_block() {
     let file = json!({ "drystone": 1, "friction": 0.5, "ground": [{ "polygon": rectangle(0.0, -1.0, 10.0, 1.0) }],
@@ -217,19 +286,41 @@ fn what_is_not_called_for_is_not_simulated() {
     let scene = scene(&file);
     let analysis = Analysis::of(&scene);
     let effect = |name: &str| {
-        analysis.frames[1].effects.iter().find(|e| e.effect == name).unwrap_or_else(|| panic!("no effect {name}"))
+        analysis.frames[1]
+            .effects
+            .iter()
+            .find(|e| e.effect == name)
+            .unwrap_or_else(|| panic!("no effect {name}"))
     };
-    for (name, simulated) in
-        [("weight", true), ("contact", true), ("friction", false), ("kernel", false), ("robots", false), ("sticking", false)]
-    {
-        assert_eq!(effect(name).simulated, simulated, "{name}: {}", effect(name).why);
+    for (name, simulated) in [
+        ("weight", true),
+        ("contact", true),
+        ("friction", false),
+        ("kernel", false),
+        ("robots", false),
+        ("sticking", false),
+    ] {
+        assert_eq!(
+            effect(name).simulated,
+            simulated,
+            "{name}: {}",
+            effect(name).why
+        );
     }
     let contacts = analysis.frames[1].contacts.len();
     assert_eq!(effect("contact").unknowns, 2 * contacts);
     assert_eq!(effect("friction").unknowns, 2 * contacts, "saved");
     // The third frame is the first again.
     let last = &analysis.frames[2];
-    assert_eq!((last.solve.reused, last.solve.groups, last.solve.programs), (1, 1, 0));
-    let Proof::Forces { worst_imbalance, .. } = last.proof else { panic!("{:?}", last.proof) };
+    assert_eq!(
+        (last.solve.reused, last.solve.groups, last.solve.programs),
+        (1, 1, 0)
+    );
+    let Proof::Forces {
+        worst_imbalance, ..
+    } = last.proof
+    else {
+        panic!("{:?}", last.proof)
+    };
     assert!(worst_imbalance < 1e-9);
 }

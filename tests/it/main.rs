@@ -7,4 +7,3 @@ mod problems;
 mod scenes;
 mod statics;
 mod structure;
-
