@@ -7,3 +7,5 @@ pub mod effect;
 pub mod program;
 pub mod solve;
 pub mod analysis;
+pub mod drawing;
+pub mod output;
