@@ -9,3 +9,4 @@ pub mod solve;
 pub mod analysis;
 pub mod drawing;
 pub mod output;
+pub mod figure;
