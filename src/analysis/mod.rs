@@ -1,21 +1,37 @@
 //! [`Analysis`]: a scene and all that was found out about it, frame by frame.
 //!
 //! Everything here is in the scene's own units (metres, newtons) and axes (x right, y up). Pictures and reports read
-//! this and nothing deeper.
+//! this and nothing deeper. Groups of blocks that cannot influence each other are solved apart, and a group that has
+//! been solved in an earlier frame is not solved again; `group` does one group, this file puts frames together.
 
+mod group;
+
+use std::collections::BTreeMap;
+use std::time::Instant;
+
+use rayon::prelude::*;
+
+pub use crate::effect::EffectReport;
+use crate::effect::{self, Plan, Situation, mechanism, sticking};
 use crate::geometry::{Point, Vector};
-use crate::interface::Interface;
-use crate::scene::{BlockId, BodyId, RobotId, Scene};
+use crate::interface::{Interface, Interfaces};
+use crate::program::{Group, groups};
+pub use crate::proof::{Motion, Proof};
+pub use crate::resultant::Resultant;
+use crate::resultant::{friction_used, of as resultant_of};
+use crate::scene::{BlockId, BodyId, Frame, RobotId, Scene};
+use crate::solve::Effort;
+use group::{Findings, solved};
 
 /// Whether a frame stands.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Verdict {
     /// Admissible forces balance every block, and the proof shows them.
     Stable,
-    /// No admissible forces do, and the proof shows a mechanism along which the loads do work.
-    Unstable,
     /// Neither proof convinces.
     Undecided,
+    /// No admissible forces do, and the proof shows a mechanism along which the loads do work.
+    Unstable,
 }
 
 /// A scene and what was found out about each of its frames.
@@ -23,6 +39,8 @@ pub enum Verdict {
 pub struct Analysis<'s> {
     /// The scene examined.
     pub scene: &'s Scene,
+    /// L, the median interface length in metres, by which torques are weighed against forces.
+    pub length: f64,
     /// One entry per frame of the scene, in order.
     pub frames: Vec<FrameAnalysis>,
 }
@@ -75,17 +93,6 @@ pub struct Contact {
     pub resultant: Resultant,
     /// |T| / (μ ΣN), 0 without force.
     pub friction_used: f64,
-}
-
-/// The one force that stands for both corners of an interface.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Resultant {
-    /// The body it acts on; its partner gets the opposite.
-    pub on: BodyId,
-    /// The moment-equivalent point Σ N_k p_k / Σ N_k, metres (the middle where there is no force).
-    pub at: Point,
-    /// Normal and friction force together, N.
-    pub force: Vector,
 }
 
 /// What a robot gives to the block it holds.
@@ -150,51 +157,6 @@ pub enum Failure {
     },
 }
 
-/// A block's virtual velocity.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Motion {
-    /// The block.
-    pub block: BlockId,
-    /// Velocity of its centroid.
-    pub velocity: Vector,
-    /// Turning, anticlockwise positive, per metre.
-    pub spin: f64,
-}
-
-/// One effect in one frame.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct EffectReport {
-    /// Its name.
-    pub effect: &'static str,
-    /// Whether it was simulated.
-    pub simulated: bool,
-    /// Why, in words.
-    pub why: String,
-    /// Unknowns it added, or saved where it was skipped.
-    pub unknowns: usize,
-}
-
-/// How well a verdict is proved, from geometry and forces alone.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Proof {
-    /// Forces that balance; each number relative to the largest weight.
-    Forces {
-        /// Worst imbalance of a block, force or moment/L.
-        worst_imbalance: f64,
-        /// Worst pull at an application point.
-        worst_pull: f64,
-        /// Worst friction beyond μN.
-        worst_slip: f64,
-    },
-    /// A mechanism; velocities relative to its fastest point.
-    Mechanism {
-        /// Power of the loads along it, relative to the largest weight; above 0.
-        power: f64,
-        /// Worst interpenetration or forbidden slip velocity at a contact or a grip.
-        worst_violation: f64,
-    },
-}
-
 /// How a frame was solved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SolveReport {
@@ -202,8 +164,324 @@ pub struct SolveReport {
     pub method: &'static str,
     /// Iterations of all programs together.
     pub iterations: usize,
-    /// Programs solved.
+    /// Programs solved for this frame; 0 where closed forms or earlier frames answered it.
     pub programs: usize,
+    /// Groups of blocks that cannot influence each other.
+    pub groups: usize,
+    /// Groups answered by an earlier frame.
+    pub reused: usize,
     /// Wall time in seconds.
     pub seconds: f64,
+}
+
+/// What makes one group the same as one of an earlier frame: its blocks and who holds them where.
+type Key = (Vec<BlockId>, Vec<(RobotId, BlockId, [u64; 2])>);
+
+impl<'s> Analysis<'s> {
+    /// Examines every frame of a scene.
+    ///
+    /// ```
+    /// use drystone::{Analysis, Scene, analysis::Verdict};
+    /// let scene = Scene::from_json(r#"{ "drystone": 1, "friction": 0.5,
+    ///     "ground": [{ "polygon": [[0, 0], [9, 0], [9, -1], [0, -1]] }],
+    ///     "blocks": [{ "id": "a", "polygon": [[1, 0], [4, 0], [4, 2], [1, 2]], "weight": 6 }],
+    ///     "loads": [{ "block": "a", "force": [2, 0], "at": [1, 1] }] }"#)?;
+    /// let frame = &Analysis::of(&scene).frames[0];
+    /// assert_eq!(frame.verdict, Verdict::Stable);
+    /// assert_eq!(frame.contacts[0].resultant.force.y, 6.0);
+    /// // The push at half height moves the resultant a third of a metre towards the far edge.
+    /// assert!((frame.contacts[0].resultant.at.x - (2.5 + 1.0 / 3.0)).abs() < 1e-9);
+    /// # Ok::<(), drystone::scene::Problems>(())
+    /// ```
+    pub fn of(scene: &'s Scene) -> Analysis<'s> {
+        let found = Interfaces::of(scene);
+        let length = found
+            .typical_length()
+            .unwrap_or_else(|| typical_block(scene));
+        let mut known: BTreeMap<Key, Findings> = BTreeMap::new();
+        let frames = scene
+            .frames
+            .iter()
+            .map(|frame| {
+                let interfaces = found.in_frame(scene, frame);
+                let mut analysis = examined(scene, frame, &interfaces, length, &mut known);
+                analysis.notices.extend(found.notices.iter().cloned());
+                analysis
+            })
+            .collect();
+        Analysis {
+            scene,
+            length,
+            frames,
+        }
+    }
+
+    /// The worst verdict of all frames.
+    pub fn verdict(&self) -> Verdict {
+        self.frames
+            .iter()
+            .map(|f| f.verdict)
+            .max()
+            .unwrap_or(Verdict::Stable)
+    }
+}
+
+/// A length to weigh torques by where nothing touches: the median block's square root of area.
+fn typical_block(scene: &Scene) -> f64 {
+    let mut sizes: Vec<f64> = scene
+        .blocks
+        .iter()
+        .map(|b| b.body.polygon.area().sqrt())
+        .collect();
+    sizes.sort_by(f64::total_cmp);
+    sizes
+        .get(sizes.len().saturating_sub(1) / 2)
+        .copied()
+        .unwrap_or(1.0)
+}
+
+/// Examines one frame.
+fn examined(
+    scene: &Scene,
+    frame: &Frame,
+    interfaces: &[&Interface],
+    length: f64,
+    known: &mut BTreeMap<Key, Findings>,
+) -> FrameAnalysis {
+    let start = Instant::now();
+    let situation = Situation {
+        scene,
+        frame,
+        interfaces,
+    };
+    let plan = effect::plan(&situation);
+    let groups = groups(scene.blocks.len(), frame, interfaces);
+    let keys: Vec<Key> = groups.iter().map(|g| key(frame, g)).collect();
+    let fresh: Vec<usize> = (0..groups.len())
+        .filter(|k| !known.contains_key(&keys[*k]))
+        .collect();
+    let one = |k: &usize| solved(scene, frame, interfaces, &plan, &groups[*k], length);
+    // Many small groups are worth the threads; the order of the results is that of the groups either way.
+    let findings: Vec<Findings> = if fresh.len() > 16 {
+        fresh.par_iter().map(one).collect()
+    } else {
+        fresh.iter().map(one).collect()
+    };
+    let effort = findings
+        .iter()
+        .fold(Effort::default(), |sum, f| sum.and(f.effort));
+    for (k, found) in fresh.iter().zip(findings) {
+        known.insert(keys[*k].clone(), found);
+    }
+    let mut analysis = gathered(scene, frame, interfaces, &plan, length);
+    for (group, key) in groups.iter().zip(&keys) {
+        if let Some(found) = known.get(key) {
+            add(&mut analysis, scene, frame, group, found, length);
+        }
+    }
+    settle(&mut analysis, &situation);
+    analysis.solve = SolveReport {
+        method: if effort.programs == 0 && fresh.len() == groups.len() {
+            "closed form"
+        } else {
+            "kinematic"
+        },
+        iterations: effort.iterations,
+        programs: effort.programs,
+        groups: groups.len(),
+        reused: groups.len() - fresh.len(),
+        seconds: start.elapsed().as_secs_f64(),
+    };
+    analysis
+}
+
+fn key(frame: &Frame, group: &Group) -> Key {
+    let holds = group.holds.iter().map(|h| {
+        let hold = frame.holds[*h];
+        (
+            hold.robot,
+            hold.block,
+            [hold.at.x.to_bits(), hold.at.y.to_bits()],
+        )
+    });
+    (group.blocks.clone(), holds.collect())
+}
+
+/// The frame before any group is added: every contact and grip without force.
+fn gathered(
+    scene: &Scene,
+    frame: &Frame,
+    interfaces: &[&Interface],
+    plan: &Plan,
+    _length: f64,
+) -> FrameAnalysis {
+    let contacts = interfaces
+        .iter()
+        .map(|interface| Contact {
+            interface: (*interface).clone(),
+            application_points: interface.application_points(scene.kernel),
+            normal_forces: [0.0; 2],
+            friction_force: 0.0,
+            resultant: resultant_of(interface, scene.kernel, [0.0; 2], 0.0),
+            friction_used: 0.0,
+        })
+        .collect();
+    let robots = frame
+        .holds
+        .iter()
+        .map(|h| RobotForce {
+            robot: h.robot,
+            block: h.block,
+            at: h.at,
+            force: Vector::zeros(),
+            torque: 0.0,
+            limit_used: 0.0,
+        })
+        .collect();
+    FrameAnalysis {
+        verdict: Verdict::Stable,
+        doubt: String::new(),
+        total_force: 0.0,
+        total_sticking: 0.0,
+        weight: frame.placed.iter().map(|b| scene.blocks[b.0].weight).sum(),
+        contacts,
+        robots,
+        failures: Vec::new(),
+        unsupported: Vec::new(),
+        mechanism: Vec::new(),
+        effects: plan.reports.clone(),
+        proof: Proof::Forces {
+            worst_imbalance: 0.0,
+            worst_pull: 0.0,
+            worst_slip: 0.0,
+        },
+        solve: SolveReport {
+            method: "kinematic",
+            iterations: 0,
+            programs: 0,
+            groups: 0,
+            reused: 0,
+            seconds: 0.0,
+        },
+        notices: Vec::new(),
+    }
+}
+
+/// Enters what was found for one group.
+fn add(
+    analysis: &mut FrameAnalysis,
+    scene: &Scene,
+    frame: &Frame,
+    group: &Group,
+    found: &Findings,
+    length: f64,
+) {
+    for (number, (normal, friction)) in group.interfaces.iter().zip(&found.contacts) {
+        let contact = &mut analysis.contacts[*number];
+        contact.normal_forces = *normal;
+        contact.friction_force = *friction;
+        contact.resultant = resultant_of(&contact.interface, scene.kernel, *normal, *friction);
+        contact.friction_used = friction_used(&contact.interface, *normal, *friction);
+        analysis.total_force += normal[0] + normal[1] + friction.abs();
+    }
+    for (number, (force, torque)) in group.holds.iter().zip(&found.grips) {
+        let limits = scene.robots[frame.holds[*number].robot.0].limits;
+        let share = |amount: f64, limit: f64| {
+            if limit.is_finite() && limit > 0.0 {
+                amount.abs() / limit
+            } else {
+                0.0
+            }
+        };
+        let robot = &mut analysis.robots[*number];
+        robot.force = *force;
+        robot.torque = *torque;
+        robot.limit_used = share(force.x, limits.fx)
+            .max(share(force.y, limits.fy))
+            .max(share(*torque, limits.torque));
+        analysis.total_force += force.x.abs() + force.y.abs() + torque.abs() / length;
+    }
+    analysis.total_sticking += found.total_sticking;
+    analysis.failures.extend(found.failures.iter().copied());
+    analysis.mechanism.extend(found.mechanism.iter().copied());
+    if found.unsupported {
+        analysis.unsupported.extend(group.blocks.iter().copied());
+    }
+    if found.verdict == Verdict::Undecided && !analysis.doubt.is_empty() {
+        analysis.doubt.push_str("; ");
+    }
+    analysis.doubt.push_str(&found.doubt);
+    analysis.proof = match (analysis.verdict, found.verdict) {
+        // Groups of the same verdict: the worst of their numbers. Otherwise the worse verdict brings its own proof.
+        (a, b) if a == b => worst(analysis.proof, found.proof),
+        (a, b) if a < b => found.proof,
+        _ => analysis.proof,
+    };
+    analysis.verdict = analysis.verdict.max(found.verdict);
+}
+
+fn worst(a: Proof, b: Proof) -> Proof {
+    match (a, b) {
+        (
+            Proof::Forces {
+                worst_imbalance: i,
+                worst_pull: p,
+                worst_slip: s,
+            },
+            Proof::Forces {
+                worst_imbalance: j,
+                worst_pull: q,
+                worst_slip: t,
+            },
+        ) => Proof::Forces {
+            worst_imbalance: i.max(j),
+            worst_pull: p.max(q),
+            worst_slip: s.max(t),
+        },
+        (
+            Proof::Mechanism {
+                power: p,
+                worst_violation: v,
+            },
+            Proof::Mechanism {
+                power: q,
+                worst_violation: w,
+            },
+        ) => Proof::Mechanism {
+            power: p.min(q),
+            worst_violation: v.max(w),
+        },
+        (Proof::Mechanism { .. }, _) => a,
+        _ => b,
+    }
+}
+
+/// Writes what only the outcome tells.
+fn settle(analysis: &mut FrameAnalysis, situation: &Situation) {
+    let unstable = analysis.verdict == Verdict::Unstable;
+    if analysis.verdict != Verdict::Undecided {
+        analysis.doubt.clear();
+    }
+    analysis
+        .effects
+        .push(sticking::report(situation, !analysis.failures.is_empty()));
+    analysis.effects.push(mechanism::report(unstable));
+    if !analysis.unsupported.is_empty() {
+        let names: Vec<&str> = analysis
+            .unsupported
+            .iter()
+            .take(10)
+            .map(|b| situation.scene.blocks[b.0].id.as_str())
+            .collect();
+        let more = analysis.unsupported.len().saturating_sub(10);
+        let more = if more > 0 {
+            format!(" and {more} more")
+        } else {
+            String::new()
+        };
+        analysis.notices.push(format!(
+            "nothing that would stick could hold {}{more}: they reach neither ground nor a robot",
+            names.join(", ")
+        ));
+    }
 }

@@ -56,13 +56,25 @@ impl Cell {
 
     /// The cell moved by whole lattice steps.
     pub fn moved(self, by: (i64, i64)) -> Cell {
-        Cell { x: self.x + by.0, y: self.y + by.1, half: self.half }
+        Cell {
+            x: self.x + by.0,
+            y: self.y + by.1,
+            half: self.half,
+        }
     }
 
     /// The cell turned anticlockwise about the lattice origin by `steps` of 60° (triangles) or 90° (squares).
     pub fn turned(self, steps: i64) -> Cell {
-        let kind = if self.half == Half::Whole { LatticeKind::Square } else { LatticeKind::Triangular };
-        let corners: Vec<Node> = self.corners().into_iter().map(|c| turned(kind, c, steps)).collect();
+        let kind = if self.half == Half::Whole {
+            LatticeKind::Square
+        } else {
+            LatticeKind::Triangular
+        };
+        let corners: Vec<Node> = self
+            .corners()
+            .into_iter()
+            .map(|c| turned(kind, c, steps))
+            .collect();
         Cell::from_corners(&corners)
     }
 
@@ -70,14 +82,22 @@ impl Cell {
         if corners.len() == 4 {
             let x = corners.iter().map(|c| c.0).min().unwrap_or(0);
             let y = corners.iter().map(|c| c.1).min().unwrap_or(0);
-            return Cell { x, y, half: Half::Whole };
+            return Cell {
+                x,
+                y,
+                half: Half::Whole,
+            };
         }
         // Two corners of a triangle share a row: they are its horizontal edge, and the third tells the side.
         for i in 0..3 {
             let (a, b, c) = (corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3]);
             if a.1 == b.1 {
                 let half = if c.1 > a.1 { Half::Up } else { Half::Down };
-                return Cell { x: a.0.min(b.0), y: a.1, half };
+                return Cell {
+                    x: a.0.min(b.0),
+                    y: a.1,
+                    half,
+                };
             }
         }
         unreachable!("a lattice triangle has a horizontal edge")
@@ -130,7 +150,10 @@ impl Lattice {
     pub fn point(&self, x: f64, y: f64) -> Point {
         match self.kind {
             // The half row is added as a whole number of halves, so that equal places get equal bits.
-            LatticeKind::Triangular => Point::new((2.0 * x + y) * (self.side / 2.0), y * (self.side * HALF_SQRT_3)),
+            LatticeKind::Triangular => Point::new(
+                (2.0 * x + y) * (self.side / 2.0),
+                y * (self.side * HALF_SQRT_3),
+            ),
             LatticeKind::Square => Point::new(x * self.side, y * self.side),
         }
     }
@@ -151,7 +174,9 @@ impl Lattice {
     /// Centroid of one cell.
     pub fn cell_centre(&self, cell: Cell) -> Point {
         let corners = cell.corners();
-        let sum = corners.iter().fold(Vector::zeros(), |s, c| s + self.node(*c).coords);
+        let sum = corners
+            .iter()
+            .fold(Vector::zeros(), |s, c| s + self.node(*c).coords);
         Point::from(sum / corners.len() as f64)
     }
 
@@ -160,7 +185,12 @@ impl Lattice {
     /// `None` where the cells are not all joined by edges.
     pub fn polygon(&self, cells: &[Cell]) -> Option<Polygon> {
         let rings = trace(cells)?;
-        Some(Polygon::from_traced(rings.iter().map(|ring| ring.iter().map(|n| self.node(*n)).collect()).collect()))
+        Some(Polygon::from_traced(
+            rings
+                .iter()
+                .map(|ring| ring.iter().map(|n| self.node(*n)).collect())
+                .collect(),
+        ))
     }
 }
 
@@ -169,7 +199,10 @@ const HALF_SQRT_3: f64 = 0.866_025_403_784_438_6;
 /// The boundary of a set of cells as directed edges, the cells on their left.
 pub(crate) fn boundary(cells: &[Cell]) -> BTreeSet<Step> {
     let all: BTreeSet<Step> = cells.iter().flat_map(|c| c.steps()).collect();
-    all.iter().filter(|(a, b)| !all.contains(&(*b, *a))).copied().collect()
+    all.iter()
+        .filter(|(a, b)| !all.contains(&(*b, *a)))
+        .copied()
+        .collect()
 }
 
 /// Outer ring first, straight runs joined. `None` unless the cells hang together by edges.
@@ -234,7 +267,9 @@ fn straightened(ring: &[Node]) -> Vec<Node> {
 
 fn doubled_area(ring: &[Node]) -> i64 {
     let n = ring.len();
-    (0..n).map(|i| ring[i].0 * ring[(i + 1) % n].1 - ring[i].1 * ring[(i + 1) % n].0).sum()
+    (0..n)
+        .map(|i| ring[i].0 * ring[(i + 1) % n].1 - ring[i].1 * ring[(i + 1) % n].0)
+        .sum()
 }
 
 fn joined(cells: &[Cell]) -> bool {
@@ -244,7 +279,9 @@ fn joined(cells: &[Cell]) -> bool {
             owner.insert(step, *cell);
         }
     }
-    let Some(first) = cells.first() else { return false };
+    let Some(first) = cells.first() else {
+        return false;
+    };
     let mut seen = BTreeSet::from([*first]);
     let mut queue = vec![*first];
     while let Some(cell) = queue.pop() {
@@ -265,21 +302,42 @@ mod tests {
 
     #[test]
     fn down_cells_turn_with_their_corners() {
-        let cell = Cell { x: 2, y: -1, half: Half::Down };
+        let cell = Cell {
+            x: 2,
+            y: -1,
+            half: Half::Down,
+        };
         let once = cell.turned(1);
-        let expected: BTreeSet<Node> =
-            cell.corners().into_iter().map(|c| turned(LatticeKind::Triangular, c, 1)).collect();
-        assert_eq!(once.corners().into_iter().collect::<BTreeSet<_>>(), expected);
+        let expected: BTreeSet<Node> = cell
+            .corners()
+            .into_iter()
+            .map(|c| turned(LatticeKind::Triangular, c, 1))
+            .collect();
+        assert_eq!(
+            once.corners().into_iter().collect::<BTreeSet<_>>(),
+            expected
+        );
         assert_eq!(cell.turned(6), cell);
     }
 
     #[test]
     fn a_ring_of_squares_has_a_hole() {
         let cells: Vec<Cell> = (0..3)
-            .flat_map(|x| (0..3).map(move |y| Cell { x, y, half: Half::Whole }))
+            .flat_map(|x| {
+                (0..3).map(move |y| Cell {
+                    x,
+                    y,
+                    half: Half::Whole,
+                })
+            })
             .filter(|c| (c.x, c.y) != (1, 1))
             .collect();
-        let polygon = Lattice { kind: LatticeKind::Square, side: 0.5 }.polygon(&cells).expect("joined");
+        let polygon = Lattice {
+            kind: LatticeKind::Square,
+            side: 0.5,
+        }
+        .polygon(&cells)
+        .expect("joined");
         assert_eq!(polygon.holes().len(), 1);
         assert_eq!(polygon.outline().len(), 4);
         assert_eq!(polygon.area(), 2.0);
@@ -287,7 +345,25 @@ mod tests {
 
     #[test]
     fn cells_that_meet_in_a_corner_only_are_not_one_body() {
-        let cells = [Cell { x: 0, y: 0, half: Half::Whole }, Cell { x: 1, y: 1, half: Half::Whole }];
-        assert!(Lattice { kind: LatticeKind::Square, side: 1.0 }.polygon(&cells).is_none());
+        let cells = [
+            Cell {
+                x: 0,
+                y: 0,
+                half: Half::Whole,
+            },
+            Cell {
+                x: 1,
+                y: 1,
+                half: Half::Whole,
+            },
+        ];
+        assert!(
+            Lattice {
+                kind: LatticeKind::Square,
+                side: 1.0
+            }
+            .polygon(&cells)
+            .is_none()
+        );
     }
 }

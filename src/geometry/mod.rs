@@ -9,6 +9,7 @@ mod overlap;
 mod polygon;
 mod tolerance;
 
+pub(crate) use lattice::boundary;
 pub use lattice::{Cell, Half, Lattice, LatticeKind};
 pub use overlap::{Overlap, Pieces, overlap};
 pub use polygon::{Bounds, Edge, Flaw, Polygon};

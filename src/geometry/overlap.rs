@@ -26,7 +26,9 @@ impl Pieces {
     /// A convex polygon stays whole, any other is cut into triangles.
     pub fn of(polygon: &Polygon) -> Pieces {
         if polygon.is_convex() {
-            return Pieces { pieces: vec![(polygon.bounds(), polygon.outline().to_vec())] };
+            return Pieces {
+                pieces: vec![(polygon.bounds(), polygon.outline().to_vec())],
+            };
         }
         let points: Vec<Point> = polygon.rings().iter().flatten().copied().collect();
         let base = points[0];
@@ -85,7 +87,11 @@ pub fn overlap(a: &Pieces, b: &Pieces, gap: f64) -> Option<Overlap> {
             moment += (p + q + r) * (part / 3.0);
         }
     }
-    (area > 0.0).then(|| Overlap { area, at: base + moment / area, depth })
+    (area > 0.0).then(|| Overlap {
+        area,
+        at: base + moment / area,
+        depth,
+    })
 }
 
 /// Least distance by which `b` reaches behind a side of the convex `a`; at most 0 where a side separates them.
@@ -96,7 +102,10 @@ fn penetration(a: &[Point], b: &[Point]) -> f64 {
         let along = to - from;
         let length = along.norm();
         let outward = Vector::new(along.y, -along.x) / length;
-        let nearest = b.iter().map(|p| outward.dot(&(p - from))).fold(f64::INFINITY, f64::min);
+        let nearest = b
+            .iter()
+            .map(|p| outward.dot(&(p - from)))
+            .fold(f64::INFINITY, f64::min);
         least = least.min(-nearest);
         if least <= 0.0 {
             return least;
@@ -133,7 +142,12 @@ mod tests {
 
     fn rectangle(x: f64, y: f64, w: f64, h: f64) -> Polygon {
         Polygon::new(
-            vec![Point::new(x, y), Point::new(x + w, y), Point::new(x + w, y + h), Point::new(x, y + h)],
+            vec![
+                Point::new(x, y),
+                Point::new(x + w, y),
+                Point::new(x + w, y + h),
+                Point::new(x, y + h),
+            ],
             vec![],
         )
         .expect("sound")
@@ -142,9 +156,16 @@ mod tests {
     #[test]
     fn touching_is_not_overlapping_and_overlap_tells_area_and_place() {
         let a = Pieces::of(&rectangle(0.0, 0.0, 2.0, 1.0));
-        assert_eq!(overlap(&a, &Pieces::of(&rectangle(2.0, 0.0, 1.0, 1.0)), 0.0), None);
-        assert_eq!(overlap(&a, &Pieces::of(&rectangle(2.0 - 1e-7, 0.0, 1.0, 1.0)), 1e-6), None);
-        let found = overlap(&a, &Pieces::of(&rectangle(1.5, 0.75, 3.0, 1.0)), 1e-6).expect("overlap");
+        assert_eq!(
+            overlap(&a, &Pieces::of(&rectangle(2.0, 0.0, 1.0, 1.0)), 0.0),
+            None
+        );
+        assert_eq!(
+            overlap(&a, &Pieces::of(&rectangle(2.0 - 1e-7, 0.0, 1.0, 1.0)), 1e-6),
+            None
+        );
+        let found =
+            overlap(&a, &Pieces::of(&rectangle(1.5, 0.75, 3.0, 1.0)), 1e-6).expect("overlap");
         assert!((found.area - 0.125).abs() < 1e-12);
         assert!((found.at - Point::new(1.75, 0.875)).norm() < 1e-12);
         assert!((found.depth - 0.25).abs() < 1e-12);
@@ -153,12 +174,21 @@ mod tests {
     #[test]
     fn a_block_in_the_hole_of_another_does_not_overlap_it() {
         let corners = |x: f64, w: f64| {
-            vec![Point::new(x, x), Point::new(x + w, x), Point::new(x + w, x + w), Point::new(x, x + w)]
+            vec![
+                Point::new(x, x),
+                Point::new(x + w, x),
+                Point::new(x + w, x + w),
+                Point::new(x, x + w),
+            ]
         };
         let frame = Polygon::new(corners(0.0, 4.0), vec![corners(1.0, 2.0)]).expect("sound");
         let pieces = Pieces::of(&frame);
-        assert_eq!(overlap(&pieces, &Pieces::of(&rectangle(1.0, 1.0, 2.0, 1.0)), 1e-9), None);
-        let stuck = overlap(&pieces, &Pieces::of(&rectangle(1.0, 1.0, 2.5, 1.0)), 1e-9).expect("overlap");
+        assert_eq!(
+            overlap(&pieces, &Pieces::of(&rectangle(1.0, 1.0, 2.0, 1.0)), 1e-9),
+            None
+        );
+        let stuck =
+            overlap(&pieces, &Pieces::of(&rectangle(1.0, 1.0, 2.5, 1.0)), 1e-9).expect("overlap");
         assert!((stuck.area - 0.5).abs() < 1e-12);
     }
 }

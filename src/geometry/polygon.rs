@@ -55,19 +55,28 @@ impl Bounds {
     pub fn of(points: impl IntoIterator<Item = Point>) -> Option<Bounds> {
         points.into_iter().fold(None, |bounds: Option<Bounds>, p| {
             let b = bounds.unwrap_or(Bounds { min: p, max: p });
-            Some(Bounds { min: b.min.inf(&p), max: b.max.sup(&p) })
+            Some(Bounds {
+                min: b.min.inf(&p),
+                max: b.max.sup(&p),
+            })
         })
     }
 
     /// The smallest box around two boxes.
     pub fn union(self, other: Bounds) -> Bounds {
-        Bounds { min: self.min.inf(&other.min), max: self.max.sup(&other.max) }
+        Bounds {
+            min: self.min.inf(&other.min),
+            max: self.max.sup(&other.max),
+        }
     }
 
     /// The box grown by `margin` metres on every side.
     pub fn grown(self, margin: f64) -> Bounds {
         let m = Vector::new(margin, margin);
-        Bounds { min: self.min - m, max: self.max + m }
+        Bounds {
+            min: self.min - m,
+            max: self.max + m,
+        }
     }
 
     /// Length of the diagonal in metres.
@@ -148,7 +157,10 @@ impl Polygon {
             let kept = without_repeats(corners);
             let points: Vec<Point> = kept.iter().map(|k| k.1).collect();
             if kept.len() < 3 {
-                flaws.push(Flaw::TooFewCorners { ring, corners: kept.len() });
+                flaws.push(Flaw::TooFewCorners {
+                    ring,
+                    corners: kept.len(),
+                });
             } else {
                 let area = signed_area(&points);
                 let perimeter: f64 = sides(&points).map(|e| e.length()).sum();
@@ -177,12 +189,17 @@ impl Polygon {
             .collect();
         for ring in 1..rings.len() {
             let corner = rings[ring][0];
-            let inside_other = (1..rings.len()).any(|k| k != ring && ring_contains(&rings[k], corner));
+            let inside_other =
+                (1..rings.len()).any(|k| k != ring && ring_contains(&rings[k], corner));
             if !ring_contains(&rings[0], corner) || inside_other {
                 flaws.push(Flaw::HoleOutside { ring });
             }
         }
-        if flaws.is_empty() { Ok(Polygon { rings }) } else { Err(flaws) }
+        if flaws.is_empty() {
+            Ok(Polygon { rings })
+        } else {
+            Err(flaws)
+        }
     }
 
     /// A polygon from rings known to be sound: outline anticlockwise, holes clockwise, as a lattice traces them.
@@ -232,12 +249,22 @@ impl Polygon {
     /// The box around the outline.
     pub fn bounds(&self) -> Bounds {
         let first = self.rings[0][0];
-        self.rings[0].iter().fold(Bounds { min: first, max: first }, |b, p| b.union(Bounds { min: *p, max: *p }))
+        self.rings[0].iter().fold(
+            Bounds {
+                min: first,
+                max: first,
+            },
+            |b, p| b.union(Bounds { min: *p, max: *p }),
+        )
     }
 
     /// Whether a point lies inside the material (on its edge: either answer).
     pub fn contains(&self, point: Point) -> bool {
-        self.rings.iter().filter(|ring| ring_contains(ring, point)).count() == 1
+        self.rings
+            .iter()
+            .filter(|ring| ring_contains(ring, point))
+            .count()
+            == 1
     }
 
     /// Whether the outline has no holes and turns left at every corner.
@@ -245,7 +272,11 @@ impl Polygon {
         let ring = &self.rings[0];
         self.rings.len() == 1
             && (0..ring.len()).all(|i| {
-                let (a, b, c) = (ring[i], ring[(i + 1) % ring.len()], ring[(i + 2) % ring.len()]);
+                let (a, b, c) = (
+                    ring[i],
+                    ring[(i + 1) % ring.len()],
+                    ring[(i + 2) % ring.len()],
+                );
                 orientation(a, b, c) >= 0.0
             })
     }
@@ -254,7 +285,13 @@ impl Polygon {
     pub fn placed(&self, degrees: f64, by: Vector) -> Polygon {
         let (sin, cos) = sin_cos_degrees(degrees);
         let place = |p: &Point| Point::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y) + by;
-        Polygon { rings: self.rings.iter().map(|ring| ring.iter().map(place).collect()).collect() }
+        Polygon {
+            rings: self
+                .rings
+                .iter()
+                .map(|ring| ring.iter().map(place).collect())
+                .collect(),
+        }
     }
 }
 
@@ -281,7 +318,10 @@ pub(crate) fn orientation(a: Point, b: Point, c: Point) -> f64 {
 }
 
 fn sides(ring: &[Point]) -> impl Iterator<Item = Edge> + '_ {
-    (0..ring.len()).map(move |i| Edge { from: ring[i], to: ring[(i + 1) % ring.len()] })
+    (0..ring.len()).map(move |i| Edge {
+        from: ring[i],
+        to: ring[(i + 1) % ring.len()],
+    })
 }
 
 /// Corners with their listed numbers, without repeats of the one before.
@@ -300,7 +340,10 @@ fn without_repeats(corners: Vec<Point>) -> Vec<(usize, Point)> {
 
 fn signed_area(ring: &[Point]) -> f64 {
     let base = ring[0];
-    sides(ring).map(|e| cross(e.from - base, e.to - base)).sum::<f64>() / 2.0
+    sides(ring)
+        .map(|e| cross(e.from - base, e.to - base))
+        .sum::<f64>()
+        / 2.0
 }
 
 fn ring_contains(ring: &[Point], p: Point) -> bool {
@@ -327,7 +370,10 @@ struct Side {
 impl RTreeObject for Side {
     type Envelope = AABB<[f64; 2]>;
     fn envelope(&self) -> Self::Envelope {
-        AABB::from_corners([self.edge.from.x, self.edge.from.y], [self.edge.to.x, self.edge.to.y])
+        AABB::from_corners(
+            [self.edge.from.x, self.edge.from.y],
+            [self.edge.to.x, self.edge.to.y],
+        )
     }
 }
 
@@ -343,7 +389,10 @@ fn crossings(rings: &[Vec<(usize, Point)>]) -> Vec<Flaw> {
                 position,
                 count,
                 corner: corners[position].0,
-                edge: Edge { from: corners[position].1, to: corners[(position + 1) % count].1 },
+                edge: Edge {
+                    from: corners[position].1,
+                    to: corners[(position + 1) % count].1,
+                },
             })
         })
         .collect();
@@ -366,7 +415,11 @@ fn crossings(rings: &[Vec<(usize, Point)>]) -> Vec<Flaw> {
             if let Some(at) = at {
                 flaws.push((
                     (a.ring, a.position, b.ring, b.position),
-                    Flaw::Crossing { rings: [a.ring, b.ring], corners: [a.corner, b.corner], at },
+                    Flaw::Crossing {
+                        rings: [a.ring, b.ring],
+                        corners: [a.corner, b.corner],
+                        at,
+                    },
                 ));
             }
         }
@@ -388,12 +441,21 @@ fn meeting(a: Edge, b: Edge) -> Option<Point> {
     let b_from = orientation(a.from, a.to, b.from);
     let b_to = orientation(a.from, a.to, b.to);
     let on = |e: Edge, p: Point| (p - e.from).dot(&(p - e.to)) <= 0.0;
-    for (turn, edge, point) in [(a_from, b, a.from), (a_to, b, a.to), (b_from, a, b.from), (b_to, a, b.to)] {
+    for (turn, edge, point) in [
+        (a_from, b, a.from),
+        (a_to, b, a.to),
+        (b_from, a, b.from),
+        (b_to, a, b.to),
+    ] {
         if turn == 0.0 && on(edge, point) {
             return Some(point);
         }
     }
-    if (a_from > 0.0) != (a_to > 0.0) && (b_from > 0.0) != (b_to > 0.0) && a_from * a_to != 0.0 && b_from * b_to != 0.0 {
+    if (a_from > 0.0) != (a_to > 0.0)
+        && (b_from > 0.0) != (b_to > 0.0)
+        && a_from * a_to != 0.0
+        && b_from * b_to != 0.0
+    {
         let share = a_from / (a_from - a_to);
         return Some(a.from + a.vector() * share);
     }

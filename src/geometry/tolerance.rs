@@ -28,9 +28,17 @@ impl Tolerance {
     /// Both are lengths in metres; a scene without blocks has extent 0 and gets the tolerance 0.
     pub fn of(extent: f64, typical: f64) -> Tolerance {
         let reach = extent.min(Self::REACH * typical);
-        Tolerance { gap: Self::GAP * reach, stretch: Self::STRETCH * reach, angle: 0.01 }
+        Tolerance {
+            gap: Self::GAP * reach,
+            stretch: Self::STRETCH * reach,
+            angle: 0.01,
+        }
     }
 
     /// Exact comparison, for lattices.
-    pub const EXACT: Tolerance = Tolerance { gap: 0.0, stretch: 0.0, angle: 0.0 };
+    pub const EXACT: Tolerance = Tolerance {
+        gap: 0.0,
+        stretch: 0.0,
+        angle: 0.0,
+    };
 }

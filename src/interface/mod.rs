@@ -1,7 +1,15 @@
-//! [`Interface`]: a stretch of edge that two bodies share, found for every pair of bodies of a frame.
+//! [`Interface`]: a stretch of edge that two bodies share, found for every pair of bodies of a scene.
+//!
+//! Makes [`Interfaces`], everything that touches in a scene, once for all its frames. Invariant: the first body of an
+//! interface is a block, the normal points into it, and no contact is dropped in silence: what is too short or too far
+//! apart to count is told in [`Interfaces::notices`].
 
-use crate::geometry::{Point, Vector};
-use crate::scene::BodyId;
+mod corner;
+mod edge;
+mod lattice;
+
+use crate::geometry::{Point, Vector, quarter_turn};
+use crate::scene::{BodyId, Frame, Scene};
 
 /// What kind of contact an interface is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,4 +33,124 @@ pub struct Interface {
     pub normal: Vector,
     /// Friction coefficient.
     pub friction: f64,
+}
+
+impl Interface {
+    /// The tangent (−n_y, n_x) along which friction is counted positive.
+    pub fn tangent(&self) -> Vector {
+        quarter_turn(self.normal)
+    }
+
+    /// Length of the stretch in metres, 0 for a corner.
+    pub fn length(&self) -> f64 {
+        (self.ends[1] - self.ends[0]).norm()
+    }
+
+    /// The middle of the stretch.
+    pub fn middle(&self) -> Point {
+        nalgebra::center(&self.ends[0], &self.ends[1])
+    }
+
+    /// The two points at which forces act: the ends, each moved inward by `kernel`/2 of the length ([Vallat23] §2.0.10).
+    ///
+    /// ```
+    /// # use drystone::{geometry::{Point, Vector}, interface::*, scene::*};
+    /// let seam = Interface {
+    ///     bodies: [BodyId::Block(BlockId(0)), BodyId::Ground(0)],
+    ///     kind: ContactKind::Edge,
+    ///     ends: [Point::new(4.0, 1.0), Point::new(0.0, 1.0)],
+    ///     normal: Vector::new(0.0, 1.0),
+    ///     friction: 0.7,
+    /// };
+    /// assert_eq!(seam.application_points(0.5), [Point::new(3.0, 1.0), Point::new(1.0, 1.0)]);
+    /// ```
+    pub fn application_points(&self, kernel: f64) -> [Point; 2] {
+        let inward = (self.ends[1] - self.ends[0]) * (kernel / 2.0);
+        [self.ends[0] + inward, self.ends[1] - inward]
+    }
+}
+
+/// Everything that touches in a scene.
+#[derive(Clone, Debug)]
+pub struct Interfaces {
+    /// In the order of the bodies' numbers, then of the place along them.
+    pub all: Vec<Interface>,
+    /// What was too short or too far apart to count, in words.
+    pub notices: Vec<String>,
+}
+
+impl Interfaces {
+    /// Finds what touches, in whole numbers where the scene is made of lattice cells, else within its tolerance.
+    ///
+    /// Edges make an interface where they are collinear, face each other and overlap. Corner contacts are looked for
+    /// only where the scene asks for them.
+    pub fn of(scene: &Scene) -> Interfaces {
+        let mut found = match (&scene.lattice, scene.exact) {
+            (Some(lattice), true) => Interfaces {
+                all: lattice::find(scene, lattice),
+                notices: Vec::new(),
+            },
+            _ => edge::find(scene),
+        };
+        if scene.corner_contacts {
+            let corners = corner::find(scene, &found.all);
+            found.all.extend(corners);
+        }
+        found.all.sort_by(|a, b| {
+            let place = |i: &Interface| [i.ends[0].x, i.ends[0].y, i.ends[1].x, i.ends[1].y];
+            a.bodies.cmp(&b.bodies).then_with(|| {
+                place(a)
+                    .partial_cmp(&place(b))
+                    .unwrap_or(std::cmp::Ordering::Equal)
+            })
+        });
+        found
+    }
+
+    /// The interfaces whose two bodies both stand in a frame, by their numbers in `all`.
+    pub fn in_frame<'a>(&'a self, scene: &Scene, frame: &Frame) -> Vec<&'a Interface> {
+        let mut placed = vec![false; scene.blocks.len()];
+        for block in &frame.placed {
+            placed[block.0] = true;
+        }
+        let stands = |body: BodyId| match body {
+            BodyId::Ground(_) => true,
+            BodyId::Block(id) => placed[id.0],
+        };
+        self.all
+            .iter()
+            .filter(|i| stands(i.bodies[0]) && stands(i.bodies[1]))
+            .collect()
+    }
+
+    /// The median length of the edge interfaces, metres: the length by which torques are weighed against forces.
+    pub fn typical_length(&self) -> Option<f64> {
+        let mut lengths: Vec<f64> = self
+            .all
+            .iter()
+            .filter(|i| i.kind == ContactKind::Edge)
+            .map(Interface::length)
+            .collect();
+        if lengths.is_empty() {
+            return None;
+        }
+        let middle = (lengths.len() - 1) / 2;
+        lengths.sort_by(f64::total_cmp);
+        Some(lengths[middle])
+    }
+}
+
+/// The bodies of a scene, the ground's parts first.
+fn bodies(scene: &Scene) -> impl Iterator<Item = BodyId> + '_ {
+    let ground = (0..scene.ground.len()).map(BodyId::Ground);
+    ground.chain((0..scene.blocks.len()).map(|i| BodyId::Block(crate::scene::BlockId(i))))
+}
+
+/// The order in which an interface names two bodies: the later block first, ground last. `None` for two ground parts.
+fn ordered(a: BodyId, b: BodyId) -> Option<[BodyId; 2]> {
+    match (a, b) {
+        (BodyId::Ground(_), BodyId::Ground(_)) => None,
+        _ if a > b => Some([a, b]),
+        _ => Some([b, a]),
+    }
 }

@@ -71,7 +71,11 @@ pub struct Limits {
 
 impl Default for Limits {
     fn default() -> Self {
-        Limits { fx: f64::INFINITY, fy: f64::INFINITY, torque: 0.0 }
+        Limits {
+            fx: f64::INFINITY,
+            fy: f64::INFINITY,
+            torque: 0.0,
+        }
     }
 }
 

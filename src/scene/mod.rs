@@ -6,7 +6,9 @@
 mod body;
 mod frame;
 
-pub use body::{Block, BlockId, Body, BodyId, Grip, Ground, Limits, Load, Material, Rgb, Robot, RobotId};
+pub use body::{
+    Block, BlockId, Body, BodyId, Grip, Ground, Limits, Load, Material, Rgb, Robot, RobotId,
+};
 pub use frame::{Frame, Hold, Plan};
 
 use crate::geometry::{Lattice, Tolerance, Vector};
@@ -76,6 +78,10 @@ impl Scene {
     /// The direction of gravity as a unit vector, zero where there is no gravity.
     pub fn down(&self) -> Vector {
         let g = self.gravity.norm();
-        if g > 0.0 { self.gravity / g } else { Vector::zeros() }
+        if g > 0.0 {
+            self.gravity / g
+        } else {
+            Vector::zeros()
+        }
     }
 }

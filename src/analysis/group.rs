@@ -1,0 +1,402 @@
+//! One group of blocks, from its program to a proved verdict in the scene's units.
+//!
+//! The order of trust: forces from a closed form, forces from the hard program, a motion from the hard program, and last
+//! the least-sticking program, whose optimum is the physical residual and decides near the edge. Each is believed only
+//! with its proof. Where both proofs hold, the forces win.
+
+use super::{Failure, Verdict};
+use crate::effect::Plan;
+use crate::geometry::Vector;
+use crate::interface::Interface;
+use crate::program::{Group, Program, Scale, assemble, load_on};
+use crate::proof::{self, Held, Motion, Pressed, Proof, Yardstick};
+use crate::scene::{BodyId, Frame, Scene};
+use crate::solve::{Amounts, Effort, balance, single, stick};
+
+/// What was found out about one group, forces in the order of its interfaces and holds.
+#[derive(Clone, Debug)]
+pub(super) struct Findings {
+    pub verdict: Verdict,
+    pub doubt: String,
+    /// N1, N2 and T per interface, N.
+    pub contacts: Vec<([f64; 2], f64)>,
+    /// Force and torque per hold.
+    pub grips: Vec<(Vector, f64)>,
+    pub failures: Vec<Failure>,
+    pub total_sticking: f64,
+    pub unsupported: bool,
+    pub mechanism: Vec<Motion>,
+    pub proof: Proof,
+    pub effort: Effort,
+}
+
+/// Everything one group is judged by.
+struct Case<'a> {
+    scene: &'a Scene,
+    frame: &'a Frame,
+    interfaces: &'a [&'a Interface],
+    group: &'a Group,
+    yardstick: Yardstick,
+    scale: Scale,
+}
+
+/// Forces in newtons with their proof.
+struct Carried {
+    contacts: Vec<([f64; 2], f64)>,
+    grips: Vec<(Vector, f64)>,
+    proof: Proof,
+}
+
+/// Solves one group and proves its verdict.
+pub(super) fn solved(
+    scene: &Scene,
+    frame: &Frame,
+    interfaces: &[&Interface],
+    plan: &Plan,
+    group: &Group,
+    length: f64,
+) -> Findings {
+    let heaviest = group
+        .blocks
+        .iter()
+        .map(|block| {
+            let (force, moment) = load_on(scene, plan, *block);
+            force
+                .norm()
+                .max(moment.abs() / length)
+                .max(scene.blocks[block.0].weight)
+        })
+        .fold(0.0, f64::max);
+    let scale = Scale::of(length, heaviest);
+    let yardstick = Yardstick {
+        force: if heaviest > 0.0 { heaviest } else { 1.0 },
+        length,
+    };
+    let case = Case {
+        scene,
+        frame,
+        interfaces,
+        group,
+        yardstick,
+        scale,
+    };
+    let program = assemble(scene, frame, interfaces, plan, group, scale);
+    if heaviest == 0.0 {
+        let carried = case.carried(&program, &Amounts::none(&program));
+        return case.stands(carried, Effort::default());
+    }
+    if let Some(falls) = case.falls_free(plan) {
+        return falls;
+    }
+    if let Some(amounts) = single(&program) {
+        let carried = case.carried(&program, &amounts);
+        if carried.proof.holds() {
+            return case.stands(carried, Effort::default());
+        }
+    }
+    let first = balance(&program);
+    let tried = first.forces.map(|amounts| case.carried(&program, &amounts));
+    if let Some(carried) = tried.filter(|c| c.proof.holds()) {
+        return case.stands(carried, first.effort);
+    }
+    let stuck = stick(&program);
+    let effort = first.effort.and(stuck.effort);
+    let carried = case.carried(&program, &stuck.forces);
+    if stuck.balanced && carried.proof.holds() {
+        return case.stands(carried, effort);
+    }
+    let motions = [stuck.motion, first.motion]
+        .into_iter()
+        .flatten()
+        .map(|y| case.moved(&y));
+    let mut best: Option<(Vec<Motion>, Proof)> = None;
+    for motion in motions {
+        let proof = proof::mechanism(scene, frame, &motion, &case.touching(), yardstick);
+        if best.as_ref().is_none_or(|b| !b.1.holds() && proof.holds()) {
+            best = Some((motion, proof));
+        }
+    }
+    let (mechanism, proof, verdict, doubt) = match best {
+        Some((mut motion, proof)) if proof.holds() => {
+            // Proved with every block; what only trembles is left out of what is told.
+            motion.retain(|m| m.fastest(scene) > 1e-7);
+            (motion, proof, Verdict::Unstable, String::new())
+        }
+        other => {
+            let doubt = doubt(&carried.proof, other.as_ref().map(|o| &o.1));
+            (Vec::new(), carried.proof, Verdict::Undecided, doubt)
+        }
+    };
+    let failures = if verdict == Verdict::Unstable {
+        case.failures(&program, &stuck.sticking)
+    } else {
+        Vec::new()
+    };
+    Findings {
+        verdict,
+        doubt,
+        contacts: carried.contacts,
+        grips: carried.grips,
+        total_sticking: stuck.sticking.total() * scale.force,
+        unsupported: !stuck.balanced && verdict == Verdict::Unstable,
+        failures,
+        mechanism,
+        proof,
+        effort,
+    }
+}
+
+fn doubt(forces: &Proof, motion: Option<&Proof>) -> String {
+    let forces = match forces {
+        Proof::Forces {
+            worst_imbalance, ..
+        } => format!("forces are off by {worst_imbalance:.1e} of the heaviest load"),
+        Proof::Mechanism { .. } => String::new(),
+    };
+    match motion {
+        Some(Proof::Mechanism {
+            power,
+            worst_violation,
+        }) => {
+            format!(
+                "{forces}; a motion has power {power:.1e} but violates a contact by {worst_violation:.1e}"
+            )
+        }
+        _ => format!("{forces}; no motion was found"),
+    }
+}
+
+impl Case<'_> {
+    fn touching(&self) -> Vec<&Interface> {
+        self.group
+            .interfaces
+            .iter()
+            .map(|i| self.interfaces[*i])
+            .collect()
+    }
+
+    /// Newtons from pure numbers, made admissible to the last bit, with their proof.
+    ///
+    /// Noise below 1e-9 of the heaviest load becomes 0 and friction is cut to μN, so that what is left of the solver's
+    /// error shows as imbalance alone, where the proof measures it.
+    fn carried(&self, program: &Program, amounts: &Amounts) -> Carried {
+        let unit = self.scale.force;
+        let noise = 1e-9 * self.yardstick.force;
+        let clean = |v: f64| if v.abs() <= noise { 0.0 } else { v };
+        let mut contacts = Vec::with_capacity(program.contacts.len());
+        for (k, contact) in program.contacts.iter().enumerate() {
+            let normal = amounts.normal[k].map(|v| clean(v * unit).max(0.0));
+            let most = contact.friction * (normal[0] + normal[1]);
+            contacts.push((
+                normal,
+                clean((amounts.friction[k] * unit).clamp(-most, most)),
+            ));
+        }
+        let mut grips = Vec::with_capacity(program.grips.len());
+        for (k, grip) in program.grips.iter().enumerate() {
+            let limits = self.scene.robots[self.frame.holds[grip.hold].robot.0].limits;
+            let [x, y, m] = amounts.grip[k];
+            let cut = |v: f64, limit: f64| clean(v).clamp(-limit, limit);
+            let force = Vector::new(cut(x * unit, limits.fx), cut(y * unit, limits.fy));
+            grips.push((
+                force,
+                cut(m * unit, limits.torque / self.scale.length) * self.scale.length,
+            ));
+        }
+        let pressed: Vec<Pressed> = self
+            .touching()
+            .into_iter()
+            .zip(&contacts)
+            .map(|(interface, (normal, friction))| Pressed {
+                interface,
+                normal: *normal,
+                friction: *friction,
+            })
+            .collect();
+        let held: Vec<Held> = self
+            .group
+            .holds
+            .iter()
+            .zip(&grips)
+            .map(|(hold, (force, torque))| Held {
+                hold: *hold,
+                force: *force,
+                torque: *torque,
+            })
+            .collect();
+        let proof = proof::forces(
+            self.scene,
+            self.frame,
+            &self.group.blocks,
+            &pressed,
+            &held,
+            self.yardstick,
+        );
+        Carried {
+            contacts,
+            grips,
+            proof,
+        }
+    }
+
+    fn stands(&self, carried: Carried, effort: Effort) -> Findings {
+        let holds = carried.proof.holds();
+        Findings {
+            verdict: if holds {
+                Verdict::Stable
+            } else {
+                Verdict::Undecided
+            },
+            doubt: if holds {
+                String::new()
+            } else {
+                doubt(&carried.proof, None)
+            },
+            contacts: carried.contacts,
+            grips: carried.grips,
+            failures: Vec::new(),
+            total_sticking: 0.0,
+            unsupported: false,
+            mechanism: Vec::new(),
+            proof: carried.proof,
+            effort,
+        }
+    }
+
+    /// A group that touches no ground and is held by nobody falls with the sum of its loads, all blocks alike.
+    fn falls_free(&self, plan: &Plan) -> Option<Findings> {
+        let grounded = self
+            .touching()
+            .iter()
+            .any(|i| matches!(i.bodies[1], BodyId::Ground(_)));
+        if grounded || !self.group.holds.is_empty() {
+            return None;
+        }
+        let total = self.group.blocks.iter().fold(Vector::zeros(), |sum, b| {
+            sum + load_on(self.scene, plan, *b).0
+        });
+        if total.norm() <= Proof::BAND * self.yardstick.force {
+            return None;
+        }
+        let velocity = total.normalize();
+        let mechanism: Vec<Motion> = self
+            .group
+            .blocks
+            .iter()
+            .map(|block| Motion {
+                block: *block,
+                velocity,
+                spin: 0.0,
+            })
+            .collect();
+        let proof = proof::mechanism(
+            self.scene,
+            self.frame,
+            &mechanism,
+            &self.touching(),
+            self.yardstick,
+        );
+        Some(Findings {
+            verdict: Verdict::Unstable,
+            doubt: String::new(),
+            contacts: vec![([0.0; 2], 0.0); self.group.interfaces.len()],
+            grips: Vec::new(),
+            failures: Vec::new(),
+            total_sticking: 0.0,
+            unsupported: true,
+            mechanism,
+            proof,
+            effort: Effort::default(),
+        })
+    }
+
+    /// Motions in the scene's units, the fastest point with speed 1.
+    fn moved(&self, y: &[f64]) -> Vec<Motion> {
+        let all = self
+            .group
+            .blocks
+            .iter()
+            .enumerate()
+            .map(|(k, block)| Motion {
+                block: *block,
+                velocity: Vector::new(y[3 * k], y[3 * k + 1]),
+                // Pure velocities are per unit of length.
+                spin: y[3 * k + 2] / self.scale.length,
+            });
+        let all: Vec<Motion> = all.collect();
+        let fastest = all
+            .iter()
+            .map(|m| m.fastest(self.scene))
+            .fold(0.0, f64::max);
+        if fastest == 0.0 {
+            return Vec::new();
+        }
+        all.iter()
+            .map(|m| Motion {
+                block: m.block,
+                velocity: m.velocity / fastest,
+                spin: m.spin / fastest,
+            })
+            .collect()
+    }
+
+    /// What sticks, in newtons, in the order of interfaces and holds.
+    fn failures(&self, program: &Program, sticking: &Amounts) -> Vec<Failure> {
+        let unit = self.scale.force;
+        let most = sticking
+            .normal
+            .iter()
+            .flatten()
+            .chain(&sticking.friction)
+            .chain(sticking.grip.iter().flatten());
+        let least = 1e-6 * most.fold(0.0, |m: f64, v| m.max(v.abs()));
+        let counts = |v: f64| v.abs() > least;
+        let mut failures = Vec::new();
+        for (k, contact) in program.contacts.iter().enumerate() {
+            let interface = self.interfaces[contact.interface];
+            let bodies = interface.bodies;
+            let points = interface.application_points(self.scene.kernel);
+            for (at, pull) in points
+                .into_iter()
+                .zip(sticking.normal[k])
+                .filter(|p| counts(p.1))
+            {
+                failures.push(Failure::Tension {
+                    bodies,
+                    at,
+                    force: interface.normal * (-pull * unit),
+                });
+            }
+            if counts(sticking.friction[k]) {
+                let force = interface.tangent() * (sticking.friction[k] * unit);
+                failures.push(Failure::Friction {
+                    bodies,
+                    at: interface.middle(),
+                    force,
+                });
+            }
+        }
+        for (k, grip) in program.grips.iter().enumerate() {
+            let hold = self.frame.holds[grip.hold];
+            let [x, y, m] = sticking.grip[k];
+            let (robot, block, at) = (hold.robot, hold.block, hold.at);
+            if counts(x) || counts(y) {
+                failures.push(Failure::RobotForce {
+                    robot,
+                    block,
+                    at,
+                    force: Vector::new(x, y) * unit,
+                });
+            }
+            if counts(m) {
+                failures.push(Failure::RobotTorque {
+                    robot,
+                    block,
+                    at,
+                    torque: m * unit * self.scale.length,
+                });
+            }
+        }
+        failures
+    }
+}

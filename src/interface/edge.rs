@@ -1,0 +1,221 @@
+//! Interfaces of scenes off the lattice: edges that face each other within the scene's tolerance.
+
+use std::collections::BTreeMap;
+
+use rstar::{AABB, RTree, RTreeObject};
+
+use super::{ContactKind, Interface, Interfaces, bodies, ordered};
+use crate::geometry::{Edge, Tolerance, Vector, cross, quarter_turn};
+use crate::scene::{BodyId, Scene};
+
+/// Edges farther apart than this many gaps are not worth a notice.
+const NEAR: f64 = 30.0;
+
+struct Side {
+    body: BodyId,
+    number: usize,
+    edge: Edge,
+}
+
+impl RTreeObject for Side {
+    type Envelope = AABB<[f64; 2]>;
+    fn envelope(&self) -> Self::Envelope {
+        AABB::from_corners(
+            [self.edge.from.x, self.edge.from.y],
+            [self.edge.to.x, self.edge.to.y],
+        )
+    }
+}
+
+/// How two edges lie to each other.
+enum Meeting {
+    /// They share a stretch.
+    Stretch(Interface),
+    /// They share a stretch too short to count, of this length.
+    Short(f64),
+    /// They face each other along a stretch, but this far apart.
+    Apart(f64),
+}
+
+/// All edge interfaces, and what nearly is one.
+pub(super) fn find(scene: &Scene) -> Interfaces {
+    let sides: Vec<Side> = bodies(scene)
+        .flat_map(|body| {
+            scene
+                .body(body)
+                .polygon
+                .edges()
+                .enumerate()
+                .map(move |(number, edge)| Side { body, number, edge })
+        })
+        .collect();
+    let tree = RTree::bulk_load(sides);
+    let reach = NEAR * scene.tolerance.gap;
+    let mut pairs: BTreeMap<[BodyId; 2], Vec<(usize, usize, Meeting)>> = BTreeMap::new();
+    for a in tree.iter().filter(|a| matches!(a.body, BodyId::Block(_))) {
+        let near = AABB::from_corners(
+            [
+                a.edge.from.x.min(a.edge.to.x) - reach,
+                a.edge.from.y.min(a.edge.to.y) - reach,
+            ],
+            [
+                a.edge.from.x.max(a.edge.to.x) + reach,
+                a.edge.from.y.max(a.edge.to.y) + reach,
+            ],
+        );
+        for b in tree.locate_in_envelope_intersecting(near) {
+            let Some(pair) = ordered(a.body, b.body).filter(|p| p[0] == a.body && a.body != b.body)
+            else {
+                continue;
+            };
+            if let Some(meeting) = meeting(scene, pair, a.edge, b.edge) {
+                pairs
+                    .entry(pair)
+                    .or_default()
+                    .push((a.number, b.number, meeting));
+            }
+        }
+    }
+    let mut notices = Notices::default();
+    let mut all = Vec::new();
+    for (pair, mut meetings) in pairs {
+        meetings.sort_by_key(|m| (m.0, m.1));
+        let mut stretches = Vec::new();
+        for (_, _, meeting) in meetings {
+            match meeting {
+                Meeting::Stretch(interface) => stretches.push(interface),
+                Meeting::Short(length) => notices.short(length),
+                Meeting::Apart(distance) => notices.apart(scene, pair, distance),
+            }
+        }
+        all.extend(joined(stretches, scene.tolerance));
+    }
+    Interfaces {
+        all,
+        notices: notices.words(scene.tolerance),
+    }
+}
+
+/// What edge `a` of the first body and edge `b` of the second have in common.
+fn meeting(scene: &Scene, bodies: [BodyId; 2], a: Edge, b: Edge) -> Option<Meeting> {
+    let tolerance = scene.tolerance;
+    let (va, vb) = (a.vector(), b.vector());
+    let (la, lb) = (va.norm(), vb.norm());
+    if va.dot(&vb) >= 0.0 {
+        return None;
+    }
+    // Noise of one gap at either end turns a short edge more than a long one.
+    let angle = (2.0 * tolerance.gap / la.min(lb)).clamp(1e-9, tolerance.angle);
+    if cross(va, vb).abs() > angle * la * lb {
+        return None;
+    }
+    let along = (va - vb).normalize();
+    let from_a = |p: crate::geometry::Point| along.dot(&(p - a.from));
+    let (a0, a1, b0, b1) = (0.0, from_a(a.to), from_a(b.to), from_a(b.from));
+    let (s0, s1) = (f64::max(a0, b0), f64::min(a1, b1));
+    let length = s1 - s0;
+    if length < -tolerance.stretch {
+        return None;
+    }
+    let outward = Vector::new(along.y, -along.x);
+    let height = |e: Edge, s: f64| {
+        let (h0, h1) = (
+            outward.dot(&(e.from - a.from)),
+            outward.dot(&(e.to - a.from)),
+        );
+        let (t0, t1) = (from_a(e.from), from_a(e.to));
+        h0 + (h1 - h0) * ((s - t0) / (t1 - t0)).clamp(0.0, 1.0)
+    };
+    let (gap0, gap1) = (height(b, s0) - height(a, s0), height(b, s1) - height(a, s1));
+    let distance = gap0.abs().max(gap1.abs());
+    if distance > tolerance.gap {
+        let facing = gap0 > 0.0
+            && gap1 > 0.0
+            && distance <= NEAR * tolerance.gap
+            && length > NEAR * tolerance.gap;
+        return facing.then_some(Meeting::Apart(distance));
+    }
+    if length <= tolerance.stretch {
+        // Less than a thousandth of the limit is the rounding of a corner that touches, not a contact.
+        return (length > 1e-3 * tolerance.stretch).then_some(Meeting::Short(length));
+    }
+    let middle = |s: f64| a.from + along * s + outward * ((height(a, s) + height(b, s)) / 2.0);
+    Some(Meeting::Stretch(Interface {
+        bodies,
+        kind: ContactKind::Edge,
+        // The first body lies to the left of `along`, hence (−n_y, n_x) runs against it.
+        ends: [middle(s1), middle(s0)],
+        normal: quarter_turn(along),
+        friction: scene.friction_between(bodies[0], bodies[1]),
+    }))
+}
+
+/// Stretches of one pair that continue each other along one line, joined: a corner set into a straight edge changes nothing.
+fn joined(mut stretches: Vec<Interface>, tolerance: Tolerance) -> Vec<Interface> {
+    let mut done = Vec::with_capacity(stretches.len());
+    while let Some(mut one) = stretches.pop() {
+        loop {
+            let next = stretches.iter().position(|other| {
+                let straight = cross(one.normal, other.normal).abs() <= 1e-6
+                    && one.normal.dot(&other.normal) > 0.0;
+                let touches = |p: crate::geometry::Point, q: crate::geometry::Point| {
+                    (p - q).norm() <= 4.0 * tolerance.gap
+                };
+                straight
+                    && (touches(one.ends[1], other.ends[0]) || touches(other.ends[1], one.ends[0]))
+            });
+            let Some(next) = next else { break };
+            let other = stretches.swap_remove(next);
+            if (one.ends[1] - other.ends[0]).norm() <= 4.0 * tolerance.gap {
+                one.ends[1] = other.ends[1];
+            } else {
+                one.ends[0] = other.ends[0];
+            }
+        }
+        done.push(one);
+    }
+    done
+}
+
+/// Gathers what did not count, to say it once.
+#[derive(Default)]
+struct Notices {
+    shorts: usize,
+    longest: f64,
+    apart: Vec<(String, f64)>,
+}
+
+impl Notices {
+    fn short(&mut self, length: f64) {
+        self.shorts += 1;
+        self.longest = self.longest.max(length);
+    }
+
+    fn apart(&mut self, scene: &Scene, pair: [BodyId; 2], distance: f64) {
+        self.apart.push((
+            format!("{} and {}", scene.name(pair[0]), scene.name(pair[1])),
+            distance,
+        ));
+    }
+
+    fn words(self, tolerance: Tolerance) -> Vec<String> {
+        let mut words = Vec::new();
+        if self.shorts > 0 {
+            words.push(format!(
+                "{} contact(s) up to {:.1e} m long are shorter than {:.1e} m and count as touching corners, which carry no force",
+                self.shorts, self.longest, tolerance.stretch
+            ));
+        }
+        if let Some((who, distance)) = self.apart.first() {
+            let others = match self.apart.len() - 1 {
+                0 => String::new(),
+                n => format!(", and so do {n} other pair(s) of edges"),
+            };
+            words.push(format!(
+                "{who} nearly touch, {distance:.1e} m apart, more than the {:.1e} m that count as contact{others}",
+                tolerance.gap
+            ));
+        }
+        words
+    }
+}

@@ -1,0 +1,255 @@
+//! [`Column`]: one force of amount ≥ 0 and the balance rows it enters. The only index arithmetic of the crate.
+//!
+//! Admissible contact forces are the generators of the friction cone of each application point: the normal alone (cost
+//! 1) and the normal with full friction either way, N ± μ t̂ (cost 1 + μ). Every admissible contact force is a sum of
+//! these with amounts ≥ 0, so no inequality rows remain ([Vallat23] §2.0.3 in other unknowns, the same optimum).
+
+use super::{Contact, GripTerm, Program};
+use crate::geometry::{Vector, cross, quarter_turn};
+
+/// Which force a column stands for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Force {
+    /// A pressing force at an application point of a contact, with `slope` newtons of friction per newton of normal force.
+    Ray {
+        /// The contact.
+        contact: usize,
+        /// The application point, 0 or 1.
+        point: usize,
+        /// 0, +μ or −μ.
+        slope: f64,
+    },
+    /// A robot's force (component 0, 1) or torque (2), along `sign`.
+    Grip {
+        /// The grip.
+        grip: usize,
+        /// 0: force x, 1: force y, 2: torque/L.
+        component: usize,
+        /// +1 or −1.
+        sign: f64,
+    },
+    /// A pull at an application point.
+    StickNormal {
+        /// The contact.
+        contact: usize,
+        /// The application point.
+        point: usize,
+    },
+    /// Friction that needs no pressure, along `sign` times the tangent.
+    StickFriction {
+        /// The contact.
+        contact: usize,
+        /// +1 or −1.
+        sign: f64,
+    },
+    /// A robot's component beyond its limits.
+    StickGrip {
+        /// The grip.
+        grip: usize,
+        /// 0: force x, 1: force y, 2: torque/L.
+        component: usize,
+        /// +1 or −1.
+        sign: f64,
+    },
+}
+
+impl Force {
+    /// Whether the force is sticking, not admissible.
+    pub fn sticks(&self) -> bool {
+        matches!(
+            self,
+            Force::StickNormal { .. } | Force::StickFriction { .. } | Force::StickGrip { .. }
+        )
+    }
+}
+
+/// One force and its place in the balance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Column {
+    rows: [usize; 6],
+    values: [f64; 6],
+    count: usize,
+    /// What it costs per unit: the source's weight of 1 per normal, friction or robot unknown.
+    pub cost: f64,
+    /// Largest amount, infinite without limit.
+    pub limit: f64,
+    /// What it stands for.
+    pub force: Force,
+}
+
+impl Column {
+    /// The nonzero entries as (row, value).
+    pub fn entries(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        (0..self.count).map(|i| (self.rows[i], self.values[i]))
+    }
+
+    /// The column's product with virtual velocities `y`: the velocity against which the force works.
+    pub fn dot(&self, y: &[f64]) -> f64 {
+        self.entries().map(|(row, value)| value * y[row]).sum()
+    }
+
+    /// Adds `amount` of the column to `sum`.
+    pub fn add_to(&self, sum: &mut [f64], amount: f64) {
+        for (row, value) in self.entries() {
+            sum[row] += amount * value;
+        }
+    }
+
+    /// The difference of two columns that enter the same blocks.
+    pub(super) fn less(&self, other: &Column) -> Column {
+        let mut difference = Column { count: 0, ..*self };
+        let mut put = |row: usize, value: f64| match (0..difference.count)
+            .find(|i| difference.rows[*i] == row)
+        {
+            Some(i) => difference.values[i] += value,
+            None => {
+                difference.rows[difference.count] = row;
+                difference.values[difference.count] = value;
+                difference.count += 1;
+            }
+        };
+        self.entries().for_each(|(row, value)| put(row, value));
+        other.entries().for_each(|(row, value)| put(row, -value));
+        difference
+    }
+
+    fn new(force: Force, cost: f64, limit: f64) -> Column {
+        Column {
+            rows: [0; 6],
+            values: [0.0; 6],
+            count: 0,
+            cost,
+            limit,
+            force,
+        }
+    }
+
+    /// Enters a force with an arm about the block's centroid, and a torque.
+    fn enter(&mut self, block: usize, force: Vector, moment: f64) {
+        for (offset, value) in [force.x, force.y, moment].into_iter().enumerate() {
+            if value != 0.0 {
+                self.rows[self.count] = 3 * block + offset;
+                self.values[self.count] = value;
+                self.count += 1;
+            }
+        }
+    }
+}
+
+/// Every admissible force of a program.
+pub fn columns(program: &Program) -> Vec<Column> {
+    let mut columns = Vec::with_capacity(6 * program.contacts.len() + 4 * program.grips.len());
+    for (number, contact) in program.contacts.iter().enumerate() {
+        for point in 0..contact.points {
+            let mu = contact.friction;
+            for slope in if mu > 0.0 {
+                &[0.0, 1.0, -1.0][..]
+            } else {
+                &[0.0][..]
+            } {
+                let force = Force::Ray {
+                    contact: number,
+                    point,
+                    slope: slope * mu,
+                };
+                let direction = contact.normal + quarter_turn(contact.normal) * (slope * mu);
+                columns.push(contact_column(
+                    contact,
+                    point,
+                    direction,
+                    force,
+                    1.0 + slope.abs() * mu,
+                ));
+            }
+        }
+    }
+    for (number, grip) in program.grips.iter().enumerate() {
+        for component in (0..3).filter(|c| grip.limits[*c] > 0.0) {
+            for sign in [1.0, -1.0] {
+                let force = Force::Grip {
+                    grip: number,
+                    component,
+                    sign,
+                };
+                columns.push(grip_column(
+                    grip,
+                    component,
+                    sign,
+                    force,
+                    grip.limits[component],
+                ));
+            }
+        }
+    }
+    columns
+}
+
+/// Every sticking force of a program: the opposite twin of each of the source's columns ([Vallat23] §2.0.8), unbounded.
+///
+/// Sticking friction is one force per interface, because both corners' act along the same line.
+pub fn sticking_columns(program: &Program) -> Vec<Column> {
+    let mut columns = Vec::with_capacity(4 * program.contacts.len() + 6 * program.grips.len());
+    for (number, contact) in program.contacts.iter().enumerate() {
+        for point in 0..contact.points {
+            let force = Force::StickNormal {
+                contact: number,
+                point,
+            };
+            columns.push(contact_column(contact, point, -contact.normal, force, 1.0));
+        }
+        for sign in [1.0, -1.0] {
+            let force = Force::StickFriction {
+                contact: number,
+                sign,
+            };
+            columns.push(contact_column(
+                contact,
+                0,
+                quarter_turn(contact.normal) * sign,
+                force,
+                1.0,
+            ));
+        }
+    }
+    for (number, grip) in program.grips.iter().enumerate() {
+        for component in 0..3 {
+            for sign in [1.0, -1.0] {
+                let force = Force::StickGrip {
+                    grip: number,
+                    component,
+                    sign,
+                };
+                columns.push(grip_column(grip, component, sign, force, f64::INFINITY));
+            }
+        }
+    }
+    columns
+}
+
+fn contact_column(
+    contact: &Contact,
+    point: usize,
+    direction: Vector,
+    force: Force,
+    cost: f64,
+) -> Column {
+    let mut column = Column::new(force, cost, f64::INFINITY);
+    let (on, arms) = contact.on;
+    column.enter(on, direction, cross(arms[point], direction));
+    if let Some((from, arms)) = contact.from {
+        column.enter(from, -direction, -cross(arms[point], direction));
+    }
+    column
+}
+
+fn grip_column(grip: &GripTerm, component: usize, sign: f64, force: Force, limit: f64) -> Column {
+    let mut column = Column::new(force, 1.0, limit);
+    let direction = match component {
+        0 => Vector::new(sign, 0.0),
+        1 => Vector::new(0.0, sign),
+        _ => Vector::zeros(),
+    };
+    let torque = if component == 2 { sign } else { 0.0 };
+    column.enter(grip.block, direction, cross(grip.arm, direction) + torque);
+    column
+}

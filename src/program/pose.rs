@@ -1,0 +1,296 @@
+//! The forms in which a program is handed to the conic solver.
+//!
+//! [`Conic`]: min ½ xᵀPx + qᵀx  s.t.  the first `equalities` rows Ax = b, the others Ax ≤ b. Poses never mention metres.
+
+use super::{Column, Force, Program, columns};
+
+/// A problem for the conic solver, matrices as (row, column, value) lists.
+#[derive(Clone, Debug)]
+pub struct Conic {
+    /// Unknowns.
+    pub unknowns: usize,
+    /// Upper triangle of P.
+    pub quadratic: Vec<(usize, usize, f64)>,
+    /// q.
+    pub linear: Vec<f64>,
+    /// A.
+    pub matrix: Vec<(usize, usize, f64)>,
+    /// b.
+    pub bound: Vec<f64>,
+    /// How many of the first rows are equalities.
+    pub equalities: usize,
+}
+
+/// The kinematic twin: max needᵀy  s.t.  columnᵀy ≤ cost for every column; its dual amounts are the forces.
+///
+/// Three unknowns per block and one row per column. A limited column gets one more unknown w ≥ 0: columnᵀy − w ≤ cost, at
+/// −limit·w in the aim. A pair of columns ± with cost 0 and no limit is one equality. Rows stand in the columns' order,
+/// so that the dual of row k is the amount of column k; a pair's equality carries the amount of the first less the second.
+pub fn kinematic(
+    need: &[f64],
+    columns: &[Column],
+    cost: impl Fn(&Column) -> f64,
+) -> (Conic, Vec<usize>) {
+    let mut conic = Conic {
+        unknowns: need.len(),
+        quadratic: Vec::new(),
+        linear: need.iter().map(|v| -v).collect(),
+        matrix: Vec::with_capacity(columns.len() * 6),
+        bound: Vec::with_capacity(columns.len()),
+        equalities: 0,
+    };
+    let mut row_of = vec![usize::MAX; columns.len()];
+    let free = |k: usize| match (columns[k].force, columns.get(k + 1).map(|c| c.force)) {
+        // A grip's two signs stand side by side, + first.
+        (
+            Force::Grip {
+                grip,
+                component,
+                sign,
+            },
+            Some(next),
+        ) => {
+            let twin = Force::Grip {
+                grip,
+                component,
+                sign: -1.0,
+            };
+            sign > 0.0 && next == twin && columns[k].limit.is_infinite() && cost(&columns[k]) == 0.0
+        }
+        _ => false,
+    };
+    let mut k = 0;
+    while k < columns.len() {
+        if free(k) {
+            let row = conic.bound.len();
+            conic
+                .matrix
+                .extend(columns[k].entries().map(|(i, v)| (row, i, v)));
+            conic.bound.push(0.0);
+            row_of[k] = row;
+            k += 1;
+        }
+        k += 1;
+    }
+    conic.equalities = conic.bound.len();
+    let mut k = 0;
+    while k < columns.len() {
+        if row_of[k] != usize::MAX {
+            k += 2;
+            continue;
+        }
+        let row = conic.bound.len();
+        conic
+            .matrix
+            .extend(columns[k].entries().map(|(i, v)| (row, i, v)));
+        conic.bound.push(cost(&columns[k]));
+        row_of[k] = row;
+        k += 1;
+    }
+    for (k, column) in columns.iter().enumerate() {
+        if column.limit.is_finite() {
+            let w = conic.unknowns;
+            conic.unknowns += 1;
+            conic.linear.push(column.limit);
+            conic.matrix.push((row_of[k], w, -1.0));
+            conic.matrix.push((conic.bound.len(), w, -1.0));
+            conic.bound.push(0.0);
+        }
+    }
+    (conic, row_of)
+}
+
+/// The forces of least Σ force² among the amounts ≥ 0 of the given columns that give `need`.
+///
+/// The squares are those of N1, N2, T of each contact and of each component of a grip, not of the generators, so the
+/// answer does not depend on how a cone is written.
+pub fn least_squares(need: &[f64], columns: &[Column]) -> Conic {
+    let mut quadratic = Vec::new();
+    // Columns of one contact stand side by side; products reach back only to the contact's first column.
+    for (j, column) in columns.iter().enumerate() {
+        for (i, other) in columns[..=j].iter().enumerate().rev() {
+            match product(&other.force, &column.force) {
+                Some(0.0) => {}
+                Some(value) => quadratic.push((i, j, value)),
+                None => break,
+            }
+        }
+    }
+    let rows = need.len();
+    let mut matrix = Vec::with_capacity(columns.len() * 7);
+    let mut bound = need.to_vec();
+    for (j, column) in columns.iter().enumerate() {
+        matrix.extend(column.entries().map(|(row, value)| (row, j, value)));
+        matrix.push((bound.len(), j, -1.0));
+        bound.push(0.0);
+        if column.limit.is_finite() {
+            matrix.push((bound.len(), j, 1.0));
+            bound.push(column.limit);
+        }
+    }
+    Conic {
+        unknowns: columns.len(),
+        quadratic,
+        linear: vec![0.0; columns.len()],
+        matrix,
+        bound,
+        equalities: rows,
+    }
+}
+
+/// Inner product of two columns in (N1, N2, T) of one contact or in one grip component; `None` for different places.
+fn product(a: &Force, b: &Force) -> Option<f64> {
+    match (*a, *b) {
+        (
+            Force::Ray {
+                contact: c,
+                point: p,
+                slope: s,
+            },
+            Force::Ray {
+                contact: d,
+                point: q,
+                slope: t,
+            },
+        ) if c == d => Some(f64::from(u8::from(p == q)) + s * t),
+        (
+            Force::Grip {
+                grip: g,
+                component: c,
+                sign: s,
+            },
+            Force::Grip {
+                grip: h,
+                component: d,
+                sign: t,
+            },
+        )
+        | (
+            Force::StickGrip {
+                grip: g,
+                component: c,
+                sign: s,
+            },
+            Force::StickGrip {
+                grip: h,
+                component: d,
+                sign: t,
+            },
+        ) if g == h => Some(if c == d { s * t } else { 0.0 }),
+        (
+            Force::StickNormal {
+                contact: c,
+                point: p,
+            },
+            Force::StickNormal {
+                contact: d,
+                point: q,
+            },
+        ) if c == d => Some(f64::from(u8::from(p == q))),
+        (
+            Force::StickFriction {
+                contact: c,
+                sign: s,
+            },
+            Force::StickFriction {
+                contact: d,
+                sign: t,
+            },
+        ) if c == d => Some(s * t),
+        (Force::StickNormal { contact: c, .. }, Force::StickFriction { contact: d, .. })
+            if c == d =>
+        {
+            Some(0.0)
+        }
+        _ => None,
+    }
+}
+
+/// The source's soft program exactly as posed ([Vallat23] §2.0.7–8): six unknowns per interface and per grip, each with an
+/// opposite twin at cost β, all ≥ 0; rows A_eq x = b_eq, f⁺ + f⁻ ≤ μN per corner, robot unknowns ≤ limit.
+///
+/// It is kept to show what β costs in time and digits; nothing else rests on it. The unknowns stand interface by
+/// interface as N1, f1⁺, f1⁻, N2, f2⁺, f2⁻, then grip by grip as Fx±, Fy±, M±, then all twins.
+pub fn source(program: &Program, beta: f64) -> Conic {
+    let mut posed: Vec<Column> = Vec::new();
+    let mut cones: Vec<(usize, f64)> = Vec::new();
+    let mut limits: Vec<(usize, f64)> = Vec::new();
+    let smooth = Program {
+        grips: Vec::new(),
+        ..program.clone()
+    };
+    let rough = Program {
+        contacts: smooth
+            .contacts
+            .iter()
+            .cloned()
+            .map(|c| super::Contact { friction: 1.0, ..c })
+            .collect(),
+        ..smooth
+    };
+    // With μ = 1 the generators N, N + t̂, N − t̂ of a point give its three unknowns back as differences.
+    for chunk in columns(&rough).chunks(3) {
+        if let Force::Ray { contact, .. } = chunk[0].force {
+            cones.push((posed.len(), program.contacts[contact].friction));
+        }
+        posed.extend([chunk[0], chunk[1].less(&chunk[0]), chunk[2].less(&chunk[0])]);
+    }
+    let full = super::Program {
+        contacts: Vec::new(),
+        grips: program
+            .grips
+            .iter()
+            .cloned()
+            .map(|g| super::GripTerm {
+                limits: [f64::INFINITY; 3],
+                ..g
+            })
+            .collect(),
+        ..program.clone()
+    };
+    for column in columns(&full) {
+        if let Force::Grip {
+            grip, component, ..
+        } = column.force
+        {
+            limits.push((posed.len(), program.grips[grip].limits[component]));
+        }
+        posed.push(column);
+    }
+    let n = posed.len();
+    let mut matrix = Vec::with_capacity(14 * n);
+    for (j, column) in posed.iter().enumerate() {
+        for (row, value) in column.entries() {
+            matrix.push((row, j, value));
+            matrix.push((row, n + j, -value));
+        }
+    }
+    let mut bound = program.need.clone();
+    let equalities = bound.len();
+    for (first, friction) in cones {
+        let row = bound.len();
+        matrix.extend([
+            (row, first, -friction),
+            (row, first + 1, 1.0),
+            (row, first + 2, 1.0),
+        ]);
+        bound.push(0.0);
+    }
+    for (j, limit) in limits.into_iter().filter(|l| l.1.is_finite()) {
+        matrix.push((bound.len(), j, 1.0));
+        bound.push(limit);
+    }
+    for j in 0..2 * n {
+        matrix.push((bound.len(), j, -1.0));
+        bound.push(0.0);
+    }
+    let linear = (0..2 * n).map(|j| if j < n { 1.0 } else { beta }).collect();
+    Conic {
+        unknowns: 2 * n,
+        quadratic: Vec::new(),
+        linear,
+        matrix,
+        bound,
+        equalities,
+    }
+}

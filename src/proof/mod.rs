@@ -1,0 +1,265 @@
+//! The verdict's proof, from geometry and forces alone.
+//!
+//! Makes [`Proof`]. Nothing here knows of programs, columns or solvers: the balance is summed again from the scene's
+//! polygons, weights and loads, the contact law is checked force by force, so a mistake in the program cannot hide here.
+//!
+//! *Stable* is proved by forces: every block balances, nothing pulls, nothing slips, no robot exceeds its limits.
+//! *Unstable* is proved by a motion: the loads do work along it, and no admissible force can object, because every
+//! contact only opens or slides apart. If forces of total F did balance, then power ≤ violation · F; a motion with
+//! violation δ therefore rules out every balance with less total force than power/δ.
+
+use crate::geometry::{Point, Vector, cross, quarter_turn};
+use crate::interface::{ContactKind, Interface};
+use crate::scene::{BlockId, BodyId, Frame, Scene};
+
+/// How well a verdict is proved, from geometry and forces alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Proof {
+    /// Forces that balance; each number relative to the largest weight.
+    Forces {
+        /// Worst imbalance of a block, force or moment/L.
+        worst_imbalance: f64,
+        /// Worst pull at an application point.
+        worst_pull: f64,
+        /// Worst friction beyond μN, or robot component beyond its limit.
+        worst_slip: f64,
+    },
+    /// A mechanism; velocities relative to its fastest point.
+    Mechanism {
+        /// Power of the loads along it less what robots can hold, relative to the largest weight; above 0.
+        power: f64,
+        /// Worst velocity with which a contact closes, slides within its friction, or a grip is torn.
+        worst_violation: f64,
+    },
+}
+
+impl Proof {
+    /// Forces balance when they are off by no more than this share of the heaviest load.
+    ///
+    /// It is also the band within which a structure that just falls is called standing: by a push of this share of the
+    /// heaviest weight, or a centre of gravity this share of L outside its support.
+    pub const BAND: f64 = 1e-7;
+
+    /// A motion convinces when the loads' power is at least so many times its worst violation.
+    pub const CONVINCING: f64 = 1e3;
+
+    /// Whether the proof convinces.
+    pub fn holds(&self) -> bool {
+        match *self {
+            Proof::Forces {
+                worst_imbalance,
+                worst_pull,
+                worst_slip,
+            } => worst_imbalance.max(worst_pull).max(worst_slip) <= Self::BAND,
+            Proof::Mechanism {
+                power,
+                worst_violation,
+            } => power > 1e-12 && power >= Self::CONVINCING * worst_violation,
+        }
+    }
+}
+
+/// The forces at one interface, newtons.
+#[derive(Clone, Copy, Debug)]
+pub struct Pressed<'a> {
+    /// Where.
+    pub interface: &'a Interface,
+    /// Normal forces at the application points.
+    pub normal: [f64; 2],
+    /// Friction along (−n_y, n_x).
+    pub friction: f64,
+}
+
+/// What a robot gives, for one of the frame's holds.
+#[derive(Clone, Copy, Debug)]
+pub struct Held {
+    /// The hold's number in the frame.
+    pub hold: usize,
+    /// Force on the block, N.
+    pub force: Vector,
+    /// Torque on the block, N·m.
+    pub torque: f64,
+}
+
+/// A block's velocity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Motion {
+    /// The block.
+    pub block: BlockId,
+    /// Velocity of its centroid.
+    pub velocity: Vector,
+    /// Turning, anticlockwise positive, per metre of the fastest point's way.
+    pub spin: f64,
+}
+
+impl Motion {
+    /// Velocity of a point that moves with the block.
+    pub fn at(&self, scene: &Scene, point: Point) -> Vector {
+        self.velocity + quarter_turn(point - scene.blocks[self.block.0].centroid) * self.spin
+    }
+
+    /// Speed of the block's fastest corner.
+    pub fn fastest(&self, scene: &Scene) -> f64 {
+        let corners = scene.blocks[self.block.0].body.polygon.outline();
+        corners
+            .iter()
+            .map(|p| self.at(scene, *p).norm())
+            .fold(0.0, f64::max)
+    }
+}
+
+/// What is measured against: the heaviest load of the group in newtons, and L in metres.
+#[derive(Clone, Copy, Debug)]
+pub struct Yardstick {
+    /// Heaviest load, N.
+    pub force: f64,
+    /// Median interface length, m.
+    pub length: f64,
+}
+
+/// Load on a block about its centroid: weight along gravity and the listed loads, (N, N·m).
+fn load(scene: &Scene, block: BlockId) -> (Vector, f64) {
+    let body = &scene.blocks[block.0];
+    let own = (scene.down() * body.weight, 0.0);
+    scene
+        .loads
+        .iter()
+        .filter(|l| l.block == block)
+        .fold(own, |(force, moment), l| {
+            (
+                force + l.force,
+                moment + cross(l.at - body.centroid, l.force) + l.torque,
+            )
+        })
+}
+
+/// Checks forces on a group of blocks: balance, pull, slip, limits.
+pub fn forces(
+    scene: &Scene,
+    frame: &Frame,
+    blocks: &[BlockId],
+    pressed: &[Pressed],
+    held: &[Held],
+    yardstick: Yardstick,
+) -> Proof {
+    let mut balance: Vec<(Vector, f64)> = vec![(Vector::zeros(), 0.0); scene.blocks.len()];
+    for block in blocks {
+        balance[block.0] = load(scene, *block);
+    }
+    let (mut worst_pull, mut worst_slip): (f64, f64) = (0.0, 0.0);
+    for contact in pressed {
+        let interface = contact.interface;
+        let points = interface.application_points(scene.kernel);
+        let pushes = [
+            (points[0], interface.normal * contact.normal[0]),
+            (points[1], interface.normal * contact.normal[1]),
+            (
+                interface.ends[0],
+                quarter_turn(interface.normal) * contact.friction,
+            ),
+        ];
+        for (body, sign) in interface.bodies.into_iter().zip([1.0, -1.0]) {
+            if let BodyId::Block(id) = body {
+                let centroid = scene.blocks[id.0].centroid;
+                let (force, moment) = &mut balance[id.0];
+                for (at, push) in pushes {
+                    *force += push * sign;
+                    *moment += cross(at - centroid, push * sign);
+                }
+            }
+        }
+        worst_pull = worst_pull.max(-contact.normal[0]).max(-contact.normal[1]);
+        if interface.kind == ContactKind::Corner {
+            worst_pull = worst_pull.max(contact.normal[1].abs());
+        }
+        worst_slip = worst_slip.max(
+            contact.friction.abs() - interface.friction * (contact.normal[0] + contact.normal[1]),
+        );
+    }
+    for grip in held {
+        let hold = frame.holds[grip.hold];
+        let limits = scene.robots[hold.robot.0].limits;
+        let (force, moment) = &mut balance[hold.block.0];
+        *force += grip.force;
+        *moment += cross(hold.at - scene.blocks[hold.block.0].centroid, grip.force) + grip.torque;
+        worst_slip = worst_slip
+            .max(grip.force.x.abs() - limits.fx)
+            .max(grip.force.y.abs() - limits.fy);
+        worst_slip = worst_slip.max((grip.torque.abs() - limits.torque) / yardstick.length);
+    }
+    let worst = blocks.iter().map(|block| {
+        let (force, moment) = balance[block.0];
+        force.norm().max(moment.abs() / yardstick.length)
+    });
+    Proof::Forces {
+        worst_imbalance: worst.fold(0.0, f64::max) / yardstick.force,
+        worst_pull: worst_pull / yardstick.force,
+        worst_slip: worst_slip.max(0.0) / yardstick.force,
+    }
+}
+
+/// Checks a motion of a group of blocks: the loads' power, and whether any contact or grip objects.
+pub fn mechanism(
+    scene: &Scene,
+    frame: &Frame,
+    motions: &[Motion],
+    interfaces: &[&Interface],
+    yardstick: Yardstick,
+) -> Proof {
+    let mut moving: Vec<Option<Motion>> = vec![None; scene.blocks.len()];
+    for motion in motions {
+        moving[motion.block.0] = Some(*motion);
+    }
+    let velocity = |body: BodyId, at: Point| match body {
+        BodyId::Ground(_) => Vector::zeros(),
+        BodyId::Block(id) => moving[id.0].map_or(Vector::zeros(), |m| m.at(scene, at)),
+    };
+    let fastest = motions.iter().map(|m| m.fastest(scene)).fold(0.0, f64::max);
+    if fastest == 0.0 {
+        return Proof::Mechanism {
+            power: 0.0,
+            worst_violation: 0.0,
+        };
+    }
+    let mut violation: f64 = 0.0;
+    for interface in interfaces {
+        for at in interface.application_points(scene.kernel) {
+            let apart = velocity(interface.bodies[0], at) - velocity(interface.bodies[1], at);
+            let (opens, slides) = (
+                interface.normal.dot(&apart),
+                quarter_turn(interface.normal).dot(&apart),
+            );
+            violation = violation.max(interface.friction * slides.abs() - opens);
+        }
+    }
+    let mut power: f64 = motions
+        .iter()
+        .map(|m| {
+            let (force, moment) = load(scene, m.block);
+            force.dot(&m.velocity) + moment * m.spin
+        })
+        .sum();
+    for hold in &frame.holds {
+        let Some(motion) = moving[hold.block.0] else {
+            continue;
+        };
+        let limits = scene.robots[hold.robot.0].limits;
+        let at_grip = motion.at(scene, hold.at);
+        let spin = motion.spin * yardstick.length;
+        for (speed, limit) in [
+            (at_grip.x, limits.fx),
+            (at_grip.y, limits.fy),
+            (spin, limits.torque / yardstick.length),
+        ] {
+            if limit.is_infinite() {
+                violation = violation.max(speed.abs());
+            } else {
+                power -= limit * speed.abs();
+            }
+        }
+    }
+    Proof::Mechanism {
+        power: power / (yardstick.force * fastest),
+        worst_violation: violation / fastest,
+    }
+}

@@ -1,0 +1,149 @@
+//! The one door to clarabel: a [`Conic`] goes in, a status of our own and plain vectors come out.
+//!
+//! Settings that are not the solver's own, and why: `qdldl` because the automatic choice takes faer on large programs,
+//! 13.1 s against 4.6 s at 10⁴ blocks; tolerance 1e-9 because 1e-12 turns nearly marginal cases into numerical errors;
+//! presolve off because nothing here has infinite bounds. NaN in the data comes back as "solved", so it is refused here.
+
+use clarabel::algebra::CscMatrix;
+use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
+
+use crate::program::Conic;
+
+/// How a conic problem ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// x, s and z are an optimum.
+    Solved,
+    /// The rows contradict each other; z tells how.
+    Infeasible,
+    /// The aim has no bound; x is the direction along which it grows.
+    Unbounded,
+    /// The solver gave up.
+    Unclear,
+}
+
+/// What the solver gave back.
+#[derive(Clone, Debug)]
+pub struct Answer {
+    /// How it ended.
+    pub status: Status,
+    /// The unknowns, or the certificate's direction.
+    pub x: Vec<f64>,
+    /// The rows' multipliers.
+    pub z: Vec<f64>,
+    /// The rows' slack b − Ax.
+    pub s: Vec<f64>,
+    /// Interior-point iterations.
+    pub iterations: usize,
+}
+
+/// The tolerance of feasibility and gap the solver is asked for.
+pub const TOLERANCE: f64 = 1e-9;
+
+/// Solves a conic problem.
+///
+/// # Panics
+/// If the data hold a number that is not finite: scenes are checked at the door, so that is our own mistake.
+pub fn solve(problem: &Conic, tolerance: f64) -> Answer {
+    let finite = |list: &[f64]| list.iter().all(|v| v.is_finite());
+    let entries = problem
+        .matrix
+        .iter()
+        .chain(&problem.quadratic)
+        .all(|e| e.2.is_finite());
+    assert!(
+        finite(&problem.linear) && finite(&problem.bound) && entries,
+        "a program is made of finite numbers"
+    );
+    let rows = problem.bound.len();
+    let quadratic = compressed(problem.unknowns, problem.unknowns, &problem.quadratic);
+    let matrix = compressed(rows, problem.unknowns, &problem.matrix);
+    let mut cones = Vec::with_capacity(2);
+    if problem.equalities > 0 {
+        cones.push(SupportedConeT::ZeroConeT(problem.equalities));
+    }
+    if rows > problem.equalities {
+        cones.push(SupportedConeT::NonnegativeConeT(rows - problem.equalities));
+    }
+    let settings = DefaultSettings {
+        verbose: false,
+        direct_solve_method: "qdldl".to_string(),
+        presolve_enable: false,
+        max_iter: 100,
+        tol_gap_abs: tolerance,
+        tol_gap_rel: tolerance,
+        tol_feas: tolerance,
+        ..DefaultSettings::default()
+    };
+    let solver = DefaultSolver::new(
+        &quadratic,
+        &problem.linear,
+        &matrix,
+        &problem.bound,
+        &cones,
+        settings,
+    );
+    let Ok(mut solver) = solver else {
+        return Answer {
+            status: Status::Unclear,
+            x: Vec::new(),
+            z: Vec::new(),
+            s: Vec::new(),
+            iterations: 0,
+        };
+    };
+    solver.solve();
+    let solution = solver.solution;
+    let status = match solution.status {
+        SolverStatus::Solved => Status::Solved,
+        SolverStatus::PrimalInfeasible => Status::Infeasible,
+        SolverStatus::DualInfeasible => Status::Unbounded,
+        _ => Status::Unclear,
+    };
+    let sound = finite(&solution.x) && finite(&solution.z) && finite(&solution.s);
+    Answer {
+        status: if sound { status } else { Status::Unclear },
+        x: solution.x,
+        z: solution.z,
+        s: solution.s,
+        iterations: solution.iterations as usize,
+    }
+}
+
+/// Compressed columns from (row, column, value) entries; entries of one place are added.
+fn compressed(rows: usize, columns: usize, entries: &[(usize, usize, f64)]) -> CscMatrix<f64> {
+    let mut starts = vec![0; columns + 1];
+    for (_, column, _) in entries {
+        starts[column + 1] += 1;
+    }
+    for k in 0..columns {
+        starts[k + 1] += starts[k];
+    }
+    let mut next = starts.clone();
+    let mut list = vec![(0, 0.0); entries.len()];
+    for (row, column, value) in entries {
+        list[next[*column]] = (*row, *value);
+        next[*column] += 1;
+    }
+    let (mut colptr, mut rowval, mut nzval) = (
+        vec![0],
+        Vec::with_capacity(list.len()),
+        Vec::with_capacity(list.len()),
+    );
+    for k in 0..columns {
+        let column = &mut list[starts[k]..starts[k + 1]];
+        column.sort_by_key(|e| e.0);
+        for (row, value) in column.iter() {
+            if rowval.len() > colptr[k] && rowval.last() == Some(row) {
+                if let Some(last) = nzval.last_mut() {
+                    *last += value;
+                }
+            } else {
+                rowval.push(*row);
+                nzval.push(*value);
+            }
+        }
+        colptr.push(rowval.len());
+    }
+    CscMatrix::new(rows, columns, colptr, rowval, nzval)
+}
