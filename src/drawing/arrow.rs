@@ -33,6 +33,15 @@ pub fn straight(from: PagePoint, along: (f64, f64), width: f64) -> Outline {
     ])
 }
 
+/// The head alone of the arrow that [`straight`] draws, open where the shaft meets it, so that a line along its edge
+/// leaves no seam between the two.
+pub fn head(from: PagePoint, along: (f64, f64), width: f64) -> Outline {
+    let arrow = straight(from, along, width);
+    // Corners 1 to 5 of the arrow: from one edge of the shaft around the tip to the other.
+    let corners = arrow.points().skip(1).take(5);
+    Outline::line(corners)
+}
+
 /// An arrow along a circle about `centre`, from the angle `start` through `sweep` radians, both anticlockwise as seen on
 /// the page (from the x axis to the right), `width` pixels wide. The head lies beyond the sweep. Empty for a zero sweep.
 pub fn turning(centre: PagePoint, radius: f64, start: f64, sweep: f64, width: f64) -> Outline {

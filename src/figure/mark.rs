@@ -21,6 +21,10 @@ pub(crate) const FAILURE_WIDTH: f64 = 0.10;
 const NOISE: f64 = 1e-6;
 /// In [`Normalisation::Drawn`] a failure's shaft is at least so many unit edges long: it must not be overlooked.
 const LEAST_FAILURE: f64 = 0.08;
+/// In [`Normalisation::Drawn`] shafts shorter than this, in unit edges, grow thinner with their head …
+const THINNER_BELOW: f64 = 0.35;
+/// … down to this share of the width: else many small forces are nothing but heads.
+const THINNEST: f64 = 0.65;
 /// The source draws what fails at this share of the scale of the block it acts on.
 const SOURCE_FAILURE: f64 = 0.4;
 
@@ -285,10 +289,22 @@ impl Pen<'_> {
                 vector,
                 force,
                 colour: look.0,
-                width: look.1 * self.edge,
+                width: self.width(look.1, vector),
                 kind,
             });
         }
+    }
+
+    /// Width of an arrow's shaft in metres, `full` unit edges where the arrow is long enough.
+    fn width(&self, full: f64, vector: Vector) -> f64 {
+        let share = match self.options.normalisation {
+            Normalisation::Source => 1.0,
+            Normalisation::Drawn => {
+                let length = vector.norm() / self.edge;
+                libm::sqrt(length / THINNER_BELOW).clamp(THINNEST, 1.0)
+            }
+        };
+        full * share * self.edge
     }
 
     /// A torque: a turning arrow, or the source's vertical pair at half an edge to either side.
@@ -481,7 +497,7 @@ impl Pen<'_> {
                     vector,
                     force,
                     colour: look.0,
-                    width: look.1 * self.edge,
+                    width: self.width(look.1, vector),
                     kind,
                 });
             }

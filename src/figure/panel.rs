@@ -4,16 +4,19 @@ use core::f64::consts::FRAC_PI_2;
 
 use super::fill::FillScale;
 use super::label;
-use super::mark::{ArrowKind, ForceArrow, TurnArrow, TurnKind};
+use super::mark::{ArrowKind, FORCE_WIDTH, ForceArrow, TurnArrow, TurnKind};
 use super::stage::{DISC, MANY, Stage};
 use super::words::{force, quantity};
-use crate::drawing::arrow::{straight, turning};
+use crate::drawing::arrow::{head, straight, turning};
 use crate::drawing::{Anchor, Camera, Colour, Face, Group, Outline, Path, Stroke, Text, text};
-use crate::geometry::Lattice;
+use crate::geometry::{Lattice, Point, Vector};
 use crate::scene::{Block, BlockId, Body, BodyId, Rgb};
 
 /// Radius of a turning arrow in unit edges: around a robot's disc.
 const TURN: f64 = 0.46;
+
+/// Least width of a shaft, pixels, where blocks are large enough to bear it.
+const LEAST_SHAFT: f64 = 2.5;
 
 /// What the camera sees of frame `number`.
 pub(crate) fn picture(stage: &Stage<'_>, number: usize, camera: &Camera) -> Group {
@@ -39,6 +42,9 @@ pub(crate) fn picture(stage: &Stage<'_>, number: usize, camera: &Camera) -> Grou
         }
         .into(),
     );
+    if !many {
+        group.items.push(pen.heads().into());
+    }
     group.items.push(pen.arrows(true).into());
     group
         .items
@@ -80,6 +86,8 @@ struct Pen<'a> {
     line: f64,
     /// Width of the seam around arrows, pixels.
     casing: f64,
+    /// How much wider than told arrows are drawn: at small scales, so that their colours can be told apart.
+    wider: f64,
 }
 
 impl<'a> Pen<'a> {
@@ -90,7 +98,9 @@ impl<'a> Pen<'a> {
             number,
             camera,
             line: (0.028 * unit).clamp(0.25, 1.5),
-            casing: (0.016 * unit).clamp(0.1, 1.0),
+            casing: (0.012 * unit).clamp(0.1, 0.9),
+            // Not where blocks are many and small: there arrows are texture, and wider ones would be soup.
+            wider: if unit < 20.0 { 1.0 } else { (LEAST_SHAFT / (FORCE_WIDTH * unit)).clamp(1.0, 1.35) },
         }
     }
 
@@ -193,7 +203,7 @@ impl<'a> Pen<'a> {
         let metres = self.stage.unit / self.unit();
         let radius = |id: BlockId| libm::hypot(half(id), 0.38 * size) * metres;
         let places = label::places(self.stage, frame, &self.stage.marks[self.number], radius);
-        let name = |(place, (id, at)): (usize, (&BlockId, Option<crate::geometry::Point>))| {
+        let name = |(place, (id, at)): (usize, (&BlockId, Option<Point>))| {
             let fill = self.fill(place, *id);
             let ink = if fill.brightness() < 0.55 {
                 Colour::WHITE
@@ -278,7 +288,8 @@ impl<'a> Pen<'a> {
     }
 
     fn arrow(&self, arrow: &ForceArrow) -> Path {
-        let width = self.camera.length(arrow.width);
+        let wider = if arrow.kind.is_failure() { 1.0 } else { self.wider };
+        let width = wider * self.camera.length(arrow.width);
         let outline = straight(
             self.camera.place(arrow.at),
             self.camera.turn(arrow.vector),
@@ -287,17 +298,59 @@ impl<'a> Pen<'a> {
         Path::filled(outline, arrow.colour).cased(self.stage.options.theme.casing, self.casing)
     }
 
+    /// The heads of all arrows once more, above all shafts: along a line of thrust arrows lie on each other, and a shaft
+    /// must not hide which way another points.
+    fn heads(&self) -> Group {
+        let mut group = Group {
+            echo: true,
+            ..Group::of_class("heads")
+        };
+        let marks = &self.stage.marks[self.number];
+        for arrow in marks.arrows.iter().filter(|a| !a.kind.is_failure()) {
+            let width = self.wider * self.camera.length(arrow.width);
+            let (from, along) = (self.camera.place(arrow.at), self.camera.turn(arrow.vector));
+            let head = Path::filled(head(from, along, width), arrow.colour);
+            group.items.push(head.cased(self.stage.options.theme.casing, self.casing).into());
+        }
+        group
+    }
+
     fn turn(&self, turn: &TurnArrow) -> Path {
         let radius = TURN * self.stage.unit;
         let sweep = (turn.arc.abs() / radius).clamp(0.7, 5.0) * turn.arc.signum();
         let outline = turning(
             self.camera.place(turn.at),
             self.camera.length(radius),
-            FRAC_PI_2 - sweep / 2.0,
+            self.clearest(turn, radius, sweep) - sweep / 2.0,
             sweep,
             self.camera.length(turn.width),
         );
         Path::filled(outline, turn.colour).cased(self.stage.options.theme.casing, self.casing)
+    }
+
+    /// The direction from a turning arrow's centre to its middle in which it keeps farthest from straight arrows; the
+    /// top where that is as good as any.
+    fn clearest(&self, turn: &TurnArrow, radius: f64, sweep: f64) -> f64 {
+        let arrows = &self.stage.marks[self.number].arrows;
+        // The head lies beyond the sweep.
+        let ends = [-0.5 * sweep, 0.5 * sweep + sweep.signum() * 4.5 * turn.width / radius];
+        let clear = |middle: f64| {
+            let from_arrows = |share: f64| {
+                let angle = middle + ends[0] + (ends[1] - ends[0]) * share;
+                let p = turn.at + Vector::new(libm::cos(angle), libm::sin(angle)) * radius;
+                arrows.iter().map(|a| label::from_arrow(a, p)).fold(f64::INFINITY, f64::min)
+            };
+            (0..9).map(|i| from_arrows(f64::from(i) / 8.0)).fold(f64::INFINITY, f64::min)
+        };
+        let mut best = (clear(FRAC_PI_2), FRAC_PI_2);
+        for step in [1, -1, 2, -2, 3, -3, 4, -4, 5, -5, 6] {
+            let middle = FRAC_PI_2 + f64::from(step) * FRAC_PI_2 / 3.0;
+            let room = clear(middle);
+            if room > best.0 + 0.02 * self.stage.unit {
+                best = (room, middle);
+            }
+        }
+        best.1
     }
 
     /// The arrows of what is there, or of what is missing, each with its numbers.

@@ -123,6 +123,10 @@ impl Writer<'_> {
                 },
             );
         }
+        if group.echo {
+            self.attribute("aria-hidden", "true");
+            self.attribute("pointer-events", "none");
+        }
         if let Some(id) = clip {
             self.attribute("clip-path", &format!("url(#{id})"));
         }
