@@ -15,6 +15,8 @@ use crate::scene::{Block, BlockId, Body, BodyId, Rgb};
 /// Radius of a turning arrow in unit edges: around a robot's disc.
 const TURN: f64 = 0.46;
 
+/// Where a unit edge is shorter than this, pixels, arrows are texture rather than signs.
+pub(crate) const TEXTURE: f64 = 20.0;
 /// Least width of a shaft, pixels, where blocks are large enough to bear it.
 const LEAST_SHAFT: f64 = 2.5;
 
@@ -42,7 +44,7 @@ pub(crate) fn picture(stage: &Stage<'_>, number: usize, camera: &Camera) -> Grou
         }
         .into(),
     );
-    if !many {
+    if !many && pen.unit() >= TEXTURE {
         group.items.push(pen.heads().into());
     }
     group.items.push(pen.arrows(true).into());
@@ -99,8 +101,12 @@ impl<'a> Pen<'a> {
             camera,
             line: (0.028 * unit).clamp(0.25, 1.5),
             casing: (0.012 * unit).clamp(0.1, 0.9),
-            // Not where blocks are many and small: there arrows are texture, and wider ones would be soup.
-            wider: if unit < 20.0 { 1.0 } else { (LEAST_SHAFT / (FORCE_WIDTH * unit)).clamp(1.0, 1.35) },
+            // Texture would turn to soup.
+            wider: if unit < TEXTURE {
+                1.0
+            } else {
+                (LEAST_SHAFT / (FORCE_WIDTH * unit)).clamp(1.0, 1.35)
+            },
         }
     }
 
@@ -288,7 +294,11 @@ impl<'a> Pen<'a> {
     }
 
     fn arrow(&self, arrow: &ForceArrow) -> Path {
-        let wider = if arrow.kind.is_failure() { 1.0 } else { self.wider };
+        let wider = if arrow.kind.is_failure() {
+            1.0
+        } else {
+            self.wider
+        };
         let width = wider * self.camera.length(arrow.width);
         let outline = straight(
             self.camera.place(arrow.at),
@@ -310,7 +320,10 @@ impl<'a> Pen<'a> {
             let width = self.wider * self.camera.length(arrow.width);
             let (from, along) = (self.camera.place(arrow.at), self.camera.turn(arrow.vector));
             let head = Path::filled(head(from, along, width), arrow.colour);
-            group.items.push(head.cased(self.stage.options.theme.casing, self.casing).into());
+            group.items.push(
+                head.cased(self.stage.options.theme.casing, self.casing)
+                    .into(),
+            );
         }
         group
     }
@@ -333,14 +346,22 @@ impl<'a> Pen<'a> {
     fn clearest(&self, turn: &TurnArrow, radius: f64, sweep: f64) -> f64 {
         let arrows = &self.stage.marks[self.number].arrows;
         // The head lies beyond the sweep.
-        let ends = [-0.5 * sweep, 0.5 * sweep + sweep.signum() * 4.5 * turn.width / radius];
+        let ends = [
+            -0.5 * sweep,
+            0.5 * sweep + sweep.signum() * 4.5 * turn.width / radius,
+        ];
         let clear = |middle: f64| {
             let from_arrows = |share: f64| {
                 let angle = middle + ends[0] + (ends[1] - ends[0]) * share;
                 let p = turn.at + Vector::new(libm::cos(angle), libm::sin(angle)) * radius;
-                arrows.iter().map(|a| label::from_arrow(a, p)).fold(f64::INFINITY, f64::min)
+                arrows
+                    .iter()
+                    .map(|a| label::from_arrow(a, p))
+                    .fold(f64::INFINITY, f64::min)
             };
-            (0..9).map(|i| from_arrows(f64::from(i) / 8.0)).fold(f64::INFINITY, f64::min)
+            (0..9)
+                .map(|i| from_arrows(f64::from(i) / 8.0))
+                .fold(f64::INFINITY, f64::min)
         };
         let mut best = (clear(FRAC_PI_2), FRAC_PI_2);
         for step in [1, -1, 2, -2, 3, -3, 4, -4, 5, -5, 6] {

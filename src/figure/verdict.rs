@@ -57,7 +57,7 @@ pub(crate) fn mark(verdict: Verdict, centre: PagePoint, r: f64, theme: &Theme) -
     }
 }
 
-/// Why a frame does not stand, or what a reader should know; empty where there is nothing to say.
+/// Why a frame does not stand, in words; empty where it does.
 pub(crate) fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
     let mut sentences = Vec::new();
     if !found.unsupported.is_empty() {
@@ -81,7 +81,6 @@ pub(crate) fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
     if found.verdict == Verdict::Undecided && !found.doubt.is_empty() {
         sentences.push(found.doubt.clone());
     }
-    sentences.extend(found.notices.iter().cloned());
     sentences.join("; ")
 }
 
