@@ -1,0 +1,4 @@
+//! All integration tests in one program: what a person or another program sees of drystone.
+
+mod gallery;
+mod problems;
