@@ -1,4 +1,5 @@
 //! All integration tests in one program: what a person or another program sees of drystone.
 
 mod gallery;
+mod pictures;
 mod problems;
