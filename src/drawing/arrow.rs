@@ -15,7 +15,7 @@ pub const HEAD_LENGTH: f64 = 4.5;
 /// An arrow whose shaft runs from `from` by `along` (right and down), `width` pixels wide. Empty for a zero vector.
 pub fn straight(from: PagePoint, along: (f64, f64), width: f64) -> Outline {
     let length = libm::hypot(along.0, along.1);
-    if !(length > 0.0) {
+    if length.is_nan() || length <= 0.0 {
         return Outline::default();
     }
     let (ux, uy) = (along.0 / length, along.1 / length);

@@ -1,6 +1,6 @@
 //! Where a block's name has room: the place inside the block that is farthest from its edges, arrows and discs.
 
-use super::mark::{ForceArrow, Marks};
+use super::arrow::{ForceArrow, Marks};
 use super::stage::{DISC, Stage};
 use crate::drawing::arrow::{HEAD_LENGTH, HEAD_WIDTH};
 use crate::geometry::{Point, Polygon};

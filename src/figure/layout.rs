@@ -67,8 +67,10 @@ impl Layout {
             (_, 1) => 460.0,
             _ => 360.0,
         };
-        (room / stage.view.width())
+        let scale = (room / stage.view.width())
             .min(high / stage.view.height())
-            .min(LARGEST_UNIT / stage.unit)
+            .min(LARGEST_UNIT / stage.unit);
+        // A scene too small for its own coordinates to tell its places apart has no scale.
+        if scale.is_finite() { scale } else { 1.0 }
     }
 }

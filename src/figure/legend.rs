@@ -1,7 +1,8 @@
 //! The key: what the colours and signs of a figure mean. It lists only what occurs.
 
+use super::arrow::TurnKind;
 use super::fill::FillScale;
-use super::mark::{FORCE_WIDTH, TurnKind};
+use super::mark::FORCE_WIDTH;
 use super::option::ArrowScale;
 use super::panel::TEXTURE;
 use super::stage::Stage;

@@ -2,15 +2,17 @@
 
 use core::f64::consts::FRAC_PI_2;
 
-use super::fill::FillScale;
+use super::arrow::{ForceArrow, TurnArrow, TurnKind};
 use super::label;
-use super::mark::{ArrowKind, FORCE_WIDTH, ForceArrow, TurnArrow, TurnKind};
+use super::mark::FORCE_WIDTH;
 use super::stage::{DISC, MANY, Stage};
-use super::words::{force, quantity};
+use super::told;
 use crate::drawing::arrow::{head, straight, turning};
-use crate::drawing::{Anchor, Camera, Colour, Face, Group, Outline, Path, Stroke, Text, text};
+use crate::drawing::{
+    Anchor, Camera, Colour, Face, Group, Item, Outline, Path, Stroke, Text, text,
+};
 use crate::geometry::{Lattice, Point, Vector};
-use crate::scene::{Block, BlockId, Body, BodyId, Rgb};
+use crate::scene::{BlockId, Body, Rgb};
 
 /// Radius of a turning arrow in unit edges: around a robot's disc.
 const TURN: f64 = 0.46;
@@ -50,7 +52,7 @@ pub(crate) fn picture(stage: &Stage<'_>, number: usize, camera: &Camera) -> Grou
     group.items.push(pen.arrows(true).into());
     group
         .items
-        .retain(|item| !matches!(item, crate::drawing::Item::Group(g) if g.items.is_empty()));
+        .retain(|item| !matches!(item, Item::Group(g) if g.items.is_empty()));
     group
 }
 
@@ -78,6 +80,27 @@ pub(crate) fn seams(body: &Body, lattice: Option<Lattice>, camera: &Camera) -> O
         }
     }
     outline
+}
+
+/// Outlines joined by colour, in the order in which the colours came.
+#[derive(Default)]
+struct ByColour(Vec<(Colour, Outline)>);
+
+impl ByColour {
+    fn add(&mut self, fill: Colour, outline: Outline) {
+        match self.0.iter_mut().find(|known| known.0 == fill) {
+            Some(known) => known.1.extend(outline),
+            None => self.0.push((fill, outline)),
+        }
+    }
+
+    fn paths(self, stroke: Option<Stroke>) -> impl Iterator<Item = Item> {
+        let path = move |(fill, outline)| Path {
+            stroke: stroke.clone(),
+            ..Path::filled(outline, fill)
+        };
+        self.0.into_iter().map(path).map(Item::from)
+    }
 }
 
 struct Pen<'a> {
@@ -122,15 +145,14 @@ impl<'a> Pen<'a> {
             return group;
         }
         group.clip = Some(self.camera.rect(self.stage.view));
+        let mut colours = ByColour::default();
         for ground in &scene.ground {
             let fill = ground.body.fill.map_or(theme.ground, colour);
-            let outline = self.camera.polygon(&ground.body.polygon);
-            group.items.push(
-                Path::filled(outline, fill)
-                    .with_stroke(Stroke::new(theme.outline, self.line))
-                    .into(),
-            );
+            colours.add(fill, self.camera.polygon(&ground.body.polygon));
         }
+        group
+            .items
+            .extend(colours.paths(Some(Stroke::new(theme.outline, self.line))));
         group
     }
 
@@ -166,7 +188,7 @@ impl<'a> Pen<'a> {
             let fill = self.fill(place, *id);
             let outline = self.camera.polygon(&block.body.polygon);
             let mut body = Group::of_class("block").titled(format!("Block {}", block.id));
-            body.description = self.told(place, block);
+            body.description = told::block(self.stage, self.number, place, block);
             body = body.with(Path::filled(outline.clone(), fill));
             let seams = seams(&block.body, scene.lattice, self.camera);
             body = body.with(Path::stroked(seams, self.seam(fill)));
@@ -180,22 +202,6 @@ impl<'a> Pen<'a> {
         }
         group.items.extend(self.names().into_iter().map(Into::into));
         group
-    }
-
-    /// A block's numbers in words.
-    fn told(&self, place: usize, block: &Block) -> String {
-        let share = self.stage.fills.shares[self.number][place];
-        let fill = match self.stage.fills.scale {
-            FillScale::Limit(limit) => {
-                format!(
-                    "colour: {:.1} % of the robots' limit of {}",
-                    100.0 * share,
-                    quantity(limit, "N")
-                )
-            }
-            FillScale::Largest(largest) => format!("colour: {}", quantity(share * largest, "N")),
-        };
-        format!("weight {}, {fill}", quantity(block.weight, "N"))
     }
 
     fn names(&self) -> Vec<Text> {
@@ -237,22 +243,14 @@ impl<'a> Pen<'a> {
         let (scene, theme) = (self.stage.analysis.scene, &self.stage.options.theme);
         let frame = &scene.frames[self.number];
         let mut group = Group::of_class("blocks").titled(format!("{} blocks", frame.placed.len()));
-        let mut colours: Vec<(Colour, Outline)> = Vec::new();
+        let mut colours = ByColour::default();
         for (place, id) in frame.placed.iter().enumerate() {
-            let fill = self.fill(place, *id);
             let outline = self.camera.polygon(&scene.blocks[id.0].body.polygon);
-            match colours.iter_mut().find(|c| c.0 == fill) {
-                Some(known) => known.1.extend(outline),
-                None => colours.push((fill, outline)),
-            }
+            colours.add(self.fill(place, *id), outline);
         }
-        for (fill, outline) in colours {
-            group.items.push(
-                Path::filled(outline, fill)
-                    .with_stroke(Stroke::new(theme.outline, self.line))
-                    .into(),
-            );
-        }
+        group
+            .items
+            .extend(colours.paths(Some(Stroke::new(theme.outline, self.line))));
         group
     }
 
@@ -383,7 +381,7 @@ impl<'a> Pen<'a> {
             .iter()
             .filter(|a| a.kind.is_failure() == missing)
         {
-            let title = self.arrow_told(arrow);
+            let title = told::arrow(self.stage, arrow);
             group.items.push(
                 Group::of_class("force")
                     .titled(title)
@@ -396,7 +394,7 @@ impl<'a> Pen<'a> {
             .iter()
             .filter(|t| matches!(t.kind, TurnKind::Missing(_)) == missing)
         {
-            let title = self.turn_told(turn);
+            let title = told::turn(self.stage, turn);
             group.items.push(
                 Group::of_class("torque")
                     .titled(title)
@@ -410,83 +408,15 @@ impl<'a> Pen<'a> {
     /// As [`Pen::arrows`] for scenes of very many blocks: one path for all arrows of a colour.
     fn arrows_by_colour(&self) -> Group {
         let mut group = Group::of_class("forces");
-        let mut colours: Vec<(Colour, Outline)> = Vec::new();
+        let mut colours = ByColour::default();
         for arrow in self.stage.marks[self.number]
             .arrows
             .iter()
             .filter(|a| !a.kind.is_failure())
         {
-            let outline = self.arrow(arrow).outline;
-            match colours.iter_mut().find(|c| c.0 == arrow.colour) {
-                Some(known) => known.1.extend(outline),
-                None => colours.push((arrow.colour, outline)),
-            }
+            colours.add(arrow.colour, self.arrow(arrow).outline);
         }
-        group.items.extend(
-            colours
-                .into_iter()
-                .map(|(fill, outline)| Path::filled(outline, fill).into()),
-        );
+        group.items.extend(colours.paths(None));
         group
-    }
-
-    fn arrow_told(&self, arrow: &ForceArrow) -> String {
-        let scene = self.stage.analysis.scene;
-        let named = |id: BodyId| match id {
-            BodyId::Ground(_) => "the ground".to_owned(),
-            BodyId::Block(_) => format!("block {}", scene.name(id)),
-        };
-        let robot = |id: crate::scene::RobotId| format!("robot {}", scene.robots[id.0].id);
-        let (on, amount) = (named(arrow.on), force(arrow.force));
-        let torque = quantity(arrow.force.norm() * self.stage.unit, "N·m");
-        match arrow.kind {
-            ArrowKind::Weight => format!("Weight of {on}: {amount}"),
-            ArrowKind::Load => format!("Load on {on}: {amount}"),
-            ArrowKind::Contact(from) => format!("Force on {on} from {}: {amount}", named(from)),
-            ArrowKind::Normal(from) => {
-                format!("Normal force on {on} from {}: {amount}", named(from))
-            }
-            ArrowKind::Friction(from) => {
-                format!("Friction force on {on} from {}: {amount}", named(from))
-            }
-            ArrowKind::Robot(id) => format!("Force on {on} from {}: {amount}", robot(id)),
-            ArrowKind::RobotTorque(id) => format!("Torque on {on} from {}: {torque}", robot(id)),
-            ArrowKind::MissingPull(from) => {
-                format!("Missing pull on {on} from {}: {amount}", named(from))
-            }
-            ArrowKind::MissingFriction(from) => {
-                format!("Missing friction on {on} from {}: {amount}", named(from))
-            }
-            ArrowKind::MissingRobotForce(id) => {
-                format!("Missing force on {on} from {}: {amount}", robot(id))
-            }
-            ArrowKind::MissingTorque(id) => {
-                format!("Missing torque on {on} from {}: {torque}", robot(id))
-            }
-        }
-    }
-
-    fn turn_told(&self, turn: &TurnArrow) -> String {
-        let scene = self.stage.analysis.scene;
-        let direction = if turn.torque > 0.0 {
-            "anticlockwise"
-        } else {
-            "clockwise"
-        };
-        let amount = format!("{} {direction}", quantity(turn.torque.abs(), "N·m"));
-        let on = scene.name(turn.on);
-        match turn.kind {
-            TurnKind::Load => format!("Torque of a load on block {on}: {amount}"),
-            TurnKind::Robot(id) => format!(
-                "Torque on block {on} from robot {}: {amount}",
-                scene.robots[id.0].id
-            ),
-            TurnKind::Missing(id) => {
-                format!(
-                    "Missing torque on block {on} from robot {}: {amount}",
-                    scene.robots[id.0].id
-                )
-            }
-        }
     }
 }

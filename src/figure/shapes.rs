@@ -84,7 +84,8 @@ fn sheet(lattice: Lattice, named: &[(&str, Vec<Cell>)], theme: &Theme) -> Drawin
             .with(Path::stroked(cross.clone(), Stroke::new(theme.page, 4.0)))
             .with(Path::stroked(cross, Stroke::new(theme.failure, 1.8)))
             .with(
-                Text::new(caption, **name, Face::Serif, CAPTION, theme.ink).anchored(Anchor::Middle),
+                Text::new(caption, **name, Face::Serif, CAPTION, theme.ink)
+                    .anchored(Anchor::Middle),
             );
         items.push(shape.into());
         x += width + 36.0;

@@ -254,3 +254,184 @@ fn shapes_come_with_their_names_and_origins() {
     }
     assert!(png::render(&svg, png::Size::Natural).is_ok());
 }
+
+fn from_json(text: &str) -> Scene {
+    Scene::from_json(text).unwrap_or_else(|problems| panic!("{problems}"))
+}
+
+fn drawn(scene: &Scene) -> String {
+    svg::write(&figure::forces(&Analysis::of(scene), &Options::default()))
+}
+
+/// A 4 × 2 block of 8 N on wide ground, with more text put into the scene.
+fn slab(more: &str, block: &str) -> Scene {
+    from_json(&format!(
+        r#"{{ "drystone": 1, "title": "Slab", {more}
+             "ground": [ {{ "polygon": [[-90,-9],[90,-9],[90,0],[-90,0]] }} ],
+             "blocks": [ {{ "id": "s", "polygon": [[0,0],[4,0],[4,2],[0,2]], "weight": 8 {block} }} ] }}"#
+    ))
+}
+
+#[test]
+fn loads_and_robots_torques_have_their_arrows() {
+    let scene = slab(
+        r#""loads": [ { "block": "s", "force": [1, -2], "at": [3, 2], "torque": -1.5 } ],"#,
+        "",
+    );
+    let analysis = Analysis::of(&scene);
+    let marks = figure::marks(&analysis, 0, &Options::default(), 10.0);
+    let load = marks
+        .arrows
+        .iter()
+        .find(|a| a.kind == ArrowKind::Load)
+        .expect("a load's arrow");
+    assert_eq!(
+        (load.at, load.force),
+        (Point::new(3.0, 2.0), Vector::new(1.0, -2.0))
+    );
+    // The unit edge is 0.6·√8 m here and tells 10 N.
+    assert!((load.vector - Vector::new(1.0, -2.0) * (0.06 * 8f64.sqrt())).norm() < 1e-12);
+    assert_eq!(marks.turns.len(), 1);
+    assert_eq!(
+        (marks.turns[0].kind, marks.turns[0].torque),
+        (figure::TurnKind::Load, -1.5)
+    );
+    assert!(marks.turns[0].arc < 0.0);
+    assert!(drawn(&scene).contains("Torque of a load on block s: 1.5 N·m clockwise"));
+}
+
+/// How high the arrow of a title is drawn, in each frame that has it.
+fn heights(drawing: &Drawing, title: &str) -> Vec<f64> {
+    let mut found = Vec::new();
+    groups(&drawing.items, &mut |group| {
+        if let (true, Some(Item::Path(path))) =
+            (group.title.starts_with(title), group.items.first())
+        {
+            let ys: Vec<f64> = path.outline.points().map(|p| p.y).collect();
+            found.push(
+                ys.iter().copied().fold(f64::MIN, f64::max)
+                    - ys.iter().copied().fold(f64::MAX, f64::min),
+            );
+        }
+    });
+    found
+}
+
+#[test]
+fn one_scale_for_a_strip_makes_equal_weights_equal() {
+    let scene = scene("assets/thesis/figure-5.json");
+    let analysis = Analysis::of(&scene);
+    let weights = |scale| {
+        let options = Options {
+            scale,
+            ..Options::default()
+        };
+        heights(&figure::forces(&analysis, &options), "Weight of block 1")
+    };
+    let own = weights(figure::ArrowScale::Panel);
+    let shared = weights(figure::ArrowScale::Strip);
+    assert!(own.len() == 2 && own[0] > 1.5 * own[1], "{own:?}");
+    assert!(
+        shared.len() == 2 && (shared[0] - shared[1]).abs() < 1e-9,
+        "{shared:?}"
+    );
+}
+
+#[test]
+fn without_a_limit_the_key_says_what_the_colours_stand_for() {
+    let two = r#"{ "drystone": 1, "ground": [ { "polygon": [[-1,-1],[9,-1],[9,0],[-1,0]] } ], "blocks": [
+        { "id": "low", "polygon": [[0,0],[2,0],[2,1],[0,1]], "weight": 6 },
+        { "id": "high", "polygon": [[0,1],[2,1],[2,2],[0,2]], "weight": 2 } ] }"#;
+    let svg = drawn(&from_json(two));
+    assert!(svg.contains(">8 N</text>") && svg.contains("weight or largest normal force"));
+    assert!(
+        svg.contains("fill=\"#f0f921\""),
+        "the most loaded block is at the end of the scale"
+    );
+    assert!(!svg.contains("limit of"));
+    let limited = two.replace(
+        "\"ground\"",
+        r#""robots": [ { "id": "r", "limits": { "force": 20 } } ], "ground""#,
+    );
+    assert!(drawn(&from_json(&limited)).contains("of the robots&#39; limit of 20 N"));
+}
+
+#[test]
+fn an_authors_fill_wins() {
+    let scene = slab("", r##", "fill": "#8b6b3d""##);
+    let fill = fills(
+        &figure::forces(&Analysis::of(&scene), &Options::default()),
+        0,
+    );
+    assert_eq!(fill, [("Block s".to_owned(), Colour::hex(0x8b6b3d))]);
+}
+
+#[test]
+fn wide_ground_is_cut_and_the_structure_stays_large() {
+    let drawing = figure::forces(&Analysis::of(&slab("", "")), &Options::default());
+    let mut block = None;
+    groups(&drawing.items, &mut |group| {
+        if let ("block", Some(Item::Path(path))) = (group.class.as_str(), group.items.first()) {
+            let xs: Vec<f64> = path.outline.points().map(|p| p.x).collect();
+            block = Some(
+                xs.iter().copied().fold(0.0, f64::max)
+                    - xs.iter().copied().fold(f64::MAX, f64::min),
+            );
+        }
+    });
+    assert!(block.expect("a block") > 0.3 * drawing.width);
+}
+
+#[test]
+fn odd_scenes_are_drawn_too() {
+    let nothing = from_json(r#"{ "drystone": 1, "blocks": [] }"#);
+    let weightless = slab(r#""gravity": [0, 0],"#, "");
+    let falling = from_json(
+        r#"{ "drystone": 1, "title": "A <b> & \"c\" 石", "blocks": [ { "id": "<&\"'>", "polygon": [[0,0],[1,0],[0,1]] } ] }"#,
+    );
+    let far = from_json(
+        r#"{ "drystone": 1, "blocks": [ { "id": "a", "polygon": [[1e9,1e9],[1000000001,1e9],[1e9,1000000001]] },
+             { "id": "b", "polygon": [[-1e9,0],[-999999999,0],[-1e9,1]] } ] }"#,
+    );
+    let tiny = from_json(
+        r#"{ "drystone": 1, "blocks": [ { "id": "a", "polygon": [[0,0],[1e-6,0],[0,1e-6]] } ] }"#,
+    );
+    for scene in [nothing, weightless, falling, far, tiny] {
+        let svg = drawn(&scene);
+        let picture = png::render(&svg, png::Size::Natural).expect("a picture");
+        assert!(
+            picture.len() > 500 && picture.len() < 1_000_000,
+            "{}",
+            scene.title
+        );
+    }
+}
+
+#[test]
+fn very_many_blocks_are_drawn_together() {
+    let block = |i: usize| {
+        format!(
+            r#"{{ "id": "b{i}", "cells": [[{}, {}]], "weight": {} }}"#,
+            2 * (i % 50),
+            0,
+            1 + i % 7
+        )
+    };
+    // Blocks side by side, in rows that stand on ground of their own.
+    let (mut blocks, mut ground) = (Vec::new(), Vec::new());
+    for i in 0..1100 {
+        let (column, row) = (2 * (i % 50), 3 * (i / 50));
+        blocks.push(block(i).replace(&format!("{column}, 0"), &format!("{column}, {}", row + 1)));
+        ground.push(format!(r#"{{ "cells": [[{column}, {row}]] }}"#));
+    }
+    let scene = from_json(&format!(
+        r#"{{ "drystone": 1, "grid": {{ "kind": "square", "side": 1 }}, "ground": [{}], "blocks": [{}] }}"#,
+        ground.join(","),
+        blocks.join(",")
+    ));
+    let svg = drawn(&scene);
+    assert!(svg.contains("<title>1100 blocks</title>"));
+    let paths = svg.matches("<path").count();
+    assert!(paths < 120, "{paths}");
+    assert!(png::render(&svg, png::Size::Natural).is_ok());
+}
