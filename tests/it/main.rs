@@ -1,5 +1,8 @@
 //! All integration tests in one program: what a person or another program sees of drystone.
 
 mod gallery;
+mod laws;
 mod pictures;
 mod problems;
+mod statics;
+mod structure;
