@@ -9,6 +9,9 @@ pub mod solve;
 pub mod proof;
 pub mod resultant;
 pub mod analysis;
+pub mod drawing;
+pub mod figure;
+pub mod output;
 
 pub use analysis::Analysis;
 pub use scene::Scene;

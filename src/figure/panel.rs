@@ -1,0 +1,422 @@
+//! One frame drawn: ground, blocks, plans, arrows block by block, robots, and what fails on top of all.
+
+use core::f64::consts::FRAC_PI_2;
+
+use super::arrow::{ForceArrow, TurnArrow, TurnKind};
+use super::label;
+use super::mark::FORCE_WIDTH;
+use super::stage::{DISC, MANY, Stage};
+use super::told;
+use crate::drawing::arrow::{head, straight, turning};
+use crate::drawing::{
+    Anchor, Camera, Colour, Face, Group, Item, Outline, Path, Stroke, Text, text,
+};
+use crate::geometry::{Lattice, Point, Vector};
+use crate::scene::{BlockId, Body, Rgb};
+
+/// Radius of a turning arrow in unit edges: around a robot's disc.
+const TURN: f64 = 0.46;
+
+/// Where a unit edge is shorter than this, pixels, arrows are texture rather than signs.
+pub(crate) const TEXTURE: f64 = 20.0;
+/// Least width of a shaft, pixels, where blocks are large enough to bear it.
+const LEAST_SHAFT: f64 = 2.5;
+
+/// What the camera sees of frame `number`.
+pub(crate) fn picture(stage: &Stage<'_>, number: usize, camera: &Camera) -> Group {
+    let pen = Pen::of(stage, number, camera);
+    let many = stage.analysis.scene.frames[number].placed.len() > MANY;
+    let mut group = Group::of_class("picture");
+    group.items.push(pen.ground().into());
+    group.items.push(
+        if many {
+            pen.blocks_by_colour()
+        } else {
+            pen.blocks()
+        }
+        .into(),
+    );
+    group.items.push(pen.plans().into());
+    group.items.push(pen.discs().into());
+    group.items.push(
+        if many {
+            pen.arrows_by_colour()
+        } else {
+            pen.arrows(false)
+        }
+        .into(),
+    );
+    if !many && pen.unit() >= TEXTURE {
+        group.items.push(pen.heads().into());
+    }
+    group.items.push(pen.arrows(true).into());
+    group
+        .items
+        .retain(|item| !matches!(item, Item::Group(g) if g.items.is_empty()));
+    group
+}
+
+/// A scene's colour on the page.
+pub(crate) fn colour(rgb: Rgb) -> Colour {
+    Colour(rgb.0)
+}
+
+/// The seams between a body's lattice cells: every edge of a cell that two of its cells share, once.
+pub(crate) fn seams(body: &Body, lattice: Option<Lattice>, camera: &Camera) -> Outline {
+    let mut outline = Outline::default();
+    let (Some(cells), Some(lattice)) = (&body.cells, lattice) else {
+        return outline;
+    };
+    let mut steps = std::collections::BTreeSet::new();
+    for cell in cells {
+        let corners = cell.corners();
+        for i in 0..corners.len() {
+            let (a, b) = (corners[i], corners[(i + 1) % corners.len()]);
+            if steps.contains(&(b, a)) {
+                let place = |c: (i64, i64)| camera.place(lattice.point(c.0 as f64, c.1 as f64));
+                outline.extend(Outline::line([place(a), place(b)]));
+            }
+            steps.insert((a, b));
+        }
+    }
+    outline
+}
+
+/// Outlines joined by colour, in the order in which the colours came.
+#[derive(Default)]
+struct ByColour(Vec<(Colour, Outline)>);
+
+impl ByColour {
+    fn add(&mut self, fill: Colour, outline: Outline) {
+        match self.0.iter_mut().find(|known| known.0 == fill) {
+            Some(known) => known.1.extend(outline),
+            None => self.0.push((fill, outline)),
+        }
+    }
+
+    fn paths(self, stroke: Option<Stroke>) -> impl Iterator<Item = Item> {
+        let path = move |(fill, outline)| Path {
+            stroke: stroke.clone(),
+            ..Path::filled(outline, fill)
+        };
+        self.0.into_iter().map(path).map(Item::from)
+    }
+}
+
+struct Pen<'a> {
+    stage: &'a Stage<'a>,
+    number: usize,
+    camera: &'a Camera,
+    /// Width of an outline, pixels.
+    line: f64,
+    /// Width of the seam around arrows, pixels.
+    casing: f64,
+    /// How much wider than told arrows are drawn: at small scales, so that their colours can be told apart.
+    wider: f64,
+}
+
+impl<'a> Pen<'a> {
+    fn of(stage: &'a Stage<'a>, number: usize, camera: &'a Camera) -> Pen<'a> {
+        let unit = camera.length(stage.unit);
+        Pen {
+            stage,
+            number,
+            camera,
+            line: (0.028 * unit).clamp(0.25, 1.5),
+            casing: (0.012 * unit).clamp(0.1, 0.9),
+            // Texture would turn to soup.
+            wider: if unit < TEXTURE {
+                1.0
+            } else {
+                (LEAST_SHAFT / (FORCE_WIDTH * unit)).clamp(1.0, 1.35)
+            },
+        }
+    }
+
+    fn unit(&self) -> f64 {
+        self.camera.length(self.stage.unit)
+    }
+
+    fn ground(&self) -> Group {
+        let theme = &self.stage.options.theme;
+        let scene = self.stage.analysis.scene;
+        let mut group = Group::of_class("ground").titled("Ground");
+        if scene.ground.is_empty() {
+            return group;
+        }
+        group.clip = Some(self.camera.rect(self.stage.view));
+        let mut colours = ByColour::default();
+        for ground in &scene.ground {
+            let fill = ground.body.fill.map_or(theme.ground, colour);
+            colours.add(fill, self.camera.polygon(&ground.body.polygon));
+        }
+        group
+            .items
+            .extend(colours.paths(Some(Stroke::new(theme.outline, self.line))));
+        group
+    }
+
+    fn fill(&self, place: usize, id: BlockId) -> Colour {
+        let scene = self.stage.analysis.scene;
+        match scene.blocks[id.0].body.fill {
+            Some(fill) => colour(fill),
+            None => self
+                .stage
+                .options
+                .theme
+                .amplitude(self.stage.fills.shares[self.number][place]),
+        }
+    }
+
+    fn seam(&self, fill: Colour) -> Stroke {
+        // A touch lighter or darker than the block: visible on any fill, never louder than an outline.
+        let theme = &self.stage.options.theme;
+        let towards = if fill.brightness() < 0.5 {
+            theme.page
+        } else {
+            theme.ink
+        };
+        Stroke::new(fill.mixed(towards, 0.22), 0.6 * self.line)
+    }
+
+    fn blocks(&self) -> Group {
+        let (scene, theme) = (self.stage.analysis.scene, &self.stage.options.theme);
+        let frame = &scene.frames[self.number];
+        let mut group = Group::of_class("blocks");
+        for (place, id) in frame.placed.iter().enumerate() {
+            let block = &scene.blocks[id.0];
+            let fill = self.fill(place, *id);
+            let outline = self.camera.polygon(&block.body.polygon);
+            let mut body = Group::of_class("block").titled(format!("Block {}", block.id));
+            body.description = told::block(self.stage, self.number, place, block);
+            body = body.with(Path::filled(outline.clone(), fill));
+            let seams = seams(&block.body, scene.lattice, self.camera);
+            body = body.with(Path::stroked(seams, self.seam(fill)));
+            group.items.push(
+                body.with(Path::stroked(
+                    outline,
+                    Stroke::new(theme.outline, self.line),
+                ))
+                .into(),
+            );
+        }
+        group.items.extend(self.names().into_iter().map(Into::into));
+        group
+    }
+
+    fn names(&self) -> Vec<Text> {
+        let size = (0.25 * self.unit()).clamp(0.0, 14.0);
+        if !self.stage.options.labels || size < 8.0 {
+            return Vec::new();
+        }
+        let scene = self.stage.analysis.scene;
+        let frame = &scene.frames[self.number];
+        let half = |id: BlockId| text::width(&scene.blocks[id.0].id, Face::SansBold, size) / 2.0;
+        let metres = self.stage.unit / self.unit();
+        let radius = |id: BlockId| libm::hypot(half(id), 0.38 * size) * metres;
+        let places = label::places(self.stage, frame, &self.stage.marks[self.number], radius);
+        let name = |(place, (id, at)): (usize, (&BlockId, Option<Point>))| {
+            let fill = self.fill(place, *id);
+            let ink = if fill.brightness() < 0.55 {
+                Colour::WHITE
+            } else {
+                Colour::BLACK
+            };
+            let at = self.camera.place(at?).moved(0.0, 0.36 * size);
+            let words = scene.blocks[id.0].id.as_str();
+            Some(
+                Text::new(at, words, Face::SansBold, size, fill.mixed(ink, 0.75))
+                    .anchored(Anchor::Middle),
+            )
+        };
+        frame
+            .placed
+            .iter()
+            .zip(places)
+            .enumerate()
+            .filter_map(name)
+            .collect()
+    }
+
+    /// As [`Pen::blocks`] for scenes of very many blocks: one path for all blocks of a colour.
+    fn blocks_by_colour(&self) -> Group {
+        let (scene, theme) = (self.stage.analysis.scene, &self.stage.options.theme);
+        let frame = &scene.frames[self.number];
+        let mut group = Group::of_class("blocks").titled(format!("{} blocks", frame.placed.len()));
+        let mut colours = ByColour::default();
+        for (place, id) in frame.placed.iter().enumerate() {
+            let outline = self.camera.polygon(&scene.blocks[id.0].body.polygon);
+            colours.add(self.fill(place, *id), outline);
+        }
+        group
+            .items
+            .extend(colours.paths(Some(Stroke::new(theme.outline, self.line))));
+        group
+    }
+
+    fn plans(&self) -> Group {
+        let scene = self.stage.analysis.scene;
+        let mut group = Group::of_class("plans");
+        for plan in &scene.frames[self.number].plans {
+            let (block, robot) = (&scene.blocks[plan.block.0], &scene.robots[plan.robot.0]);
+            let ink = self.stage.options.theme.robot(plan.robot.0);
+            let title = format!("Block {}, planned by robot {}", block.id, robot.id);
+            let seams = seams(&block.body, scene.lattice, self.camera);
+            let outline = self.camera.polygon(&block.body.polygon);
+            let planned = Group::of_class("plan")
+                .titled(title)
+                .with(Path::stroked(seams, Stroke::new(ink, 0.9 * self.line)))
+                .with(Path::stroked(outline, Stroke::new(ink, 1.8 * self.line)));
+            group.items.push(planned.into());
+        }
+        group
+    }
+
+    fn discs(&self) -> Group {
+        let (scene, theme) = (self.stage.analysis.scene, &self.stage.options.theme);
+        let mut group = Group::of_class("robots");
+        for hold in &scene.frames[self.number].holds {
+            let disc = Outline::circle(self.camera.place(hold.at), DISC * self.unit());
+            let title = format!(
+                "Robot {} holds block {}",
+                scene.robots[hold.robot.0].id, scene.blocks[hold.block.0].id
+            );
+            let edge = theme.robot(hold.robot.0).mixed(theme.ink, 0.35);
+            let path = Path::filled(disc, theme.robot(hold.robot.0))
+                .with_stroke(Stroke::new(edge, 0.7 * self.line));
+            group
+                .items
+                .push(Group::of_class("robot").titled(title).with(path).into());
+        }
+        group
+    }
+
+    fn arrow(&self, arrow: &ForceArrow) -> Path {
+        let wider = if arrow.kind.is_failure() {
+            1.0
+        } else {
+            self.wider
+        };
+        let width = wider * self.camera.length(arrow.width);
+        let outline = straight(
+            self.camera.place(arrow.at),
+            self.camera.turn(arrow.vector),
+            width,
+        );
+        Path::filled(outline, arrow.colour).cased(self.stage.options.theme.casing, self.casing)
+    }
+
+    /// The heads of all arrows once more, above all shafts: along a line of thrust arrows lie on each other, and a shaft
+    /// must not hide which way another points.
+    fn heads(&self) -> Group {
+        let mut group = Group {
+            echo: true,
+            ..Group::of_class("heads")
+        };
+        let marks = &self.stage.marks[self.number];
+        for arrow in marks.arrows.iter().filter(|a| !a.kind.is_failure()) {
+            let width = self.wider * self.camera.length(arrow.width);
+            let (from, along) = (self.camera.place(arrow.at), self.camera.turn(arrow.vector));
+            let head = Path::filled(head(from, along, width), arrow.colour);
+            group.items.push(
+                head.cased(self.stage.options.theme.casing, self.casing)
+                    .into(),
+            );
+        }
+        group
+    }
+
+    fn turn(&self, turn: &TurnArrow) -> Path {
+        let radius = TURN * self.stage.unit;
+        let sweep = (turn.arc.abs() / radius).clamp(0.7, 5.0) * turn.arc.signum();
+        let outline = turning(
+            self.camera.place(turn.at),
+            self.camera.length(radius),
+            self.clearest(turn, radius, sweep) - sweep / 2.0,
+            sweep,
+            self.camera.length(turn.width),
+        );
+        Path::filled(outline, turn.colour).cased(self.stage.options.theme.casing, self.casing)
+    }
+
+    /// The direction from a turning arrow's centre to its middle in which it keeps farthest from straight arrows; the
+    /// top where that is as good as any.
+    fn clearest(&self, turn: &TurnArrow, radius: f64, sweep: f64) -> f64 {
+        let arrows = &self.stage.marks[self.number].arrows;
+        // The head lies beyond the sweep.
+        let ends = [
+            -0.5 * sweep,
+            0.5 * sweep + sweep.signum() * 4.5 * turn.width / radius,
+        ];
+        let clear = |middle: f64| {
+            let from_arrows = |share: f64| {
+                let angle = middle + ends[0] + (ends[1] - ends[0]) * share;
+                let p = turn.at + Vector::new(libm::cos(angle), libm::sin(angle)) * radius;
+                arrows
+                    .iter()
+                    .map(|a| label::from_arrow(a, p))
+                    .fold(f64::INFINITY, f64::min)
+            };
+            (0..9)
+                .map(|i| from_arrows(f64::from(i) / 8.0))
+                .fold(f64::INFINITY, f64::min)
+        };
+        let mut best = (clear(FRAC_PI_2), FRAC_PI_2);
+        for step in [1, -1, 2, -2, 3, -3, 4, -4, 5, -5, 6] {
+            let middle = FRAC_PI_2 + f64::from(step) * FRAC_PI_2 / 3.0;
+            let room = clear(middle);
+            if room > best.0 + 0.02 * self.stage.unit {
+                best = (room, middle);
+            }
+        }
+        best.1
+    }
+
+    /// The arrows of what is there, or of what is missing, each with its numbers.
+    fn arrows(&self, missing: bool) -> Group {
+        let marks = &self.stage.marks[self.number];
+        let mut group = Group::of_class(if missing { "failures" } else { "forces" });
+        for arrow in marks
+            .arrows
+            .iter()
+            .filter(|a| a.kind.is_failure() == missing)
+        {
+            let title = told::arrow(self.stage, arrow);
+            group.items.push(
+                Group::of_class("force")
+                    .titled(title)
+                    .with(self.arrow(arrow))
+                    .into(),
+            );
+        }
+        for turn in marks
+            .turns
+            .iter()
+            .filter(|t| matches!(t.kind, TurnKind::Missing(_)) == missing)
+        {
+            let title = told::turn(self.stage, turn);
+            group.items.push(
+                Group::of_class("torque")
+                    .titled(title)
+                    .with(self.turn(turn))
+                    .into(),
+            );
+        }
+        group
+    }
+
+    /// As [`Pen::arrows`] for scenes of very many blocks: one path for all arrows of a colour.
+    fn arrows_by_colour(&self) -> Group {
+        let mut group = Group::of_class("forces");
+        let mut colours = ByColour::default();
+        for arrow in self.stage.marks[self.number]
+            .arrows
+            .iter()
+            .filter(|a| !a.kind.is_failure())
+        {
+            colours.add(arrow.colour, self.arrow(arrow).outline);
+        }
+        group.items.extend(colours.paths(None));
+        group
+    }
+}
