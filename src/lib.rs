@@ -6,6 +6,7 @@ pub mod geometry;
 pub mod interface;
 pub mod program;
 pub mod proof;
+pub mod report;
 pub mod resultant;
 pub mod scene;
 pub mod solve;

@@ -1,1 +1,3 @@
+//! The `drystone` program.
+
 fn main() {}
