@@ -1,0 +1,66 @@
+//! [`Camera`]: from the scene's metres to the page's pixels. The one place at which y turns over.
+
+use super::{Outline, PagePoint, PageRect};
+use crate::geometry::{Bounds, Point, Polygon, Vector};
+
+/// How a scene lies on a page.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    corner: Point,
+    at: PagePoint,
+    scale: f64,
+}
+
+impl Camera {
+    /// A camera that puts the upper left corner of `view` (metres) at `at`, with `scale` pixels per metre.
+    ///
+    /// ```
+    /// use drystone::drawing::{Camera, PagePoint};
+    /// use drystone::geometry::{Bounds, Point};
+    /// let view = Bounds { min: Point::new(2.0, 1.0), max: Point::new(5.0, 7.0) };
+    /// let camera = Camera::new(view, PagePoint::new(10.0, 20.0), 8.0);
+    /// assert_eq!(camera.place(Point::new(3.0, 6.0)), PagePoint::new(18.0, 28.0));
+    /// ```
+    pub fn new(view: Bounds, at: PagePoint, scale: f64) -> Camera {
+        Camera {
+            corner: Point::new(view.min.x, view.max.y),
+            at,
+            scale,
+        }
+    }
+
+    /// Where a place of the scene lies on the page.
+    pub fn place(&self, p: Point) -> PagePoint {
+        // The difference first: far from the origin it is exact, the products are not.
+        let d = p - self.corner;
+        PagePoint::new(self.at.x + d.x * self.scale, self.at.y - d.y * self.scale)
+    }
+
+    /// A displacement of the scene on the page, right and down in pixels.
+    pub fn turn(&self, v: Vector) -> (f64, f64) {
+        (v.x * self.scale, -v.y * self.scale)
+    }
+
+    /// A length in metres, in pixels.
+    pub fn length(&self, metres: f64) -> f64 {
+        metres * self.scale
+    }
+
+    /// A box of the scene on the page.
+    pub fn rect(&self, bounds: Bounds) -> PageRect {
+        PageRect {
+            at: self.place(Point::new(bounds.min.x, bounds.max.y)),
+            width: self.length(bounds.width()),
+            height: self.length(bounds.height()),
+        }
+    }
+
+    /// A polygon with its holes on the page.
+    pub fn polygon(&self, polygon: &Polygon) -> Outline {
+        let mut outline = Outline::default();
+        for ring in polygon.rings() {
+            outline.extend(Outline::ring(ring.iter().map(|p| self.place(*p))));
+        }
+        outline
+    }
+}

@@ -1,0 +1,138 @@
+//! [`Outline`]: a path on the page, of straight lines and cubic curves.
+
+use super::{PagePoint, PageRect};
+
+/// One step of an outline.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Segment {
+    /// Begin a new part here.
+    Move(PagePoint),
+    /// A straight line to here.
+    Line(PagePoint),
+    /// A cubic curve: two control points and where it ends.
+    Curve(PagePoint, PagePoint, PagePoint),
+    /// Straight back to the beginning of the part.
+    Close,
+}
+
+/// A path on the page, perhaps of several parts.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Outline {
+    /// Its steps in order.
+    pub segments: Vec<Segment>,
+}
+
+impl Outline {
+    /// A closed ring through some points.
+    pub fn ring(points: impl IntoIterator<Item = PagePoint>) -> Outline {
+        let mut outline = Outline::line(points);
+        if !outline.segments.is_empty() {
+            outline.segments.push(Segment::Close);
+        }
+        outline
+    }
+
+    /// An open line through some points.
+    pub fn line(points: impl IntoIterator<Item = PagePoint>) -> Outline {
+        let segments = points.into_iter().enumerate().map(|(i, p)| {
+            if i == 0 {
+                Segment::Move(p)
+            } else {
+                Segment::Line(p)
+            }
+        });
+        Outline {
+            segments: segments.collect(),
+        }
+    }
+
+    /// An upright rectangle with corners rounded by `radius` pixels.
+    pub fn rounded(rect: PageRect, radius: f64) -> Outline {
+        let r = radius.min(rect.width / 2.0).min(rect.height / 2.0);
+        let corner = |x: f64, y: f64| rect.at.moved(x, y);
+        let (w, h) = (rect.width, rect.height);
+        if r <= 0.0 {
+            return Outline::ring([
+                corner(0.0, 0.0),
+                corner(w, 0.0),
+                corner(w, h),
+                corner(0.0, h),
+            ]);
+        }
+        // The distance of a control point from the corner for which a cubic comes closest to a quarter circle.
+        let c = r * (1.0 - QUARTER);
+        Outline {
+            segments: vec![
+                Segment::Move(corner(r, 0.0)),
+                Segment::Line(corner(w - r, 0.0)),
+                Segment::Curve(corner(w - c, 0.0), corner(w, c), corner(w, r)),
+                Segment::Line(corner(w, h - r)),
+                Segment::Curve(corner(w, h - c), corner(w - c, h), corner(w - r, h)),
+                Segment::Line(corner(r, h)),
+                Segment::Curve(corner(c, h), corner(0.0, h - c), corner(0.0, h - r)),
+                Segment::Line(corner(0.0, r)),
+                Segment::Curve(corner(0.0, c), corner(c, 0.0), corner(r, 0.0)),
+                Segment::Close,
+            ],
+        }
+    }
+
+    /// A circle.
+    pub fn circle(centre: PagePoint, radius: f64) -> Outline {
+        let at = PagePoint::new(centre.x - radius, centre.y - radius);
+        let mut circle = Outline::rounded(
+            PageRect {
+                at,
+                width: 2.0 * radius,
+                height: 2.0 * radius,
+            },
+            radius,
+        );
+        // A rounded square without straight sides: its lines have no length.
+        circle.segments.retain(|s| !matches!(s, Segment::Line(_)));
+        circle
+    }
+
+    /// Puts another outline's parts after this one's.
+    pub fn extend(&mut self, other: Outline) {
+        self.segments.extend(other.segments);
+    }
+
+    /// Every point the outline names; it lies within their hull.
+    pub fn points(&self) -> impl Iterator<Item = PagePoint> + '_ {
+        self.segments.iter().flat_map(|segment| match *segment {
+            Segment::Move(p) | Segment::Line(p) => vec![p],
+            Segment::Curve(a, b, c) => vec![a, b, c],
+            Segment::Close => vec![],
+        })
+    }
+}
+
+/// Control point distance of a quarter circle of radius 1: (4/3)·tan(π/8).
+pub(crate) const QUARTER: f64 = 0.552_284_749_830_793_4;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_circle_stays_at_its_radius_half_way_along_each_curve() {
+        let centre = PagePoint::new(3.0, -7.0);
+        let mut from = centre;
+        let mut curves = 0;
+        for segment in Outline::circle(centre, 2.0).segments {
+            match segment {
+                Segment::Move(p) | Segment::Line(p) => from = p,
+                Segment::Curve(a, b, to) => {
+                    let x = (from.x + 3.0 * a.x + 3.0 * b.x + to.x) / 8.0 - centre.x;
+                    let y = (from.y + 3.0 * a.y + 3.0 * b.y + to.y) / 8.0 - centre.y;
+                    assert!((libm::hypot(x, y) - 2.0).abs() < 1e-6);
+                    from = to;
+                    curves += 1;
+                }
+                Segment::Close => {}
+            }
+        }
+        assert_eq!(curves, 4);
+    }
+}

@@ -1,0 +1,250 @@
+//! [`Text`]: a line of words, and how wide words are in our own fonts.
+//!
+//! Widths are sums of advances, without kerning: a pair moves by a few hundredths of the size, which wrapping and
+//! placing do not notice. A character that a face lacks shows as the face's box for missing characters.
+
+use skrifa::MetadataProvider;
+use skrifa::instance::{LocationRef, Size};
+use skrifa::raw::FontRef;
+
+use super::{Colour, PagePoint};
+
+/// A font of ours, with which every word of every figure is set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Face {
+    /// Libertinus Serif.
+    Serif,
+    /// Libertinus Serif Italic.
+    SerifItalic,
+    /// Libertinus Serif Bold.
+    SerifBold,
+    /// Inter.
+    Sans,
+    /// Inter, half bold.
+    SansBold,
+}
+
+impl Face {
+    /// All faces.
+    pub const ALL: [Face; 5] = [
+        Face::Serif,
+        Face::SerifItalic,
+        Face::SerifBold,
+        Face::Sans,
+        Face::SansBold,
+    ];
+
+    /// The font file.
+    pub fn data(self) -> &'static [u8] {
+        match self {
+            Face::Serif => include_bytes!("../../assets/fonts/LibertinusSerif-Regular.otf"),
+            Face::SerifItalic => include_bytes!("../../assets/fonts/LibertinusSerif-Italic.otf"),
+            Face::SerifBold => include_bytes!("../../assets/fonts/LibertinusSerif-Bold.otf"),
+            Face::Sans => include_bytes!("../../assets/fonts/Inter-Regular.ttf"),
+            Face::SansBold => include_bytes!("../../assets/fonts/Inter-SemiBold.ttf"),
+        }
+    }
+
+    /// The family's own name first, then what a reader's machine may have instead.
+    pub fn families(self) -> &'static str {
+        match self {
+            Face::Serif | Face::SerifItalic | Face::SerifBold => {
+                "'Libertinus Serif', 'Linux Libertine O', Palatino, Georgia, serif"
+            }
+            Face::Sans | Face::SansBold => "Inter, 'Helvetica Neue', Arial, sans-serif",
+        }
+    }
+
+    /// The weight, 100 … 900.
+    pub fn weight(self) -> u16 {
+        match self {
+            Face::Serif | Face::SerifItalic | Face::Sans => 400,
+            Face::SansBold => 600,
+            Face::SerifBold => 700,
+        }
+    }
+
+    /// Whether it is slanted.
+    pub fn italic(self) -> bool {
+        self == Face::SerifItalic
+    }
+
+    /// Whether the face has a character.
+    pub fn has(self, character: char) -> bool {
+        self.font().charmap().map(character).is_some()
+    }
+
+    fn font(self) -> FontRef<'static> {
+        FontRef::new(self.data()).expect("our font files are sound, a test opens each")
+    }
+}
+
+/// Which end of a line of words its place is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Anchor {
+    /// The left end.
+    Start,
+    /// The middle.
+    Middle,
+    /// The right end.
+    End,
+}
+
+/// A line of words.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Text {
+    /// Where: on the base line, at the end that `anchor` says.
+    pub at: PagePoint,
+    /// Which end lies there.
+    pub anchor: Anchor,
+    /// The words.
+    pub words: String,
+    /// The font.
+    pub face: Face,
+    /// Size of the font in pixels.
+    pub size: f64,
+    /// Colour.
+    pub fill: Colour,
+    /// Colour and width in pixels of a seam around the letters that keeps them apart from what they lie on.
+    pub halo: Option<(Colour, f64)>,
+}
+
+impl Text {
+    /// Words that begin at a place.
+    pub fn new(
+        at: PagePoint,
+        words: impl Into<String>,
+        face: Face,
+        size: f64,
+        fill: Colour,
+    ) -> Text {
+        Text {
+            at,
+            anchor: Anchor::Start,
+            words: words.into(),
+            face,
+            size,
+            fill,
+            halo: None,
+        }
+    }
+
+    /// The same words, at their place with another end.
+    pub fn anchored(self, anchor: Anchor) -> Text {
+        Text { anchor, ..self }
+    }
+
+    /// The same words with a seam around them.
+    pub fn with_halo(self, colour: Colour, width: f64) -> Text {
+        Text {
+            halo: Some((colour, width)),
+            ..self
+        }
+    }
+}
+
+/// How wide words are, in pixels.
+pub fn width(words: &str, face: Face, size: f64) -> f64 {
+    let font = face.font();
+    let charmap = font.charmap();
+    let metrics = font.glyph_metrics(Size::new(size as f32), LocationRef::default());
+    let advance = |c: char| {
+        metrics
+            .advance_width(charmap.map(c).unwrap_or_default())
+            .unwrap_or(0.0)
+    };
+    words.chars().map(|c| f64::from(advance(c))).sum()
+}
+
+/// Words broken into lines of at most `room` pixels. A word that is too wide for a line is broken where it must be.
+/// White space of any kind counts as one space; no words make no lines.
+pub fn wrap(words: &str, face: Face, size: f64, room: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    let mut line = String::new();
+    for word in words.split_whitespace() {
+        let longer = if line.is_empty() {
+            word.to_owned()
+        } else {
+            format!("{line} {word}")
+        };
+        if width(&longer, face, size) <= room {
+            line = longer;
+            continue;
+        }
+        if !line.is_empty() {
+            lines.push(std::mem::take(&mut line));
+        }
+        for character in word.chars() {
+            line.push(character);
+            if line.chars().count() > 1 && width(&line, face, size) > room {
+                line.pop();
+                lines.push(std::mem::take(&mut line));
+                line.push(character);
+            }
+        }
+    }
+    if !line.is_empty() {
+        lines.push(line);
+    }
+    lines
+}
+
+/// The first lines, the last of them ending in "…" where there are more than `most`.
+pub fn cut(mut lines: Vec<String>, most: usize, face: Face, size: f64, room: f64) -> Vec<String> {
+    if lines.len() > most {
+        lines.truncate(most);
+        if let Some(last) = lines.last_mut() {
+            while !last.is_empty() && width(&format!("{last} …"), face, size) > room {
+                last.pop();
+            }
+            let kept = last.trim_end().len();
+            last.truncate(kept);
+            last.push_str(" …");
+        }
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn widths_grow_with_size_and_words_and_know_the_letters() {
+        for face in Face::ALL {
+            assert!(
+                width("W", face, 20.0) > 2.0 * width("i", face, 20.0),
+                "{face:?}"
+            );
+            let (one, two) = (width("Robot 0", face, 10.0), width("Robot 0", face, 20.0));
+            assert!(
+                (two - 2.0 * one).abs() < 1e-3 && one > 20.0,
+                "{face:?} {one}"
+            );
+        }
+    }
+
+    #[test]
+    fn wrapping_keeps_every_word_and_no_line_is_too_wide() {
+        let words = "The robot 0 wants to place anewblockwithanamethatisfartoolong here";
+        let lines = wrap(words, Face::Serif, 15.0, 120.0);
+        assert!(lines.len() > 3);
+        assert!(lines.iter().all(|l| width(l, Face::Serif, 15.0) <= 120.0));
+        assert_eq!(lines.concat().replace(' ', ""), words.replace(' ', ""));
+        assert!(wrap(" \n\t", Face::Serif, 15.0, 120.0).is_empty());
+        let cut = cut(lines, 2, Face::Serif, 15.0, 120.0);
+        assert_eq!(cut.len(), 2);
+        assert!(cut[1].ends_with('…') && width(&cut[1], Face::Serif, 15.0) <= 120.0);
+    }
+
+    #[test]
+    fn every_character_that_our_own_words_use_is_in_every_face() {
+        let ours = "ABCXYZabcxyz0123456789 .,;:·–—…()[]|/+-−×=±°²³½≤≥→∑√μΣφθ∞“”‘’□";
+        for face in Face::ALL {
+            for c in ours.chars() {
+                assert!(face.has(c), "{face:?} lacks {c:?}");
+            }
+        }
+        assert!(!Face::Serif.has('石'));
+    }
+}

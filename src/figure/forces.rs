@@ -1,0 +1,278 @@
+//! [`forces`]: how the forces run, one panel per frame.
+
+use super::layout::{GAP, Layout, MARGIN};
+use super::legend;
+use super::option::{ArrowScale, Options};
+use super::panel;
+use super::stage::Stage;
+use super::verdict;
+use super::words::{letter, quantity};
+use crate::analysis::Analysis;
+use crate::drawing::{
+    Anchor, Camera, Drawing, Face, Group, Item, Outline, PagePoint, Path, Stroke, Text, text,
+};
+
+const HEADING: f64 = 22.0;
+const CAPTION: f64 = 17.0;
+const CAPTION_LINE: f64 = 22.0;
+const VERDICT: f64 = 13.5;
+const REASON: f64 = 12.5;
+const REASON_LINE: f64 = 17.0;
+const MOST_CAPTION_LINES: usize = 6;
+const MOST_REASON_LINES: usize = 4;
+
+/// The figure of an analysis: each frame a panel with its forces, its caption and its verdict, several frames a strip.
+///
+/// Arrows act on a block and wear its colour; what is missing is thick and red; the colours of blocks tell amplitudes
+/// ([Vallat23] §2.0.8 and §2.0.9). All panels show the same part of the scene at the same scale.
+///
+/// Units: the page is in pixels at natural size, 300 to 1100 wide.
+pub fn forces(analysis: &Analysis<'_>, options: &Options) -> Drawing {
+    let stage = Stage::of(analysis, options);
+    let layout = Layout::of(&stage);
+    let strip = Strip {
+        stage: &stage,
+        layout,
+    };
+    strip.drawing()
+}
+
+struct Strip<'a> {
+    stage: &'a Stage<'a>,
+    layout: Layout,
+}
+
+impl Strip<'_> {
+    fn drawing(&self) -> Drawing {
+        let (options, scene) = (self.stage.options, self.stage.analysis.scene);
+        let theme = &options.theme;
+        let unit = self.layout.scale * self.stage.unit;
+        let entries = if options.keys {
+            legend::entries(self.stage, unit)
+        } else {
+            Vec::new()
+        };
+        // A narrow picture gets a page wide enough for its words.
+        let inner = self
+            .layout
+            .content
+            .max(legend::widest(&entries).min(640.0))
+            .max(300.0);
+        let width = inner + 2.0 * MARGIN;
+        let middle = width / 2.0;
+        let left = middle - self.layout.content / 2.0;
+        let mut items: Vec<Item> = Vec::new();
+        let mut y = MARGIN;
+        if options.captions && !scene.title.is_empty() {
+            let lines = text::wrap(&scene.title, Face::SerifBold, HEADING, inner);
+            for line in text::cut(lines, 3, Face::SerifBold, HEADING, inner) {
+                y += HEADING;
+                let at = PagePoint::new(middle, y - 5.0);
+                items.push(
+                    Text::new(at, line, Face::SerifBold, HEADING, theme.ink)
+                        .anchored(Anchor::Middle)
+                        .into(),
+                );
+                y += 5.0;
+            }
+            y += 18.0;
+        }
+        let frames: Vec<usize> = (0..self.stage.marks.len()).collect();
+        let rows: Vec<&[usize]> = frames.chunks(self.layout.columns).collect();
+        for (number, row) in rows.iter().enumerate() {
+            if number > 0 {
+                y += 30.0;
+            }
+            let mut bottom = y;
+            for (column, frame) in row.iter().enumerate() {
+                let x = left + column as f64 * (self.layout.panel + GAP);
+                let (panel, end) = self.panel(*frame, PagePoint::new(x, y));
+                items.push(panel.into());
+                bottom = f64::max(bottom, end);
+            }
+            y = bottom;
+        }
+        if !entries.is_empty() {
+            y += 20.0;
+            let rule = Outline::line([
+                PagePoint::new(middle - inner / 2.0, y),
+                PagePoint::new(middle + inner / 2.0, y),
+            ]);
+            items.push(Path::stroked(rule, Stroke::new(theme.rule, 1.0)).into());
+            y += 8.0;
+            let (key, height) = legend::draw(&entries, middle, y, inner, theme);
+            items.push(key.into());
+            y += height - 10.0;
+        }
+        Drawing {
+            width: width.ceil(),
+            height: (y + MARGIN).ceil(),
+            title: if scene.title.is_empty() {
+                "Forces in a dry-laid structure".into()
+            } else {
+                scene.title.clone()
+            },
+            description: self.told(),
+            background: Some(theme.page),
+            items,
+        }
+    }
+
+    /// A frame's picture, caption and verdict, with the upper left corner at `at`; and where it ends below.
+    fn panel(&self, frame: usize, at: PagePoint) -> (Group, f64) {
+        let (stage, layout) = (self.stage, self.layout);
+        let (options, theme) = (stage.options, &stage.options.theme);
+        let (scene, found) = (stage.analysis.scene, &stage.analysis.frames[frame]);
+        let aside = (layout.panel - stage.view.width() * layout.scale) / 2.0;
+        let camera = Camera::new(stage.view, at.moved(aside, 0.0), layout.scale);
+        let mut group = Group {
+            id: Some(format!("frame-{}", frame + 1)),
+            ..Group::of_class("frame")
+        };
+        group.title = format!(
+            "{}: {}",
+            self.caption(frame, ": "),
+            verdict::word(found.verdict)
+        );
+        group = group.with(panel::picture(stage, frame, &camera));
+        let middle = at.x + layout.panel / 2.0;
+        let mut y = at.y + stage.view.height() * layout.scale;
+        if options.captions {
+            let caption = self.caption(frame, " ");
+            let lines = balanced(
+                &caption,
+                Face::Serif,
+                CAPTION,
+                layout.panel,
+                MOST_CAPTION_LINES,
+            );
+            y += if lines.is_empty() { 0.0 } else { 10.0 };
+            for line in lines {
+                y += CAPTION_LINE;
+                let at = PagePoint::new(middle, y - 5.0);
+                group = group.with(
+                    Text::new(at, line, Face::Serif, CAPTION, theme.ink).anchored(Anchor::Middle),
+                );
+            }
+        }
+        if options.keys {
+            y += 8.0;
+            group
+                .items
+                .extend(self.verdict(frame, PagePoint::new(middle, y + 10.0)));
+            y += 22.0;
+            let reason = verdict::reason(scene, found);
+            for line in balanced(&reason, Face::Sans, REASON, layout.panel, MOST_REASON_LINES) {
+                y += REASON_LINE;
+                let at = PagePoint::new(middle, y - 4.0);
+                group = group.with(
+                    Text::new(at, line, Face::Sans, REASON, theme.faint).anchored(Anchor::Middle),
+                );
+            }
+        }
+        (group, y)
+    }
+
+    /// The mark, the word and the scale of arrows in one line about `centre`.
+    fn verdict(&self, frame: usize, centre: PagePoint) -> Vec<Item> {
+        let theme = &self.stage.options.theme;
+        let found = &self.stage.analysis.frames[frame];
+        let word = verdict::word(found.verdict);
+        let wide = text::width(word, Face::SansBold, VERDICT);
+        let radius = 7.5;
+        let lead = 2.0 * radius + 6.0 + wide;
+        let unit = self.layout.scale * self.stage.unit;
+        let scale = match self.stage.options.scale {
+            ArrowScale::Panel => legend::scale(self.stage.marks[frame].newtons_per_unit, unit),
+            ArrowScale::Strip => None,
+        };
+        let total = lead
+            + scale
+                .as_ref()
+                .map_or(0.0, |s| 22.0 + legend::widest(std::slice::from_ref(s)));
+        let start = centre.moved(-total / 2.0, 0.0);
+        let colour = verdict::colour(found.verdict, theme);
+        let at = start.moved(2.0 * radius + 6.0, 0.35 * VERDICT);
+        let mut items: Vec<Item> = vec![
+            verdict::mark(found.verdict, start.moved(radius, 0.0), radius, theme).into(),
+            Text::new(at, word, Face::SansBold, VERDICT, colour).into(),
+        ];
+        if let Some(scale) = scale {
+            items.extend(legend::single(&scale, start.moved(lead + 22.0, 0.0), theme).0);
+        }
+        items
+    }
+
+    /// `(a) Initial situation`; without a letter where there is but one frame, without what the heading says already.
+    fn caption(&self, frame: usize, between: &str) -> String {
+        let scene = self.stage.analysis.scene;
+        let title = &scene.frames[frame].title;
+        if scene.frames.len() > 1 {
+            let letter = letter(frame);
+            return if title.is_empty() {
+                format!("({letter})")
+            } else {
+                format!("({letter}){between}{title}")
+            };
+        }
+        if *title == scene.title {
+            String::new()
+        } else {
+            title.clone()
+        }
+    }
+
+    /// The whole figure in sentences.
+    fn told(&self) -> String {
+        let scene = self.stage.analysis.scene;
+        let tell = |(frame, found): (usize, &crate::analysis::FrameAnalysis)| {
+            let caption = self.caption(frame, " ");
+            let lead = if caption.is_empty() {
+                String::new()
+            } else {
+                format!("{caption}: ")
+            };
+            let reason = verdict::reason(scene, found);
+            let reason = if reason.is_empty() {
+                reason
+            } else {
+                format!(", {reason}")
+            };
+            let blocks = scene.frames[frame].placed.len();
+            let weight = quantity(found.weight, "N");
+            format!(
+                "{lead}{} ({blocks} blocks of {weight} together){reason}.",
+                verdict::word(found.verdict)
+            )
+        };
+        let frames: Vec<String> = self
+            .stage
+            .analysis
+            .frames
+            .iter()
+            .enumerate()
+            .take(30)
+            .map(tell)
+            .collect();
+        frames.join(" ")
+    }
+}
+
+/// Words in as few lines as `room` allows, and those about equally long.
+fn balanced(words: &str, face: Face, size: f64, room: f64, most: usize) -> Vec<String> {
+    let mut lines = text::cut(text::wrap(words, face, size, room), most, face, size, room);
+    let count = lines.len();
+    if count < 2 || lines.last().is_some_and(|l| l.ends_with('…')) {
+        return lines;
+    }
+    let mut narrower = room;
+    while narrower > room / 3.0 {
+        narrower -= 4.0;
+        let next = text::wrap(words, face, size, narrower);
+        if next.len() > count {
+            break;
+        }
+        lines = next;
+    }
+    lines
+}

@@ -1,0 +1,74 @@
+//! [`Layout`]: how many panels stand beside each other, how wide they are and at what scale.
+
+use super::stage::Stage;
+
+/// Room around a figure, pixels.
+pub(crate) const MARGIN: f64 = 36.0;
+/// Room between panels beside each other, pixels.
+pub(crate) const GAP: f64 = 44.0;
+/// Most room across for all panels of a row, pixels.
+const ACROSS: f64 = 1000.0;
+/// Least width of a panel, so that captions have room, pixels.
+const LEAST: f64 = 240.0;
+/// A unit edge is drawn at most this long in a strip, pixels.
+const LARGEST_UNIT: f64 = 72.0;
+/// A unit edge is drawn at least this long, if fewer columns can help it, pixels.
+const SMALLEST_UNIT: f64 = 30.0;
+
+/// Where panels go.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Layout {
+    /// Panels beside each other.
+    pub columns: usize,
+    /// Width of a panel, pixels.
+    pub panel: f64,
+    /// Width of all panels of a row with the gaps, pixels.
+    pub content: f64,
+    /// Pixels per metre.
+    pub scale: f64,
+}
+
+impl Layout {
+    pub fn of(stage: &Stage<'_>) -> Layout {
+        let count = stage.analysis.scene.frames.len().max(1);
+        let columns = match stage.options.columns {
+            Some(columns) => columns.clamp(1, count),
+            None => {
+                let mut columns = match count {
+                    1..=3 => count,
+                    4 => 2,
+                    _ => 3,
+                };
+                while columns > 1
+                    && Layout::scale(stage, columns, count) * stage.unit < SMALLEST_UNIT
+                {
+                    columns -= 1;
+                }
+                columns
+            }
+        };
+        let scale = Layout::scale(stage, columns, count);
+        let least = if count == 1 { 1.6 * LEAST } else { LEAST };
+        let panel = (stage.view.width() * scale).max(least);
+        let between = (columns - 1) as f64 * GAP;
+        Layout {
+            columns,
+            panel,
+            content: columns as f64 * panel + between,
+            scale,
+        }
+    }
+
+    fn scale(stage: &Stage<'_>, columns: usize, count: usize) -> f64 {
+        let room = ((ACROSS - (columns - 1) as f64 * GAP) / columns as f64).max(LEAST);
+        let rows = count.div_ceil(columns);
+        let high = match (count, rows) {
+            (1, _) => 640.0,
+            (_, 1) => 460.0,
+            _ => 360.0,
+        };
+        (room / stage.view.width())
+            .min(high / stage.view.height())
+            .min(LARGEST_UNIT / stage.unit)
+    }
+}

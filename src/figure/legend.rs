@@ -1,0 +1,281 @@
+//! The key: what the colours and signs of a figure mean. It lists only what occurs.
+
+use super::fill::FillScale;
+use super::mark::{FORCE_WIDTH, TurnKind};
+use super::option::ArrowScale;
+use super::stage::Stage;
+use super::words::{quantity, round_below};
+use crate::drawing::arrow::{HEAD_LENGTH, straight};
+use crate::drawing::{
+    Colour, Face, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme, text,
+};
+
+/// Size of the key's letters, pixels.
+pub(crate) const SIZE: f64 = 12.5;
+/// Height of a line of the key, pixels.
+pub(crate) const LINE: f64 = 26.0;
+const BETWEEN: f64 = 28.0;
+const SIGN: f64 = 9.0;
+
+/// One thing the key explains.
+pub(crate) enum Entry {
+    /// Arrow colours and the blocks they belong to.
+    Blocks(Vec<(Colour, String)>),
+    /// A robot's disc.
+    Robot(Colour, String),
+    /// The outline of a planned block.
+    Planned(Colour),
+    /// What is missing.
+    Missing,
+    /// A bar of amplitude colours: what its ends say, and what it tells.
+    Amplitudes([String; 2], String),
+    /// An arrow so many pixels long, so wide, of an amount.
+    Scale(f64, f64, String),
+}
+
+impl Entry {
+    fn width(&self) -> f64 {
+        let wide = |words: &str| text::width(words, Face::Sans, SIZE);
+        match self {
+            Entry::Blocks(blocks) => {
+                wide("force on block")
+                    + blocks
+                        .iter()
+                        .map(|b| 8.0 + 22.0 + 5.0 + wide(&b.1))
+                        .sum::<f64>()
+            }
+            Entry::Robot(_, id) => 2.0 * SIGN + 7.0 + wide(&robot(id)),
+            Entry::Planned(_) => 2.0 * SIGN + 7.0 + wide(PLANNED),
+            Entry::Missing => 34.0 + 7.0 + wide(MISSING),
+            Entry::Amplitudes([low, high], what) => {
+                wide(low) + 7.0 + BAR + 7.0 + wide(high) + 8.0 + wide(what)
+            }
+            Entry::Scale(length, width, amount) => {
+                length + HEAD_LENGTH * width + 7.0 + wide(amount)
+            }
+        }
+    }
+
+    /// The entry with the middle of its left end at `at`.
+    fn draw(&self, at: PagePoint, theme: &Theme) -> Vec<Item> {
+        let words = |x: f64, words: &str| -> Item {
+            Text::new(
+                at.moved(x, 0.36 * SIZE),
+                words,
+                Face::Sans,
+                SIZE,
+                theme.faint,
+            )
+            .into()
+        };
+        match self {
+            Entry::Blocks(blocks) => {
+                let mut items = vec![words(0.0, "force on block")];
+                let mut x = text::width("force on block", Face::Sans, SIZE);
+                for (colour, id) in blocks {
+                    x += 8.0;
+                    items.push(
+                        Path::filled(straight(at.moved(x, 0.0), (10.0, 0.0), 2.6), *colour).into(),
+                    );
+                    x += 22.0 + 5.0;
+                    items.push(words(x, id));
+                    x += text::width(id, Face::Sans, SIZE);
+                }
+                items
+            }
+            Entry::Robot(colour, id) => {
+                let edge = colour.mixed(theme.ink, 0.35);
+                let disc = Path::filled(Outline::circle(at.moved(SIGN, 0.0), 0.8 * SIGN), *colour);
+                vec![
+                    disc.with_stroke(Stroke::new(edge, 0.8)).into(),
+                    words(2.0 * SIGN + 7.0, &robot(id)),
+                ]
+            }
+            Entry::Planned(colour) => {
+                let hexagon = [
+                    (-1.0, 0.0),
+                    (-0.5, -0.87),
+                    (0.5, -0.87),
+                    (1.0, 0.0),
+                    (0.5, 0.87),
+                    (-0.5, 0.87),
+                ];
+                let corner = |(x, y): (f64, f64)| at.moved(SIGN + 0.85 * SIGN * x, 0.85 * SIGN * y);
+                let outline = Path::stroked(
+                    Outline::ring(hexagon.map(corner)),
+                    Stroke::new(*colour, 1.8),
+                );
+                vec![outline.into(), words(2.0 * SIGN + 7.0, PLANNED)]
+            }
+            Entry::Missing => {
+                let width = 4.0;
+                let arrow = straight(at, (34.0 - HEAD_LENGTH * width, 0.0), width);
+                vec![
+                    Path::filled(arrow, theme.failure).into(),
+                    words(34.0 + 7.0, MISSING),
+                ]
+            }
+            Entry::Amplitudes([low, high], what) => {
+                let start = text::width(low, Face::Sans, SIZE) + 7.0;
+                let mut items = vec![words(0.0, low)];
+                let parts = 64;
+                for part in 0..parts {
+                    // Each part reaches to the end and the next lies over it, so that no gap shows between them.
+                    let x = BAR * f64::from(part) / f64::from(parts);
+                    let rect = PageRect {
+                        at: at.moved(start + x, -5.0),
+                        width: BAR - x,
+                        height: 10.0,
+                    };
+                    let fill = theme.amplitude((f64::from(part) + 0.5) / f64::from(parts));
+                    items.push(Path::filled(Outline::rounded(rect, 0.0), fill).into());
+                }
+                items.push(words(start + BAR + 7.0, high));
+                let beyond = start + BAR + 7.0 + text::width(high, Face::Sans, SIZE) + 8.0;
+                items.push(words(beyond, what));
+                items
+            }
+            Entry::Scale(length, width, amount) => {
+                let arrow = Path::filled(straight(at, (*length, 0.0), *width), theme.faint);
+                vec![
+                    arrow.into(),
+                    words(length + HEAD_LENGTH * width + 7.0, amount),
+                ]
+            }
+        }
+    }
+}
+
+const PLANNED: &str = "planned block";
+const MISSING: &str = "missing: what would have to stick or be given";
+const BAR: f64 = 120.0;
+
+fn robot(id: &str) -> String {
+    format!("robot {id}")
+}
+
+/// An arrow that tells the scale of a panel of which one unit edge, `unit` pixels, is `newtons` N; `None` for no force.
+pub(crate) fn scale(newtons: f64, unit: f64) -> Option<Entry> {
+    let amount = round_below(newtons);
+    (amount > 0.0).then(|| {
+        Entry::Scale(
+            amount / newtons * unit,
+            FORCE_WIDTH * unit,
+            quantity(amount, "N"),
+        )
+    })
+}
+
+/// Everything that occurs in the figure, `unit` pixels being one unit edge.
+pub(crate) fn entries(stage: &Stage<'_>, unit: f64) -> Vec<Entry> {
+    let (scene, theme) = (stage.analysis.scene, &stage.options.theme);
+    let mut entries = Vec::new();
+    if stage.options.scale == ArrowScale::Strip {
+        let newtons = stage
+            .marks
+            .iter()
+            .map(|m| m.newtons_per_unit)
+            .fold(0.0, f64::max);
+        entries.extend(scale(newtons, unit));
+    }
+    let mut seen: Vec<(Colour, String)> = Vec::new();
+    let mut clash = false;
+    for (place, id) in scene
+        .frames
+        .iter()
+        .flat_map(|f| f.placed.iter().enumerate())
+    {
+        let entry = (theme.arrow(place + 1), scene.blocks[id.0].id.clone());
+        if !seen.contains(&entry) {
+            clash |= seen.iter().any(|s| s.0 == entry.0 || s.1 == entry.1);
+            seen.push(entry);
+        }
+    }
+    let short = seen.iter().all(|s| s.1.chars().count() <= 12);
+    if !clash && short && !seen.is_empty() && seen.len() <= 6 {
+        entries.push(Entry::Blocks(seen));
+    }
+    let holds = |number: usize| {
+        scene
+            .frames
+            .iter()
+            .any(|f| f.holds.iter().any(|h| h.robot.0 == number))
+    };
+    let plans = |number: usize| {
+        scene
+            .frames
+            .iter()
+            .any(|f| f.plans.iter().any(|p| p.robot.0 == number))
+    };
+    for (number, robot) in scene.robots.iter().enumerate().take(8) {
+        if holds(number) || plans(number) {
+            entries.push(Entry::Robot(theme.robot(number), robot.id.clone()));
+        }
+    }
+    if let Some(number) = (0..scene.robots.len()).find(|n| plans(*n)) {
+        entries.push(Entry::Planned(theme.robot(number)));
+    }
+    let missing = stage.marks.iter().any(|m| {
+        m.arrows.iter().any(|a| a.kind.is_failure())
+            || m.turns
+                .iter()
+                .any(|t| matches!(t.kind, TurnKind::Missing(_)))
+    });
+    if missing {
+        entries.push(Entry::Missing);
+    }
+    let painted = scene.blocks.iter().any(|b| b.body.fill.is_none());
+    if painted && stage.fills.vary() {
+        entries.push(match stage.fills.scale {
+            FillScale::Limit(limit) => {
+                let what = format!("of the robots' limit of {}", quantity(limit, "N"));
+                Entry::Amplitudes(["0".into(), "100 %".into()], what)
+            }
+            FillScale::Largest(largest) => Entry::Amplitudes(
+                ["0".into(), quantity(largest, "N")],
+                "weight or largest normal force".into(),
+            ),
+        });
+    }
+    entries
+}
+
+/// The key in lines of at most `room` pixels, centred about `middle`, from `top` down; and its height.
+pub(crate) fn draw(
+    entries: &[Entry],
+    middle: f64,
+    top: f64,
+    room: f64,
+    theme: &Theme,
+) -> (Group, f64) {
+    let mut lines: Vec<(f64, Vec<&Entry>)> = Vec::new();
+    for entry in entries {
+        let width = entry.width();
+        match lines.last_mut() {
+            Some(line) if line.0 + BETWEEN + width <= room => {
+                line.0 += BETWEEN + width;
+                line.1.push(entry);
+            }
+            _ => lines.push((width, vec![entry])),
+        }
+    }
+    let mut group = Group::of_class("key");
+    for (number, (width, line)) in lines.iter().enumerate() {
+        let mut at = PagePoint::new(middle - width / 2.0, top + (number as f64 + 0.5) * LINE);
+        for entry in line {
+            group.items.extend(entry.draw(at, theme));
+            at = at.moved(entry.width() + BETWEEN, 0.0);
+        }
+    }
+    (group, lines.len() as f64 * LINE)
+}
+
+/// Several entries in one line with the middle of its left end at `at`; and how wide it is.
+pub(crate) fn single(entry: &Entry, at: PagePoint, theme: &Theme) -> (Vec<Item>, f64) {
+    (entry.draw(at, theme), entry.width())
+}
+
+/// How wide the widest entry is, pixels.
+pub(crate) fn widest(entries: &[Entry]) -> f64 {
+    entries.iter().map(Entry::width).fold(0.0, f64::max)
+}

@@ -1,0 +1,512 @@
+//! [`marks`]: every arrow of a frame as numbers, before anything is drawn.
+//!
+//! An arrow tells a force *on* a block and wears that block's colour; the ground wears none. Between two blocks each
+//! has its own arrow, opposite to the other's, both from the moment-equivalent point Σ N_k p_k / Σ N_k of their
+//! interface ([Vallat23] §2.0.9). Robots' arrows are wider, what fails is widest, red, and apart from what is carried.
+
+use super::option::{ForceStyle, Normalisation, Options};
+use super::stage::unit;
+use crate::analysis::{Analysis, Contact, Failure, FrameAnalysis};
+use crate::drawing::Colour;
+use crate::geometry::{Point, Vector, quarter_turn};
+use crate::scene::{BlockId, BodyId, Frame, RobotId, Scene};
+
+/// Shaft width of a force's arrow, in unit edges.
+pub(crate) const FORCE_WIDTH: f64 = 0.05;
+/// Shaft width of a robot's arrow, in unit edges.
+pub(crate) const ROBOT_WIDTH: f64 = 0.07;
+/// Shaft width of a failure's arrow, in unit edges.
+pub(crate) const FAILURE_WIDTH: f64 = 0.10;
+/// Amounts below this share of the largest are noise of the solution, not forces.
+const NOISE: f64 = 1e-6;
+/// In [`Normalisation::Drawn`] a failure's shaft is at least so many unit edges long: it must not be overlooked.
+const LEAST_FAILURE: f64 = 0.08;
+/// The source draws what fails at this share of the scale of the block it acts on.
+const SOURCE_FAILURE: f64 = 0.4;
+
+/// What a straight arrow tells.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ArrowKind {
+    /// The weight of a block.
+    Weight,
+    /// A load on a block.
+    Load,
+    /// Normal and friction force together, from this body.
+    Contact(BodyId),
+    /// The normal force of an interface, from this body.
+    Normal(BodyId),
+    /// The friction force of an interface, from this body.
+    Friction(BodyId),
+    /// A robot's force.
+    Robot(RobotId),
+    /// Half of the vertical pair that stands for a robot's torque.
+    RobotTorque(RobotId),
+    /// A pull that would have to stick, from this body.
+    MissingPull(BodyId),
+    /// Friction that would have to stick, from this body.
+    MissingFriction(BodyId),
+    /// A force beyond a robot's limits.
+    MissingRobotForce(RobotId),
+    /// Half of the vertical pair that stands for a torque beyond a robot's limit.
+    MissingTorque(RobotId),
+}
+
+impl ArrowKind {
+    /// Whether the arrow tells what would be needed rather than what is there.
+    pub fn is_failure(self) -> bool {
+        matches!(
+            self,
+            ArrowKind::MissingPull(_)
+                | ArrowKind::MissingFriction(_)
+                | ArrowKind::MissingRobotForce(_)
+                | ArrowKind::MissingTorque(_)
+        )
+    }
+}
+
+/// A straight arrow in the scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ForceArrow {
+    /// The body the force acts on.
+    pub on: BodyId,
+    /// Where it begins, metres.
+    pub at: Point,
+    /// Its shaft, metres.
+    pub vector: Vector,
+    /// The force it tells, N; for half of a torque's pair, the torque in N·m per metre of distance of the two halves.
+    pub force: Vector,
+    /// Its colour.
+    pub colour: Colour,
+    /// Width of its shaft, metres.
+    pub width: f64,
+    /// What it tells.
+    pub kind: ArrowKind,
+}
+
+/// What a turning arrow tells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TurnKind {
+    /// The torque of a load.
+    Load,
+    /// A robot's torque.
+    Robot(RobotId),
+    /// A torque beyond a robot's limit.
+    Missing(RobotId),
+}
+
+/// A turning arrow in the scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TurnArrow {
+    /// The body the torque acts on.
+    pub on: BodyId,
+    /// Its centre, metres.
+    pub at: Point,
+    /// The torque, N·m, anticlockwise positive.
+    pub torque: f64,
+    /// Length of its shaft along the circle, metres, with the torque's sign.
+    pub arc: f64,
+    /// Its colour.
+    pub colour: Colour,
+    /// Width of its shaft, metres.
+    pub width: f64,
+    /// What it tells.
+    pub kind: TurnKind,
+}
+
+/// Every arrow of a frame in drawing order: block by block, robots, and at last what fails.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Marks {
+    /// The straight ones.
+    pub arrows: Vec<ForceArrow>,
+    /// The turning ones.
+    pub turns: Vec<TurnArrow>,
+    /// The amount that is one unit edge long, N; 0 where there is no force.
+    pub newtons_per_unit: f64,
+}
+
+/// The straight arrows of frame `frame` (from 0), as [`marks`] has them. No arrows for a frame there is not.
+pub fn arrows(analysis: &Analysis<'_>, frame: usize, options: &Options) -> Vec<ForceArrow> {
+    let one = |f: &FrameAnalysis, s: &Frame| largest(analysis.scene, s, f, options);
+    let reference = match (analysis.frames.get(frame), analysis.scene.frames.get(frame)) {
+        (Some(found), Some(placed)) => one(found, placed),
+        _ => 0.0,
+    };
+    marks(analysis, frame, options, reference).arrows
+}
+
+/// The amount that a frame's own scale takes as one unit edge, N.
+///
+/// [`Normalisation::Drawn`]: the largest force drawn, a torque counting as torque per unit edge.
+/// [`Normalisation::Source`]: the largest single unknown.
+pub(crate) fn largest(
+    scene: &Scene,
+    frame: &Frame,
+    found: &FrameAnalysis,
+    options: &Options,
+) -> f64 {
+    let edge = unit(scene);
+    let weights = frame.placed.iter().map(|b| scene.blocks[b.0].weight);
+    let mut most = weights.fold(0.0, f64::max);
+    match options.normalisation {
+        Normalisation::Source => {
+            for contact in &found.contacts {
+                most = contact
+                    .normal_forces
+                    .iter()
+                    .copied()
+                    .fold(most, f64::max)
+                    .max(contact.friction_force.abs());
+            }
+            for robot in &found.robots {
+                most = most
+                    .max(robot.force.x.abs())
+                    .max(robot.force.y.abs())
+                    .max(robot.torque.abs() / edge);
+            }
+        }
+        Normalisation::Drawn => {
+            for contact in &found.contacts {
+                for (_, force, _) in parts(contact, options.style) {
+                    most = most.max(force.norm());
+                }
+            }
+            for robot in &found.robots {
+                most = most.max(robot.force.norm()).max(robot.torque.abs() / edge);
+            }
+            for failure in &found.failures {
+                most = most.max(match failure {
+                    Failure::Tension { force, .. }
+                    | Failure::Friction { force, .. }
+                    | Failure::RobotForce { force, .. } => force.norm(),
+                    Failure::RobotTorque { torque, .. } => torque.abs() / edge,
+                });
+            }
+            for load in scene
+                .loads
+                .iter()
+                .filter(|l| frame.placed.contains(&l.block))
+            {
+                most = most.max(load.force.norm()).max(load.torque.abs() / edge);
+            }
+        }
+    }
+    most
+}
+
+/// Every arrow of frame `frame` (from 0), `newtons_per_unit` N being one unit edge long.
+///
+/// The unit edge is the lattice's side, or a typical size of a block (see [`Options`]). No arrows for a frame there is
+/// not.
+pub fn marks(
+    analysis: &Analysis<'_>,
+    frame: usize,
+    options: &Options,
+    newtons_per_unit: f64,
+) -> Marks {
+    let mut marks = Marks {
+        newtons_per_unit,
+        ..Marks::default()
+    };
+    let (Some(placed), Some(found)) =
+        (analysis.scene.frames.get(frame), analysis.frames.get(frame))
+    else {
+        return marks;
+    };
+    if !(newtons_per_unit > 0.0) {
+        return marks;
+    }
+    let scene = analysis.scene;
+    let edge = unit(scene);
+    let pen = Pen {
+        scene,
+        options,
+        edge,
+        metres_per_newton: edge / newtons_per_unit,
+    };
+    pen.blocks(placed, found, &mut marks);
+    pen.robots(found, &mut marks);
+    pen.failures(found, &mut marks);
+    marks
+}
+
+/// The forces of an interface on its first body, by style: kind (told the other body), force and nothing for zero.
+fn parts(contact: &Contact, style: ForceStyle) -> Vec<(fn(BodyId) -> ArrowKind, Vector, Point)> {
+    let at = contact.resultant.at;
+    match style {
+        ForceStyle::Resultant => {
+            let on_first = contact.resultant.on == contact.interface.bodies[0];
+            let force = if on_first {
+                contact.resultant.force
+            } else {
+                -contact.resultant.force
+            };
+            vec![(ArrowKind::Contact, force, at)]
+        }
+        ForceStyle::Components => {
+            let normal = contact.interface.normal;
+            vec![
+                (
+                    ArrowKind::Normal,
+                    normal * contact.normal_forces.iter().sum::<f64>(),
+                    at,
+                ),
+                (
+                    ArrowKind::Friction,
+                    quarter_turn(normal) * contact.friction_force,
+                    at,
+                ),
+            ]
+        }
+    }
+}
+
+struct Pen<'a> {
+    scene: &'a Scene,
+    options: &'a Options,
+    edge: f64,
+    metres_per_newton: f64,
+}
+
+impl Pen<'_> {
+    fn straight(
+        &self,
+        marks: &mut Marks,
+        kind: ArrowKind,
+        on: BodyId,
+        at: Point,
+        force: Vector,
+        look: (Colour, f64),
+    ) {
+        if force.norm() > NOISE * marks.newtons_per_unit {
+            let vector = force * self.metres_per_newton;
+            marks.arrows.push(ForceArrow {
+                on,
+                at,
+                vector,
+                force,
+                colour: look.0,
+                width: look.1 * self.edge,
+                kind,
+            });
+        }
+    }
+
+    /// A torque: a turning arrow, or the source's vertical pair at half an edge to either side.
+    fn torque(
+        &self,
+        marks: &mut Marks,
+        kind: TurnKind,
+        on: BodyId,
+        at: Point,
+        torque: f64,
+        look: (Colour, f64),
+    ) {
+        if torque.abs() <= NOISE * marks.newtons_per_unit * self.edge {
+            return;
+        }
+        let source = self.options.normalisation == Normalisation::Source
+            && self.options.style == ForceStyle::Components;
+        let half = match kind {
+            TurnKind::Robot(robot) => Some(ArrowKind::RobotTorque(robot)),
+            TurnKind::Missing(robot) => Some(ArrowKind::MissingTorque(robot)),
+            TurnKind::Load => None,
+        };
+        if let (true, Some(kind)) = (source, half) {
+            for side in [1.0, -1.0] {
+                let force = Vector::new(0.0, side * torque / self.edge);
+                self.straight(
+                    marks,
+                    kind,
+                    on,
+                    at + Vector::new(side * self.edge / 2.0, 0.0),
+                    force,
+                    look,
+                );
+            }
+        } else {
+            let arc = torque / self.edge * self.metres_per_newton;
+            marks.turns.push(TurnArrow {
+                on,
+                at,
+                torque,
+                arc,
+                colour: look.0,
+                width: look.1 * self.edge,
+                kind,
+            });
+        }
+    }
+
+    fn blocks(&self, frame: &Frame, found: &FrameAnalysis, marks: &mut Marks) {
+        let scene = self.scene;
+        let mut touching: Vec<Vec<usize>> = vec![Vec::new(); scene.blocks.len()];
+        for (number, contact) in found.contacts.iter().enumerate() {
+            for body in contact.interface.bodies {
+                if let BodyId::Block(block) = body {
+                    touching[block.0].push(number);
+                }
+            }
+        }
+        for (place, id) in frame.placed.iter().enumerate() {
+            let block = &scene.blocks[id.0];
+            let on = BodyId::Block(*id);
+            let look = (self.options.theme.arrow(place + 1), FORCE_WIDTH);
+            self.straight(
+                marks,
+                ArrowKind::Weight,
+                on,
+                block.centroid,
+                scene.down() * block.weight,
+                look,
+            );
+            for load in scene.loads.iter().filter(|l| l.block == *id) {
+                self.straight(marks, ArrowKind::Load, on, load.at, load.force, look);
+                self.torque(marks, TurnKind::Load, on, load.at, load.torque, look);
+            }
+            for number in &touching[id.0] {
+                let contact = &found.contacts[*number];
+                let [first, second] = contact.interface.bodies;
+                let (from, sign) = if first == on {
+                    (second, 1.0)
+                } else {
+                    (first, -1.0)
+                };
+                for (kind, force, at) in parts(contact, self.options.style) {
+                    self.straight(marks, kind(from), on, at, force * sign, look);
+                }
+            }
+        }
+    }
+
+    fn robots(&self, found: &FrameAnalysis, marks: &mut Marks) {
+        for robot in &found.robots {
+            let on = BodyId::Block(robot.block);
+            let look = (self.options.theme.robot(robot.robot.0), ROBOT_WIDTH);
+            self.straight(
+                marks,
+                ArrowKind::Robot(robot.robot),
+                on,
+                robot.at,
+                robot.force,
+                look,
+            );
+            self.torque(
+                marks,
+                TurnKind::Robot(robot.robot),
+                on,
+                robot.at,
+                robot.torque,
+                look,
+            );
+        }
+    }
+
+    fn failures(&self, found: &FrameAnalysis, marks: &mut Marks) {
+        let look = (self.options.theme.failure, FAILURE_WIDTH);
+        let source = match self.options.normalisation {
+            Normalisation::Source => Some(acting(self.scene, found)),
+            Normalisation::Drawn => None,
+        };
+        for failure in &found.failures {
+            let halves = match *failure {
+                Failure::Tension {
+                    bodies: [a, b],
+                    at,
+                    force,
+                } => {
+                    vec![
+                        (ArrowKind::MissingPull(b), a, at, force),
+                        (ArrowKind::MissingPull(a), b, at, -force),
+                    ]
+                }
+                Failure::Friction {
+                    bodies: [a, b],
+                    at,
+                    force,
+                } => {
+                    vec![
+                        (ArrowKind::MissingFriction(b), a, at, force),
+                        (ArrowKind::MissingFriction(a), b, at, -force),
+                    ]
+                }
+                Failure::RobotForce {
+                    robot,
+                    block,
+                    at,
+                    force,
+                } => {
+                    vec![(
+                        ArrowKind::MissingRobotForce(robot),
+                        BodyId::Block(block),
+                        at,
+                        force,
+                    )]
+                }
+                Failure::RobotTorque {
+                    robot,
+                    block,
+                    at,
+                    torque,
+                } => {
+                    self.torque(
+                        marks,
+                        TurnKind::Missing(robot),
+                        BodyId::Block(block),
+                        at,
+                        torque,
+                        look,
+                    );
+                    continue;
+                }
+            };
+            for (kind, on, at, force) in halves {
+                let BodyId::Block(block) = on else { continue };
+                if force.norm() <= NOISE * marks.newtons_per_unit {
+                    continue;
+                }
+                let vector = match &source {
+                    Some(acting) if acting[block.0] > 0.0 => {
+                        force * (SOURCE_FAILURE * self.edge / acting[block.0])
+                    }
+                    Some(_) => force * self.metres_per_newton,
+                    None => {
+                        let length =
+                            (force.norm() * self.metres_per_newton).max(LEAST_FAILURE * self.edge);
+                        force.normalize() * length
+                    }
+                };
+                marks.arrows.push(ForceArrow {
+                    on,
+                    at,
+                    vector,
+                    force,
+                    colour: look.0,
+                    width: look.1 * self.edge,
+                    kind,
+                });
+            }
+        }
+    }
+}
+
+/// The largest single unknown or weight that acts on each block, by block number: the source's scale of what fails.
+fn acting(scene: &Scene, found: &FrameAnalysis) -> Vec<f64> {
+    let mut most: Vec<f64> = scene.blocks.iter().map(|b| b.weight).collect();
+    let mut note = |block: BlockId, amount: f64| most[block.0] = most[block.0].max(amount);
+    for contact in &found.contacts {
+        for body in contact.interface.bodies {
+            if let BodyId::Block(block) = body {
+                for normal in contact.normal_forces {
+                    note(block, normal);
+                }
+                note(block, contact.friction_force.abs());
+            }
+        }
+    }
+    for robot in &found.robots {
+        for component in [robot.force.x, robot.force.y] {
+            note(robot.block, component.abs());
+        }
+    }
+    most
+}

@@ -1,0 +1,24 @@
+//! Figures: what was found out about a scene, drawn. The bridge between mechanics and pictures, and the only one.
+//!
+//! Mechanics knows nothing of pictures and pictures know nothing of forces; here the numbers of an
+//! [`Analysis`](crate::analysis::Analysis) become shapes of a [`Drawing`](crate::drawing::Drawing). Nothing is computed
+//! here that a verdict rests on. One file per kind of figure: [`forces`], [`shapes`].
+
+mod fill;
+mod forces;
+mod label;
+mod layout;
+mod legend;
+mod mark;
+mod option;
+mod panel;
+mod shapes;
+mod stage;
+mod verdict;
+mod words;
+
+pub use forces::forces;
+pub use mark::{ArrowKind, ForceArrow, Marks, TurnArrow, TurnKind, arrows, marks};
+pub use option::{ArrowScale, ForceStyle, Normalisation, Options};
+pub use shapes::shapes;
+pub use words::quantity;

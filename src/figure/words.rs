@@ -1,0 +1,156 @@
+//! Numbers with units and directions, as a person writes them.
+
+use crate::geometry::Vector;
+
+/// An amount with three significant digits and its unit, with a prefix that keeps the number between 1 and 1000.
+///
+/// ```
+/// use drystone::figure::quantity;
+/// assert_eq!(quantity(5.7367, "N·m"), "5.74 N·m");
+/// assert_eq!(quantity(-12_000.0, "N"), "−12 kN");
+/// assert_eq!(quantity(999.7, "N"), "1 kN");
+/// assert_eq!(quantity(0.000_25, "N"), "250 µN");
+/// ```
+pub fn quantity(value: f64, unit: &str) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return if value == 0.0 {
+            format!("0 {unit}")
+        } else {
+            format!("unlimited {unit}")
+        };
+    }
+    // Rounded in decimal first: the digits then cannot round up over the edge of a prefix.
+    let rounded = format!("{:.2e}", value.abs());
+    let (mantissa, exponent) = rounded.split_once('e').unwrap_or((&rounded, "0"));
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    let sign = if value < 0.0 { "−" } else { "" };
+    let prefixes = ["n", "µ", "m", "", "k", "M", "G"];
+    let step = exponent.div_euclid(3);
+    match usize::try_from(step + 3).ok().and_then(|i| prefixes.get(i)) {
+        Some(prefix) => {
+            let shift = exponent.rem_euclid(3) as usize;
+            let digits = mantissa.replace('.', "");
+            let (whole, part) = digits.split_at(1 + shift);
+            let part = part.trim_end_matches('0');
+            let dot = if part.is_empty() { "" } else { "." };
+            format!("{sign}{whole}{dot}{part} {prefix}{unit}")
+        }
+        None => {
+            let mantissa = mantissa.trim_end_matches('0').trim_end_matches('.');
+            format!("{sign}{mantissa}×10{} {unit}", superscript(exponent))
+        }
+    }
+}
+
+fn superscript(value: i32) -> String {
+    let raised = |c: char| match c {
+        '-' => '⁻',
+        '0' => '⁰',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        '4' => '⁴',
+        '5' => '⁵',
+        '6' => '⁶',
+        '7' => '⁷',
+        '8' => '⁸',
+        _ => '⁹',
+    };
+    value.to_string().chars().map(raised).collect()
+}
+
+/// A force's amount and direction: `7.1 N at 30°`, anticlockwise from the right.
+pub(crate) fn force(force: Vector) -> String {
+    let degrees = libm::atan2(force.y, force.x).to_degrees().round();
+    let degrees = if degrees < 0.0 {
+        degrees + 360.0
+    } else {
+        degrees
+    };
+    format!("{} at {degrees:.0}°", quantity(force.norm(), "N"))
+}
+
+/// The largest of 1, 2 and 5 times a power of ten that is at most `value`, 0 for none.
+pub(crate) fn round_below(value: f64) -> f64 {
+    if !(value > 0.0 && value.is_finite()) {
+        return 0.0;
+    }
+    let text = format!("{value:e}");
+    let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    let lead = match mantissa.as_bytes().first() {
+        Some(b'5'..=b'9') => '5',
+        Some(b'2'..=b'4') => '2',
+        _ => '1',
+    };
+    format!("{lead}e{exponent}").parse().unwrap_or(0.0)
+}
+
+/// `a`, `a and b`, `a, b and c`.
+pub(crate) fn listed(parts: &[String]) -> String {
+    match parts {
+        [] => String::new(),
+        [one] => one.clone(),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+    }
+}
+
+/// The letter of panel `number` from 0: a … z, then aa, ab ….
+pub(crate) fn letter(number: usize) -> String {
+    let mut rest = number + 1;
+    let mut letters = Vec::new();
+    while rest > 0 {
+        rest -= 1;
+        letters.push(char::from(b'a' + (rest % 26) as u8));
+        rest /= 26;
+    }
+    letters.iter().rev().collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn amounts_are_short_and_keep_their_size() {
+        let cases = [
+            (0.0, "0 N"),
+            (24.0, "24 N"),
+            (43.372, "43.4 N"),
+            (433.72, "434 N"),
+            (0.1348, "135 mN"),
+            (9.995e5, "1 MN"),
+            (1e-9, "1 nN"),
+            (2.5e14, "2.5×10¹⁴ N"),
+            (3e-15, "3×10⁻¹⁵ N"),
+        ];
+        for (value, expected) in cases {
+            assert_eq!(quantity(value, "N"), expected);
+        }
+    }
+
+    #[test]
+    fn directions_go_anticlockwise_from_the_right() {
+        assert_eq!(force(Vector::new(0.0, -6.0)), "6 N at 270°");
+        assert_eq!(force(Vector::new(3.0, 3.0)), "4.24 N at 45°");
+        assert_eq!(force(Vector::new(1.0, -1e-9)), "1 N at 0°");
+    }
+
+    #[test]
+    fn round_numbers_lie_below() {
+        for (value, expected) in [
+            (9.99, 5.0),
+            (5.0, 5.0),
+            (4.9, 2.0),
+            (0.013, 0.01),
+            (1e9, 1e9),
+            (0.0, 0.0),
+        ] {
+            assert_eq!(round_below(value), expected);
+        }
+        assert_eq!(
+            (letter(0), letter(25), letter(26)),
+            ("a".into(), "z".into(), "aa".into())
+        );
+        assert_eq!(listed(&["a".into(), "b".into(), "c".into()]), "a, b and c");
+    }
+}

@@ -1,0 +1,224 @@
+//! [`render`]: an SVG of ours as PNG bytes. The only file that names resvg.
+//!
+//! Words are set in our own fonts alone: whatever fonts the machine has, the picture is the same. A character that our
+//! fonts lack shows as a box.
+
+use std::sync::{Arc, OnceLock};
+
+use resvg::tiny_skia::{Pixmap, Transform};
+use resvg::usvg;
+
+use crate::drawing::Face;
+
+/// How large a picture is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Size {
+    /// One pixel per unit of the drawing.
+    Natural,
+    /// So many pixels wide, as high as the drawing then is.
+    Width(u32),
+    /// So many pixels per unit of the drawing.
+    Scale(f64),
+}
+
+/// Why there is no picture.
+#[derive(Debug, thiserror::Error)]
+pub enum PngError {
+    /// The text is no SVG that can be drawn.
+    #[error("the drawing cannot be read as SVG: {0}")]
+    Svg(String),
+    /// The picture would be too large or too small.
+    #[error(
+        "a picture of {width:.0} × {height:.0} pixels is out of range; each side must have 1 to {MOST_ACROSS} pixels \
+         and both together at most {} million. Choose another width or scale",
+        MOST_PIXELS / 1_000_000
+    )]
+    Size {
+        /// Width asked for, pixels.
+        width: f64,
+        /// Height asked for, pixels.
+        height: f64,
+    },
+    /// The encoder failed.
+    #[error("the picture cannot be encoded: {0}")]
+    Encode(String),
+}
+
+/// Most pixels in a picture.
+pub const MOST_PIXELS: u64 = 100_000_000;
+/// Most pixels along a side.
+pub const MOST_ACROSS: u32 = 32_000;
+
+/// An SVG drawing as PNG, on white where the drawing leaves the page clear.
+///
+/// # Errors
+/// [`PngError::Size`] where the picture would have more than [`MOST_PIXELS`] pixels, a side above [`MOST_ACROSS`] or no
+/// pixel at all; [`PngError::Svg`] for text that is no SVG.
+///
+/// # Example
+/// ```
+/// use drystone::output::png::{Size, render};
+/// let svg = "<svg xmlns='http://www.w3.org/2000/svg' width='3' height='2'/>";
+/// let png = render(svg, Size::Width(30))?;
+/// assert_eq!(&png[16..24], [0, 0, 0, 30, 0, 0, 0, 20]);
+/// # Ok::<(), drystone::output::png::PngError>(())
+/// ```
+pub fn render(svg: &str, size: Size) -> Result<Vec<u8>, PngError> {
+    let tree = usvg::Tree::from_str(svg, &options()).map_err(|e| PngError::Svg(e.to_string()))?;
+    let (natural_width, natural_height) = (
+        f64::from(tree.size().width()),
+        f64::from(tree.size().height()),
+    );
+    let scale = match size {
+        Size::Natural => 1.0,
+        Size::Width(width) => f64::from(width) / natural_width,
+        Size::Scale(scale) => scale,
+    };
+    let (width, height) = (
+        (natural_width * scale).round(),
+        (natural_height * scale).round(),
+    );
+    let fits = |side: f64| (1.0..=f64::from(MOST_ACROSS)).contains(&side);
+    let refused = PngError::Size {
+        width: natural_width * scale,
+        height: natural_height * scale,
+    };
+    if !(fits(width) && fits(height) && width * height <= MOST_PIXELS as f64) {
+        return Err(refused);
+    }
+    let Some(mut pixels) = Pixmap::new(width as u32, height as u32) else {
+        return Err(refused);
+    };
+    pixels.fill(resvg::tiny_skia::Color::WHITE);
+    // Stretched to whole pixels, by less than one in all, so that no edge of the page is half covered.
+    let transform = Transform::from_scale(
+        (width / natural_width) as f32,
+        (height / natural_height) as f32,
+    );
+    resvg::render(&tree, transform, &mut pixels.as_mut());
+    encode(&pixels)
+}
+
+/// The picture is opaque: it lies on white. So three channels tell all.
+fn encode(pixels: &Pixmap) -> Result<Vec<u8>, PngError> {
+    let rgb: Vec<u8> = pixels
+        .data()
+        .chunks_exact(4)
+        .flat_map(|p| [p[0], p[1], p[2]])
+        .collect();
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, pixels.width(), pixels.height());
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_compression(png::Compression::Balanced);
+    let failed = |e: png::EncodingError| PngError::Encode(e.to_string());
+    let mut writer = encoder.write_header().map_err(failed)?;
+    writer.write_image_data(&rgb).map_err(failed)?;
+    writer.finish().map_err(failed)?;
+    Ok(bytes)
+}
+
+fn options() -> usvg::Options<'static> {
+    static FONTS: OnceLock<Arc<usvg::fontdb::Database>> = OnceLock::new();
+    let fonts = FONTS.get_or_init(|| {
+        let mut fonts = usvg::fontdb::Database::new();
+        for face in Face::ALL {
+            fonts.load_font_data(face.data().to_vec());
+        }
+        fonts.set_serif_family("Libertinus Serif");
+        fonts.set_sans_serif_family("Inter");
+        Arc::new(fonts)
+    });
+    let mut options = usvg::Options {
+        font_family: "Libertinus Serif".to_owned(),
+        fontdb: Arc::clone(fonts),
+        ..usvg::Options::default()
+    };
+    // A drawing is whole in itself: nothing is fetched from the machine it is drawn on.
+    options.image_href_resolver.resolve_string = Box::new(|_, _| None);
+    options
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::drawing::{Colour, Drawing, PagePoint, Text};
+    use crate::output::svg;
+
+    fn words(words: &str, face: Face) -> String {
+        let text = Text::new(PagePoint::new(5.0, 30.0), words, face, 24.0, Colour::BLACK);
+        svg::write(&Drawing {
+            width: 120.0,
+            height: 40.0,
+            title: String::new(),
+            description: String::new(),
+            background: None,
+            items: vec![text.into()],
+        })
+    }
+
+    /// Share of dark pixels.
+    fn ink(svg: &str) -> f64 {
+        let bytes = render(svg, Size::Natural).expect("a picture");
+        let mut reader = png::Decoder::new(std::io::Cursor::new(bytes))
+            .read_info()
+            .expect("png");
+        let mut data = vec![0; reader.output_buffer_size().expect("size")];
+        reader.next_frame(&mut data).expect("frame");
+        data.chunks_exact(3).filter(|p| p[0] < 128).count() as f64 / (data.len() as f64 / 3.0)
+    }
+
+    #[test]
+    fn every_face_leaves_ink_and_bold_leaves_more() {
+        for face in Face::ALL {
+            assert!(ink(&words("Block 3", face)) > 0.02, "{face:?}");
+        }
+        assert!(
+            ink(&words("Block 3", Face::SerifBold)) > 1.15 * ink(&words("Block 3", Face::Serif))
+        );
+        assert!(ink(&words("Block 3", Face::SansBold)) > 1.05 * ink(&words("Block 3", Face::Sans)));
+        assert_eq!(ink(&words("", Face::Sans)), 0.0);
+    }
+
+    #[test]
+    fn characters_we_lack_leave_a_box_instead_of_nothing() {
+        for face in [Face::Serif, Face::Sans] {
+            for unknown in ["石", "🪨", "ア", "\u{e000}"] {
+                assert!(ink(&words(unknown, face)) > 0.005, "{face:?} {unknown}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_same_text_gives_the_same_bytes() {
+        let svg = words("Same", Face::Serif);
+        assert_eq!(
+            render(&svg, Size::Scale(2.5)).expect("one"),
+            render(&svg, Size::Scale(2.5)).expect("two")
+        );
+    }
+
+    #[test]
+    fn absurd_sizes_and_foreign_text_are_refused_in_words() {
+        let svg = words("x", Face::Serif);
+        for size in [
+            Size::Width(0),
+            Size::Width(60_000),
+            Size::Scale(0.0),
+            Size::Scale(-1.0),
+            Size::Scale(f64::NAN),
+            Size::Scale(1e9),
+            Size::Width(31_000),
+        ] {
+            let refused = render(&svg, size).expect_err("out of range");
+            assert!(
+                matches!(refused, PngError::Size { .. })
+                    && refused.to_string().contains("at most 100 million")
+            );
+        }
+        assert!(matches!(
+            render("no svg", Size::Natural),
+            Err(PngError::Svg(_))
+        ));
+    }
+}
