@@ -4,12 +4,31 @@
 //! steps have been played into [`Frame`]s, and no block lies in another body in any frame.
 
 mod body;
+mod collision;
+mod expectation;
+mod finding;
+pub mod format;
 mod frame;
+mod name;
+mod number;
+mod outline;
+mod path;
+mod play;
+pub mod problem;
+mod reading;
+mod resolution;
+pub mod shape;
+mod source;
+mod starter;
+mod syntax;
 
 pub use body::{
     Block, BlockId, Body, BodyId, Grip, Ground, Limits, Load, Material, Rgb, Robot, RobotId,
 };
+pub use format::schema;
 pub use frame::{Frame, Hold, Plan};
+pub use problem::{Problem, Problems};
+pub use starter::starter;
 
 use crate::geometry::{Lattice, Tolerance, Vector};
 

@@ -1,3 +1,5 @@
-//! All integration tests in one program, so that they link once.
+//! All integration tests in one program: what a person or another program sees of drystone.
 
+mod gallery;
 mod layers;
+mod problems;

@@ -1,0 +1,263 @@
+//! Bodies that lie in each other: exact by shared cells on a lattice, deeper than the tolerance elsewhere.
+//!
+//! Only bodies that stand together in some frame are compared, and never two parts of the ground.
+
+use std::collections::BTreeMap;
+
+use rstar::{AABB, RTree, RTreeObject};
+
+use super::finding::Findings;
+use super::frame::Frame;
+use super::path::Trail;
+use super::problem;
+use super::{BlockId, Body, BodyId};
+use crate::geometry::{Bounds, Cell, Lattice, Pieces, Point, Tolerance, Vector, overlap};
+
+/// So many overlaps are listed; a scene with more has one cause for them all.
+const MOST: usize = 1000;
+
+/// Two bodies in the same place.
+struct Found {
+    bodies: [BodyId; 2],
+    area: f64,
+    at: Point,
+    /// The first frame in which they stand together.
+    frame: usize,
+}
+
+/// A sound body with its number.
+pub(super) type Numbered<'s> = (BodyId, &'s Body);
+
+/// What to compare, and how.
+pub(super) struct Comparison<'s> {
+    /// The sound bodies.
+    pub(super) bodies: Vec<Numbered<'s>>,
+    /// Names of all blocks.
+    pub(super) names: &'s [String],
+    /// What stands when.
+    pub(super) frames: &'s [Frame],
+    /// The lattice, where all bodies are cells of it.
+    pub(super) lattice: Option<Lattice>,
+    /// How deep is too deep.
+    pub(super) tolerance: Tolerance,
+}
+
+/// Notes every pair of bodies that lie in each other while both stand.
+pub(super) fn check(findings: &mut Findings, scene: &Comparison<'_>) {
+    let presence = Presence::of(scene.names.len(), scene.frames);
+    let bodies: Vec<Numbered<'_>> = scene
+        .bodies
+        .iter()
+        .copied()
+        .filter(|(id, _)| !presence.of_body(*id).is_empty())
+        .collect();
+    let mut found = match scene.lattice {
+        Some(lattice) => on_lattice(&bodies, lattice, &presence),
+        None => off_lattice(&bodies, scene.tolerance, &presence),
+    };
+    found.sort_by_key(|f| (f.bodies[1], f.bodies[0]));
+    let top = Trail::Top;
+    let list = top.key("blocks");
+    for f in found.iter().take(MOST) {
+        let BodyId::Block(block) = f.bodies[1] else {
+            continue;
+        };
+        let name = |id: BodyId| match id {
+            BodyId::Ground(i) => format!("ground[{i}]"),
+            BodyId::Block(b) => format!("block `{}`", problem::shortened(&scene.names[b.0])),
+        };
+        let frame = (scene.frames.len() > 1).then(|| match scene.frames[f.frame].title.as_str() {
+            "" => format!("steps[{}]", f.frame),
+            title => format!("steps[{}], \"{}\"", f.frame, problem::shortened(title)),
+        });
+        let wording = problem::overlap(
+            &name(f.bodies[1]),
+            &name(f.bodies[0]),
+            f.area,
+            f.at,
+            frame.as_deref(),
+        );
+        findings.add(&list.index(block.0), wording);
+    }
+    if found.len() > MOST {
+        findings.add(&list, problem::more_overlaps(MOST));
+    }
+}
+
+/// In which frames each block stands, as spans from first to last.
+struct Presence {
+    blocks: Vec<Vec<(usize, usize)>>,
+    always: Vec<(usize, usize)>,
+}
+
+impl Presence {
+    fn of(blocks: usize, frames: &[Frame]) -> Presence {
+        let mut spans: Vec<Vec<(usize, usize)>> = vec![Vec::new(); blocks];
+        for (k, frame) in frames.iter().enumerate() {
+            for block in &frame.placed {
+                let spans = &mut spans[block.0];
+                match spans.last_mut() {
+                    Some(last) if last.1 + 1 == k => last.1 = k,
+                    _ => spans.push((k, k)),
+                }
+            }
+        }
+        Presence {
+            blocks: spans,
+            always: vec![(0, frames.len().saturating_sub(1))],
+        }
+    }
+
+    fn of_body(&self, id: BodyId) -> &[(usize, usize)] {
+        match id {
+            BodyId::Ground(_) => &self.always,
+            BodyId::Block(BlockId(i)) => &self.blocks[i],
+        }
+    }
+
+    /// The first frame in which two bodies stand together; never for two parts of the ground.
+    fn together(&self, a: BodyId, b: BodyId) -> Option<usize> {
+        if matches!((a, b), (BodyId::Ground(_), BodyId::Ground(_))) {
+            return None;
+        }
+        let (a, b) = (self.of_body(a), self.of_body(b));
+        let (mut i, mut j) = (0, 0);
+        while i < a.len() && j < b.len() {
+            let start = a[i].0.max(b[j].0);
+            if start <= a[i].1.min(b[j].1) {
+                return Some(start);
+            }
+            if a[i].1 < b[j].1 { i += 1 } else { j += 1 }
+        }
+        None
+    }
+}
+
+fn on_lattice(bodies: &[Numbered<'_>], lattice: Lattice, presence: &Presence) -> Vec<Found> {
+    let mut owners: BTreeMap<Cell, Vec<BodyId>> = BTreeMap::new();
+    for (id, body) in bodies {
+        for cell in body.cells.iter().flatten() {
+            owners.entry(*cell).or_default().push(*id);
+        }
+    }
+    let mut shared: BTreeMap<[BodyId; 2], (usize, Vec<Cell>)> = BTreeMap::new();
+    'cells: for (cell, owners) in &owners {
+        for (i, a) in owners.iter().enumerate() {
+            for b in &owners[i + 1..] {
+                let pair = [*a.min(b), *a.max(b)];
+                if let Some(known) = shared.get_mut(&pair) {
+                    known.1.push(*cell);
+                } else if let Some(frame) = presence.together(pair[0], pair[1]) {
+                    shared.insert(pair, (frame, vec![*cell]));
+                    if shared.len() > MOST {
+                        break 'cells;
+                    }
+                }
+            }
+        }
+    }
+    shared
+        .into_iter()
+        .map(|(bodies, (frame, cells))| {
+            let sum = cells
+                .iter()
+                .fold(Vector::zeros(), |s, c| s + lattice.cell_centre(*c).coords);
+            let count = cells.len() as f64;
+            Found {
+                bodies,
+                area: count * lattice.cell_area(),
+                at: Point::from(sum / count),
+                frame,
+            }
+        })
+        .collect()
+}
+
+/// A body's box with its number among the bodies.
+struct Boxed(Bounds, usize);
+
+impl RTreeObject for Boxed {
+    type Envelope = AABB<[f64; 2]>;
+    fn envelope(&self) -> Self::Envelope {
+        AABB::from_corners([self.0.min.x, self.0.min.y], [self.0.max.x, self.0.max.y])
+    }
+}
+
+fn off_lattice(bodies: &[Numbered<'_>], tolerance: Tolerance, presence: &Presence) -> Vec<Found> {
+    let boxes: Vec<Bounds> = bodies
+        .iter()
+        .map(|(_, body)| body.polygon.bounds())
+        .collect();
+    let pieces: Vec<Pieces> = bodies
+        .iter()
+        .map(|(_, body)| Pieces::of(&body.polygon))
+        .collect();
+    let tree = RTree::bulk_load(
+        boxes
+            .iter()
+            .enumerate()
+            .map(|(i, b)| Boxed(*b, i))
+            .collect(),
+    );
+    let mut found = Vec::new();
+    for (i, (id, _)) in bodies.iter().enumerate() {
+        let mut near: Vec<usize> = tree
+            .locate_in_envelope_intersecting(Boxed(boxes[i], i).envelope())
+            .map(|b| b.1)
+            .filter(|j| bodies[*j].0 < *id)
+            .collect();
+        near.sort_unstable();
+        for j in near {
+            let pair = [bodies[j].0, *id];
+            if let Some(frame) = presence.together(pair[0], pair[1])
+                && let Some(o) = overlap(&pieces[i], &pieces[j], tolerance.gap)
+            {
+                found.push(Found {
+                    bodies: pair,
+                    area: o.area,
+                    at: o.at,
+                    frame,
+                });
+            }
+        }
+        if found.len() > MOST {
+            break;
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn frame(placed: &[usize]) -> Frame {
+        Frame {
+            title: String::new(),
+            placed: placed.iter().copied().map(BlockId).collect(),
+            holds: Vec::new(),
+            plans: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn blocks_stand_together_only_where_their_spans_meet() {
+        let frames = [
+            frame(&[0]),
+            frame(&[0, 1]),
+            frame(&[1]),
+            frame(&[1, 2]),
+            frame(&[0]),
+        ];
+        let presence = Presence::of(3, &frames);
+        let block = |i| BodyId::Block(BlockId(i));
+        assert_eq!(presence.together(block(0), block(1)), Some(1));
+        assert_eq!(presence.together(block(0), block(2)), None);
+        assert_eq!(presence.together(block(2), block(1)), Some(3));
+        assert_eq!(presence.together(block(2), BodyId::Ground(0)), Some(3));
+        assert_eq!(
+            presence.together(BodyId::Ground(0), BodyId::Ground(1)),
+            None
+        );
+    }
+}

@@ -1,0 +1,474 @@
+//! The scene file as it is written: one type per object of the JSON, and the JSON Schema made from them.
+//!
+//! Build a [`SceneFile`] in Rust, or read one; [`crate::scene::Scene::new`] checks it. Nothing here is checked beyond
+//! its type. A key may be left out or be `null` wherever the field is an `Option`. This file and the two below it are
+//! the only ones of the room that name serde, serde_json and schemars.
+
+mod map;
+mod schema;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+pub use map::Map;
+pub(super) use schema::expected;
+pub use schema::schema;
+
+/// A place or a displacement, `[x, y]`; y points up.
+pub type Pair = [f64; 2];
+
+/// A scene of dry-laid blocks: what stands where, and who holds what. SI units, y up, angles in degrees anticlockwise.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(title = "drystone scene")]
+pub struct SceneFile {
+    /// Where the JSON Schema of this file lies, for editors; not read.
+    #[serde(rename = "$schema", skip_serializing_if = "Option::is_none")]
+    pub schema: Option<String>,
+    /// Version of the scene format: 1.
+    pub drystone: Version,
+    /// Title of the scene, for reports and captions.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub title: Option<String>,
+    /// Gravity [x, y] in m/s²; weights act along it. Default [0, -9.81].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("default" = [0.0, -9.81]))]
+    pub gravity: Option<Pair>,
+    /// Friction coefficient μ of whatever gives none itself, at least 0. Default 0.7.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0), extend("default" = 0.7))]
+    pub friction: Option<f64>,
+    /// Safety kernel, 0 to 1: application points move inward by half this share of the contact's length, each. Default 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1.0), extend("default" = 0.0))]
+    pub kernel: Option<f64>,
+    /// Density in kg/m³ of whatever gives none itself, at least 0. Default 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0), extend("default" = 1.0))]
+    pub density: Option<f64>,
+    /// Thickness of all blocks across the plane in metres, at least 0. Default 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0), extend("default" = 1.0))]
+    pub thickness: Option<f64>,
+    /// Materials by name.
+    #[serde(default, skip_serializing_if = "Map::is_empty")]
+    pub materials: Map<MaterialEntry>,
+    /// Friction coefficients between pairs of materials.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub friction_pairs: Vec<FrictionPairEntry>,
+    /// The lattice: `at` of bodies becomes a lattice point, shapes may be sets of cells.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub grid: Option<GridEntry>,
+    /// Shapes by name. The triangular lattice also knows up, down, hexagon, linkh, linkr and linkl.
+    #[serde(default, skip_serializing_if = "Map::is_empty")]
+    pub shapes: Map<ShapeEntry>,
+    /// Parts of the ground: they carry anything and never move.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub ground: Vec<GroundEntry>,
+    /// The blocks.
+    pub blocks: Vec<BlockEntry>,
+    /// Robots that can hold a block each.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub robots: Vec<RobotEntry>,
+    /// Loads on blocks, beside their weights.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub loads: Vec<LoadEntry>,
+    /// Whether tips that touch edges or tips carry force. Default false.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("default" = false))]
+    pub corner_contacts: Option<bool>,
+    /// Steps of the assembly, one frame each. Without steps all blocks stand and each robot holds its `holds`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub steps: Vec<StepEntry>,
+}
+
+/// Version of the scene format; 1 by default.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(transparent)]
+#[schemars(inline)]
+pub struct Version(pub i64);
+
+impl Default for Version {
+    fn default() -> Version {
+        Version(1)
+    }
+}
+
+/// What blocks or ground are made of.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MaterialEntry {
+    /// Density in kg/m³, at least 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub density: Option<f64>,
+    /// Friction coefficient, at least 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub friction: Option<f64>,
+    /// Fill colour, "#rrggbb" or "#rgb".
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("pattern" = FILL_PATTERN))]
+    pub fill: Option<String>,
+}
+
+/// The friction coefficient between two materials; wins over both materials' own.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FrictionPairEntry {
+    /// Names of the two materials, in any order; the same name twice for a material against itself.
+    pub between: [String; 2],
+    /// Friction coefficient, at least 0.
+    #[schemars(range(min = 0.0))]
+    pub friction: f64,
+}
+
+/// A regular lattice.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GridEntry {
+    /// Which lattice.
+    pub kind: GridKind,
+    /// Edge length of a cell in metres, more than 0. Default 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("default" = 1.0, "exclusiveMinimum" = 0))]
+    pub side: Option<f64>,
+}
+
+/// Which lattice.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum GridKind {
+    /// Equilateral triangles: lattice point (x, y) is at side·(x + y/2, y·√3/2).
+    #[default]
+    Triangular,
+    /// Squares: lattice point (x, y) is at side·(x, y).
+    Square,
+}
+
+/// A lattice cell: `[x, y, "up"]` or `[x, y, "down"]` on the triangular lattice, `[x, y]` on the square one.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum CellEntry {
+    /// A triangle on, or hanging below, the edge from (x, y) to (x+1, y). Coordinates are whole numbers.
+    Triangle(f64, f64, CellHalf),
+    /// The square with its lower left corner at (x, y). Coordinates are whole numbers.
+    Square(f64, f64),
+}
+
+/// Which triangle at an edge of the triangular lattice.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum CellHalf {
+    /// Corners (x, y), (x+1, y), (x, y+1).
+    Up,
+    /// Corners (x, y), (x+1, y), (x+1, y−1).
+    Down,
+}
+
+/// A shape to be used by name: either a polygon or lattice cells, about its own origin.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ShapeEntry {
+    /// Corners [x, y] of the outline in metres, either way round; simple, not necessarily convex.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(length(min = 3))]
+    pub polygon: Option<Vec<Pair>>,
+    /// Holes in the polygon, each a list of corners in metres.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub holes: Vec<Vec<Pair>>,
+    /// Lattice cells, joined by edges.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(length(min = 1))]
+    pub cells: Option<Vec<CellEntry>>,
+}
+
+/// A part of the ground; one of `polygon`, `cells` and `shape` says where it lies.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GroundEntry {
+    /// Corners [x, y] of the outline in metres, either way round; simple, not necessarily convex.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(length(min = 3))]
+    pub polygon: Option<Vec<Pair>>,
+    /// Holes in the polygon, each a list of corners in metres.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub holes: Vec<Vec<Pair>>,
+    /// Lattice cells, joined by edges.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(length(min = 1))]
+    pub cells: Option<Vec<CellEntry>>,
+    /// Name of a shape.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shape: Option<String>,
+    /// Where its origin goes: metres, or a lattice point where the scene has a grid. Default [0, 0].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("default" = [0.0, 0.0]))]
+    pub at: Option<Pair>,
+    /// Turn about its own origin before it is moved, degrees anticlockwise. Default 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("default" = 0.0))]
+    pub angle: Option<f64>,
+    /// Name of its material.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub material: Option<String>,
+    /// Its own friction coefficient, at least 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub friction: Option<f64>,
+    /// Fill colour, "#rrggbb" or "#rgb".
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("pattern" = FILL_PATTERN))]
+    pub fill: Option<String>,
+}
+
+/// A rigid block; one of `polygon`, `cells` and `shape` says what it is.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BlockEntry {
+    /// Its name, used once. Default: its number in the list, from 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub id: Option<String>,
+    /// Corners [x, y] of the outline in metres, either way round; simple, not necessarily convex.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(length(min = 3))]
+    pub polygon: Option<Vec<Pair>>,
+    /// Holes in the polygon, each a list of corners in metres.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub holes: Vec<Vec<Pair>>,
+    /// Lattice cells, joined by edges.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(length(min = 1))]
+    pub cells: Option<Vec<CellEntry>>,
+    /// Name of a shape.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shape: Option<String>,
+    /// Where its origin goes: metres, or a lattice point where the scene has a grid. Default [0, 0].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("default" = [0.0, 0.0]))]
+    pub at: Option<Pair>,
+    /// Turn about its own origin before it is moved, degrees anticlockwise. Default 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("default" = 0.0))]
+    pub angle: Option<f64>,
+    /// Name of its material.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub material: Option<String>,
+    /// Weight in newtons along gravity, at least 0. Wins over `mass` and `density`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub weight: Option<f64>,
+    /// Mass in kg, at least 0. Wins over `density`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub mass: Option<f64>,
+    /// Its own density in kg/m³, at least 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub density: Option<f64>,
+    /// Its own friction coefficient, at least 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub friction: Option<f64>,
+    /// Fill colour, "#rrggbb" or "#rgb".
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("pattern" = FILL_PATTERN))]
+    pub fill: Option<String>,
+}
+
+/// A robot that can hold one block at a time.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RobotEntry {
+    /// Its name, used once. Default: "r" and its number in the list, from 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub id: Option<String>,
+    /// The block it holds in a scene without steps.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub holds: Option<String>,
+    /// Where it grips the block it `holds`, [x, y] in metres. Default: the block's centroid.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at: Option<Pair>,
+    /// What it can give. Default: any force, no torque.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub limits: Option<LimitsEntry>,
+}
+
+/// Largest amounts a robot can give, per component, each way.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LimitsEntry {
+    /// Largest horizontal force in newtons, at least 0. Default: `force`, else unlimited.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub fx: Option<f64>,
+    /// Largest vertical force in newtons, at least 0. Default: `force`, else unlimited.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub fy: Option<f64>,
+    /// Largest torque in N·m, at least 0. Default 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0), extend("default" = 0.0))]
+    pub torque: Option<f64>,
+    /// Both `fx` and `fy`, where they are not given themselves; newtons, at least 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub force: Option<f64>,
+}
+
+/// A load on a block, beside its weight.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LoadEntry {
+    /// The loaded block.
+    pub block: String,
+    /// Force [x, y] in newtons. Default [0, 0].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("default" = [0.0, 0.0]))]
+    pub force: Option<Pair>,
+    /// Where the force acts, [x, y] in metres. Default: the block's centroid.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at: Option<Pair>,
+    /// Torque in N·m, anticlockwise positive. Default 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("default" = 0.0))]
+    pub torque: Option<f64>,
+}
+
+/// One step of the assembly. Within a step: release, then remove, then place, then hold.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StepEntry {
+    /// Title of the frame this step leads to.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub title: Option<String>,
+    /// Robots that let go of what they hold.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub release: Vec<String>,
+    /// Blocks taken away.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub remove: Vec<String>,
+    /// Blocks placed, in this order.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub place: Vec<String>,
+    /// Blocks that robots take hold of, by robot.
+    #[serde(default, skip_serializing_if = "Map::is_empty")]
+    pub hold: Map<HoldEntry>,
+    /// Blocks that robots are about to place, by robot: drawn as outlines, they carry no force.
+    #[serde(default, skip_serializing_if = "Map::is_empty")]
+    pub plan: Map<String>,
+}
+
+/// What a robot takes hold of: a block's id, or the block with a grip point.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum HoldEntry {
+    /// The block's id.
+    Block(String),
+    /// The block and the grip point.
+    Grip(GripEntry),
+}
+
+/// A block and where it is gripped.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GripEntry {
+    /// The block held.
+    pub block: String,
+    /// The grip point [x, y] in metres. Default: the robot's own `at` for the block it `holds`, else the centroid.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at: Option<Pair>,
+}
+
+const FILL_PATTERN: &str = "^#([0-9a-fA-F]{3}|[0-9a-fA-F]{6})$";
+
+/// Why a text is no scene file, as the JSON reader says it.
+pub(super) struct Refusal {
+    /// Line, from 1.
+    pub(super) line: usize,
+    /// Column in bytes, from 1; 0 for the end of the line before.
+    pub(super) column: usize,
+    /// The reader's words, without the place.
+    pub(super) words: String,
+    /// Whether the text is no JSON at all, or the right JSON of the wrong kind.
+    pub(super) kind: RefusalKind,
+}
+
+/// What sort of fault a [`Refusal`] is.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum RefusalKind {
+    /// The text ends before the JSON does.
+    End,
+    /// No JSON.
+    Syntax,
+    /// JSON, but no scene file.
+    Data,
+}
+
+impl From<serde_json::Error> for Refusal {
+    fn from(error: serde_json::Error) -> Refusal {
+        let words = error.to_string();
+        let place = format!(" at line {} column {}", error.line(), error.column());
+        let kind = match error.classify() {
+            serde_json::error::Category::Eof => RefusalKind::End,
+            serde_json::error::Category::Data => RefusalKind::Data,
+            _ => RefusalKind::Syntax,
+        };
+        Refusal {
+            line: error.line(),
+            column: error.column(),
+            words: words.strip_suffix(&place).unwrap_or(&words).to_string(),
+            kind,
+        }
+    }
+}
+
+/// Reads a scene file's types; nothing is checked beyond them.
+pub(super) fn parse(text: &str) -> Result<SceneFile, Refusal> {
+    Ok(serde_json::from_str(text)?)
+}
+
+/// Whether a text is JSON of bounded nesting with numbers in range, whatever it says.
+pub(super) fn parse_any(text: &str) -> Result<(), Refusal> {
+    serde_json::from_str::<serde_json::Value>(text)?;
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_scene_file_survives_writing_and_reading() {
+        let file = SceneFile {
+            title: Some("two".into()),
+            grid: Some(GridEntry {
+                kind: GridKind::Square,
+                side: Some(0.25),
+            }),
+            blocks: vec![BlockEntry {
+                id: Some("a".into()),
+                cells: Some(vec![
+                    CellEntry::Square(1.0, 2.0),
+                    CellEntry::Triangle(3.0, 4.0, CellHalf::Down),
+                ]),
+                ..BlockEntry::default()
+            }],
+            steps: vec![StepEntry {
+                hold: Map(vec![
+                    ("z".into(), HoldEntry::Block("a".into())),
+                    ("b".into(), HoldEntry::Grip(GripEntry::default())),
+                ]),
+                ..StepEntry::default()
+            }],
+            ..SceneFile::default()
+        };
+        let text = serde_json::to_string(&file).expect("writes");
+        let read: SceneFile = serde_json::from_str(&text).expect("reads");
+        assert_eq!(read, file);
+        assert_eq!(
+            read.steps[0].hold.0[0].0, "z",
+            "a map keeps the file's order"
+        );
+    }
+}

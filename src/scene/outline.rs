@@ -1,0 +1,227 @@
+//! [`Outline`]: what a body or a shape is, about its own origin, and where it goes.
+
+use super::finding::Findings;
+use super::format::{CellEntry, CellHalf, Pair};
+use super::number::is_sane;
+use super::path::Trail;
+use super::problem;
+use crate::geometry::{Cell, Flaw, Half, Lattice, LatticeKind, Point, Polygon, Vector};
+
+/// Largest lattice coordinate: sums and products of a few of them stay exact.
+pub(super) const REACH: f64 = 1e6;
+
+/// A body's or shape's extent about its own origin.
+#[derive(Clone, Debug)]
+pub(super) enum Outline {
+    /// In metres.
+    Polygon(Polygon),
+    /// In whole cells.
+    Cells(Vec<Cell>),
+}
+
+/// A sound polygon from an entry's corners, or every flaw noted.
+pub(super) fn polygon(
+    findings: &mut Findings,
+    at: &Trail<'_>,
+    corners: &[Pair],
+    holes: &[Vec<Pair>],
+) -> Option<Outline> {
+    let (outer, inner) = (at.key("polygon"), at.key("holes"));
+    let mut sound = true;
+    for (i, corner) in corners.iter().enumerate() {
+        sound &= is_sane(findings, &outer.index(i), corner);
+    }
+    for (k, hole) in holes.iter().enumerate() {
+        for (i, corner) in hole.iter().enumerate() {
+            sound &= is_sane(findings, &inner.index(k).index(i), corner);
+        }
+    }
+    if !sound {
+        return None;
+    }
+    let points = |ring: &[Pair]| {
+        ring.iter()
+            .map(|c| Point::new(c[0], c[1]))
+            .collect::<Vec<_>>()
+    };
+    let flaws = match Polygon::new(points(corners), holes.iter().map(|h| points(h)).collect()) {
+        Ok(polygon) => {
+            let centroid = polygon.centroid();
+            if centroid.x.is_finite() && centroid.y.is_finite() {
+                return Some(Outline::Polygon(polygon));
+            }
+            // An area so small that a float cannot hold it.
+            vec![Flaw::ZeroArea { ring: 0 }]
+        }
+        Err(flaws) => flaws,
+    };
+    for flaw in flaws {
+        note(findings, &outer, &inner, corners, holes, flaw);
+    }
+    None
+}
+
+fn note(
+    findings: &mut Findings,
+    outer: &Trail<'_>,
+    inner: &Trail<'_>,
+    corners: &[Pair],
+    holes: &[Vec<Pair>],
+    flaw: Flaw,
+) {
+    let ring = match flaw {
+        Flaw::TooFewCorners { ring, .. } | Flaw::ZeroArea { ring } | Flaw::HoleOutside { ring } => {
+            ring
+        }
+        Flaw::Crossing { rings, .. } => rings[0],
+    };
+    let hole;
+    let at = if ring == 0 {
+        outer
+    } else {
+        hole = inner.index(ring - 1);
+        &hole
+    };
+    match flaw {
+        Flaw::TooFewCorners { corners, .. } => findings.add(at, problem::too_few_corners(corners)),
+        Flaw::ZeroArea { .. } => findings.add(at, problem::zero_area()),
+        Flaw::HoleOutside { .. } => findings.add(at, problem::hole_outside()),
+        Flaw::Crossing {
+            rings,
+            corners: first,
+            at: point,
+        } => {
+            let count = |ring: usize| {
+                if ring == 0 {
+                    corners.len()
+                } else {
+                    holes.get(ring - 1).map_or(0, Vec::len)
+                }
+            };
+            let side = |k: usize| problem::Side {
+                hole: rings[k].checked_sub(1),
+                corners: [first[k], (first[k] + 1) % count(rings[k]).max(1)],
+            };
+            findings.add(
+                &at.index(first[0]),
+                problem::crossing(&side(0), &side(1), point),
+            );
+        }
+    }
+}
+
+/// A sound set of cells from an entry, or everything that is wrong with it noted.
+pub(super) fn cells(
+    findings: &mut Findings,
+    at: &Trail<'_>,
+    lattice: Option<Lattice>,
+    entries: &[CellEntry],
+) -> Option<Outline> {
+    let at = at.key("cells");
+    let Some(lattice) = lattice else {
+        findings.add(&at, problem::cells_without_grid());
+        return None;
+    };
+    if entries.is_empty() {
+        findings.add(&at, problem::no_cells());
+        return None;
+    }
+    let mut sound = true;
+    let mut cells = Vec::with_capacity(entries.len());
+    let mut seen = std::collections::BTreeMap::new();
+    for (i, entry) in entries.iter().enumerate() {
+        let at = at.index(i);
+        let (x, y, half) = match (*entry, lattice.kind) {
+            (CellEntry::Triangle(x, y, CellHalf::Up), LatticeKind::Triangular) => (x, y, Half::Up),
+            (CellEntry::Triangle(x, y, CellHalf::Down), LatticeKind::Triangular) => {
+                (x, y, Half::Down)
+            }
+            (CellEntry::Square(x, y), LatticeKind::Square) => (x, y, Half::Whole),
+            (CellEntry::Square(..), LatticeKind::Triangular) => {
+                findings.add(&at, problem::square_cell());
+                sound = false;
+                continue;
+            }
+            (CellEntry::Triangle(..), LatticeKind::Square) => {
+                findings.add(&at, problem::triangle_cell());
+                sound = false;
+                continue;
+            }
+        };
+        let Some((x, y)) = node(findings, &at, [x, y]) else {
+            sound = false;
+            continue;
+        };
+        let cell = Cell { x, y, half };
+        if let Some(first) = seen.insert(cell, i) {
+            findings.add(&at, problem::cell_twice(first));
+            sound = false;
+        }
+        cells.push(cell);
+    }
+    if !sound {
+        return None;
+    }
+    if lattice.polygon(&cells).is_none() {
+        findings.add(&at, problem::cells_apart());
+        return None;
+    }
+    Some(Outline::Cells(cells))
+}
+
+/// Whole lattice coordinates within reach, or what is wrong with them noted.
+fn node(findings: &mut Findings, at: &Trail<'_>, pair: Pair) -> Option<(i64, i64)> {
+    if !is_sane(findings, at, &pair) {
+        return None;
+    }
+    if pair.iter().any(|x| x.fract() != 0.0) {
+        findings.add(at, problem::not_whole(pair));
+        return None;
+    }
+    if pair.iter().any(|x| x.abs() > REACH) {
+        findings.add(at, problem::beyond_lattice(pair, REACH));
+        return None;
+    }
+    Some((pair[0] as i64, pair[1] as i64))
+}
+
+/// A body in its place: turned about its origin, then moved.
+///
+/// `at` is a lattice point where the scene has a lattice, and has to be whole, and the turn one of the lattice's own,
+/// where the body is made of cells.
+pub(super) fn placed(
+    findings: &mut Findings,
+    trail: &Trail<'_>,
+    lattice: Option<Lattice>,
+    outline: &Outline,
+    at: Pair,
+    angle: f64,
+) -> Option<(Polygon, Option<Vec<Cell>>)> {
+    match (outline, lattice) {
+        (Outline::Cells(cells), Some(lattice)) => {
+            let by = node(findings, &trail.key("at"), at);
+            let turn = if lattice.kind == LatticeKind::Triangular {
+                60.0
+            } else {
+                90.0
+            };
+            let steps = angle.rem_euclid(360.0) / turn;
+            if steps.fract() != 0.0 {
+                findings.add(&trail.key("angle"), problem::angle_off_lattice(angle, turn));
+                return None;
+            }
+            let by = by?;
+            let cells: Vec<Cell> = cells
+                .iter()
+                .map(|c| c.turned(steps as i64).moved(by))
+                .collect();
+            let polygon = lattice.polygon(&cells)?;
+            Some((polygon, Some(cells)))
+        }
+        (Outline::Polygon(polygon), lattice) => {
+            let by = lattice.map_or(Vector::new(at[0], at[1]), |l| l.point(at[0], at[1]).coords);
+            Some((polygon.placed(angle, by), None))
+        }
+        (Outline::Cells(_), None) => None,
+    }
+}

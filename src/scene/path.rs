@@ -1,0 +1,110 @@
+//! [`Path`]: where in a scene file something stands, as `blocks[3].polygon[1]`.
+//!
+//! A [`Trail`] is the same while walking: it borrows its way up, so that a sound file costs no allocation.
+
+use std::fmt;
+
+/// One step down into a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Segment {
+    /// Into an object, by key.
+    Key(String),
+    /// Into a list, by number from 0.
+    Index(usize),
+}
+
+/// A place in a scene file, from the top.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(super) struct Path(pub(super) Vec<Segment>);
+
+/// A place in a scene file while walking through it.
+#[derive(Clone, Copy)]
+pub(super) enum Trail<'a> {
+    /// The whole file.
+    Top,
+    /// A key of an object.
+    Key(&'a Trail<'a>, &'a str),
+    /// An entry of a list.
+    Index(&'a Trail<'a>, usize),
+}
+
+impl Path {
+    /// Whether this path is `other` or lies inside it.
+    pub(super) fn starts_with(&self, other: &[Segment]) -> bool {
+        self.0.starts_with(other)
+    }
+}
+
+impl<'a> Trail<'a> {
+    /// One step down, to a key.
+    pub(super) fn key(&'a self, name: &'a str) -> Trail<'a> {
+        Trail::Key(self, name)
+    }
+
+    /// One step down, to an entry.
+    pub(super) fn index(&'a self, number: usize) -> Trail<'a> {
+        Trail::Index(self, number)
+    }
+
+    /// The same place, kept.
+    pub(super) fn path(&self) -> Path {
+        let mut segments = Vec::new();
+        let mut here = self;
+        loop {
+            match here {
+                Trail::Top => break,
+                Trail::Key(up, name) => {
+                    segments.push(Segment::Key((*name).to_string()));
+                    here = up;
+                }
+                Trail::Index(up, number) => {
+                    segments.push(Segment::Index(*number));
+                    here = up;
+                }
+            }
+        }
+        segments.reverse();
+        Path(segments)
+    }
+}
+
+impl fmt::Display for Path {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, segment) in self.0.iter().enumerate() {
+            match segment {
+                Segment::Index(number) => write!(f, "[{number}]")?,
+                Segment::Key(key) if !is_plain(key) => write!(f, "[{key:?}]")?,
+                Segment::Key(key) if i == 0 => f.write_str(key)?,
+                Segment::Key(key) => write!(f, ".{key}")?,
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Whether a key can follow a dot without being mistaken for something else.
+fn is_plain(key: &str) -> bool {
+    !key.is_empty()
+        && key
+            .chars()
+            .all(|c| c.is_alphanumeric() || matches!(c, '_' | '$' | '-'))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_path_reads_like_code() {
+        let (top, blocks) = (Trail::Top, "blocks");
+        let (a, b) = (top.key(blocks), top.key("materials"));
+        let c = a.index(3);
+        let d = c.key("polygon");
+        assert_eq!(d.index(1).path().to_string(), "blocks[3].polygon[1]");
+        assert_eq!(
+            b.key("red oak").path().to_string(),
+            "materials[\"red oak\"]"
+        );
+        assert_eq!(Trail::Top.path().to_string(), "");
+    }
+}

@@ -1,0 +1,219 @@
+//! Plays the steps of a scene file into [`Frame`]s.
+//!
+//! Within a step: release, remove, place, hold, and then the plans. A step that cannot be played as it is written is
+//! noted, and played on as it was most likely meant, so that one slip is one problem.
+
+use std::collections::BTreeMap;
+
+use super::finding::Findings;
+use super::format::{HoldEntry, Pair, StepEntry};
+use super::frame::{Frame, Hold, Plan};
+use super::name::Names;
+use super::number::is_sane;
+use super::path::Trail;
+use super::problem;
+use super::{BlockId, RobotId};
+use crate::geometry::Point;
+
+/// What playing needs to know of the scene.
+pub(super) struct Cast<'s> {
+    /// Block numbers by name.
+    pub(super) blocks: &'s Names<'s>,
+    /// Robot numbers by name.
+    pub(super) robots: &'s Names<'s>,
+    /// Every block's centroid; the origin where the block is unsound.
+    pub(super) centroids: &'s [Point],
+    /// Every robot's own grip point for the block it holds.
+    pub(super) grips: &'s [Option<(BlockId, Point)>],
+}
+
+impl Cast<'_> {
+    fn grip(&self, robot: RobotId, block: BlockId, at: Option<Pair>) -> Point {
+        match (at, self.grips[robot.0]) {
+            (Some(at), _) => Point::new(at[0], at[1]),
+            (None, Some((own, point))) if own == block => point,
+            _ => self.centroids[block.0],
+        }
+    }
+}
+
+/// The one frame of a scene without steps: every block stands, each robot holds its own.
+pub(super) fn whole(blocks: usize, holds: Vec<Hold>) -> Frame {
+    Frame {
+        title: String::new(),
+        placed: (0..blocks).map(BlockId).collect(),
+        holds,
+        plans: Vec::new(),
+    }
+}
+
+/// One frame per step.
+pub(super) fn frames(findings: &mut Findings, steps: &[StepEntry], cast: &Cast<'_>) -> Vec<Frame> {
+    let top = Trail::Top;
+    let list = top.key("steps");
+    let mut standing = Standing {
+        since: BTreeMap::new(),
+        order: BTreeMap::new(),
+        next: 0,
+        holds: BTreeMap::new(),
+    };
+    let mut frames = Vec::with_capacity(steps.len());
+    for (k, step) in steps.iter().enumerate() {
+        frames.push(standing.play(findings, &list.index(k), k, step, cast));
+    }
+    frames
+}
+
+/// What stands, and who holds what, after the steps so far.
+struct Standing {
+    /// In which step a block was placed, and its number in placing order.
+    since: BTreeMap<BlockId, (usize, usize)>,
+    /// The blocks in placing order.
+    order: BTreeMap<usize, BlockId>,
+    /// The next number in placing order.
+    next: usize,
+    holds: BTreeMap<RobotId, (BlockId, Point)>,
+}
+
+impl Standing {
+    fn play(
+        &mut self,
+        findings: &mut Findings,
+        at: &Trail<'_>,
+        number: usize,
+        step: &StepEntry,
+        cast: &Cast<'_>,
+    ) -> Frame {
+        let list = at.key("release");
+        for (i, name) in step.release.iter().enumerate() {
+            if let Some(robot) = cast.robots.find(findings, &list.index(i), name) {
+                self.holds.remove(&RobotId(robot));
+            }
+        }
+        let list = at.key("remove");
+        for (i, name) in step.remove.iter().enumerate() {
+            let at = list.index(i);
+            if let Some(block) = cast.blocks.find(findings, &at, name).map(BlockId) {
+                self.remove(findings, &at, name, block, cast);
+            }
+        }
+        let list = at.key("place");
+        for (i, name) in step.place.iter().enumerate() {
+            let at = list.index(i);
+            if let Some(block) = cast.blocks.find(findings, &at, name).map(BlockId) {
+                if let Some((since, _)) = self.since.get(&block) {
+                    findings.add(&at, problem::placed_twice(name, *since, number));
+                    continue;
+                }
+                self.since.insert(block, (number, self.next));
+                self.order.insert(self.next, block);
+                self.next += 1;
+            }
+        }
+        let list = at.key("hold");
+        for (robot, hold) in &step.hold.0 {
+            self.hold(findings, &list.key(robot), robot, hold, cast);
+        }
+        let plans = self.plans(findings, &at.key("plan"), step, cast);
+        Frame {
+            title: step.title.clone().unwrap_or_default(),
+            placed: self.order.values().copied().collect(),
+            holds: self
+                .holds
+                .iter()
+                .map(|(robot, (block, at))| Hold {
+                    robot: *robot,
+                    block: *block,
+                    at: *at,
+                })
+                .collect(),
+            plans,
+        }
+    }
+
+    fn remove(
+        &mut self,
+        findings: &mut Findings,
+        at: &Trail<'_>,
+        name: &str,
+        block: BlockId,
+        cast: &Cast<'_>,
+    ) {
+        let Some((_, place)) = self.since.remove(&block) else {
+            findings.add(at, problem::removed_unplaced(name));
+            return;
+        };
+        self.order.remove(&place);
+        let holders: Vec<RobotId> = self
+            .holds
+            .iter()
+            .filter(|(_, held)| held.0 == block)
+            .map(|(r, _)| *r)
+            .collect();
+        if let Some(robot) = holders.first() {
+            findings.add(at, problem::removed_held(name, cast.robots.name(robot.0)));
+        }
+        for robot in holders {
+            self.holds.remove(&robot);
+        }
+    }
+
+    fn hold(
+        &mut self,
+        findings: &mut Findings,
+        at: &Trail<'_>,
+        robot_name: &str,
+        hold: &HoldEntry,
+        cast: &Cast<'_>,
+    ) {
+        let inner = at.key("block");
+        let (name, point, name_at) = match hold {
+            HoldEntry::Block(name) => (name, None, at),
+            HoldEntry::Grip(grip) => (&grip.block, grip.at, &inner),
+        };
+        let robot = cast.robots.find_key(findings, at, robot_name).map(RobotId);
+        let block = cast.blocks.find(findings, name_at, name).map(BlockId);
+        let sound = point.is_none_or(|p| is_sane(findings, &at.key("at"), &p));
+        let Some(block) = block else { return };
+        if !self.since.contains_key(&block) {
+            findings.add(name_at, problem::held_unplaced(robot_name, name));
+            return;
+        }
+        let Some(robot) = robot else { return };
+        if let Some((other, _)) = self.holds.get(&robot)
+            && *other != block
+        {
+            findings.add(
+                at,
+                problem::holds_two(robot_name, cast.blocks.name(other.0), name),
+            );
+        }
+        if sound {
+            self.holds
+                .insert(robot, (block, cast.grip(robot, block, point)));
+        }
+    }
+
+    fn plans(
+        &self,
+        findings: &mut Findings,
+        at: &Trail<'_>,
+        step: &StepEntry,
+        cast: &Cast<'_>,
+    ) -> Vec<Plan> {
+        let mut plans = Vec::new();
+        for (robot_name, name) in &step.plan.0 {
+            let at = at.key(robot_name);
+            let robot = cast.robots.find_key(findings, &at, robot_name).map(RobotId);
+            let block = cast.blocks.find(findings, &at, name).map(BlockId);
+            let Some(block) = block else { continue };
+            if self.since.contains_key(&block) {
+                findings.add(&at, problem::planned_placed(robot_name, name));
+            } else if let Some(robot) = robot {
+                plans.push(Plan { robot, block });
+            }
+        }
+        plans.sort_by_key(|p| p.robot);
+        plans
+    }
+}

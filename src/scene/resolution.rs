@@ -1,0 +1,663 @@
+//! From a [`SceneFile`] to a [`Scene`]: defaults filled in, names resolved, numbers and outlines checked.
+
+use std::collections::BTreeMap;
+
+use super::collision::{self, Comparison};
+use super::finding::{Doubt, Finding, Findings};
+use super::format::{self, LimitsEntry, Pair, SceneFile};
+use super::frame::Hold;
+use super::name::Names;
+use super::number::{LARGEST, at_least_zero, is_sane};
+use super::outline::{self, Outline};
+use super::path::Trail;
+use super::play::{self, Cast};
+use super::problem;
+use super::shape;
+use super::{
+    Block, BlockId, Body, BodyId, Grip, Ground, Limits, Load, Material, Rgb, Robot, RobotId, Scene,
+};
+use crate::geometry::{Bounds, Lattice, LatticeKind, Point, Polygon, Tolerance, Vector};
+
+const FRICTION: f64 = 0.7;
+const DENSITY: f64 = 1.0;
+const THICKNESS: f64 = 1.0;
+const GRAVITY: Pair = [0.0, -9.81];
+
+/// The scene a file describes, or all that is wrong with it.
+///
+/// With parts of the file in doubt the answer is wrong in any case, perhaps without a finding.
+pub(super) fn resolve(file: &SceneFile, doubt: Doubt) -> Result<Scene, Vec<Finding>> {
+    let mut findings = Findings::doubting(doubt);
+    let scene = Resolution::new(&mut findings, file).scene(&mut findings);
+    match scene {
+        Some(scene) if findings.list.is_empty() => Ok(scene),
+        _ => Err(findings.list),
+    }
+}
+
+/// What the whole file says, for its bodies to use.
+struct Resolution<'f> {
+    file: &'f SceneFile,
+    gravity: Vector,
+    kernel: f64,
+    friction: f64,
+    density: f64,
+    thickness: f64,
+    lattice: Option<Lattice>,
+    /// Whether the grid could be read, so that bodies can be.
+    grid_known: bool,
+    materials: Names<'f>,
+    material_entries: Vec<MaterialValues>,
+    shapes: Names<'f>,
+    outlines: Vec<Option<Outline>>,
+    ids: Vec<String>,
+    robot_ids: Vec<String>,
+}
+
+/// A material's own values, sound ones only.
+#[derive(Clone, Copy)]
+struct MaterialValues {
+    density: Option<f64>,
+    friction: Option<f64>,
+    fill: Option<Rgb>,
+}
+
+/// The keys that blocks and ground share.
+struct BodyEntry<'f> {
+    polygon: Option<&'f [Pair]>,
+    holes: &'f [Vec<Pair>],
+    cells: Option<&'f [format::CellEntry]>,
+    shape: Option<&'f str>,
+    at: Option<Pair>,
+    angle: Option<f64>,
+    material: Option<&'f str>,
+    friction: Option<f64>,
+    fill: Option<&'f str>,
+}
+
+macro_rules! body_entry {
+    ($entry:expr) => {
+        BodyEntry {
+            polygon: $entry.polygon.as_deref(),
+            holes: &$entry.holes,
+            cells: $entry.cells.as_deref(),
+            shape: $entry.shape.as_deref(),
+            at: $entry.at,
+            angle: $entry.angle,
+            material: $entry.material.as_deref(),
+            friction: $entry.friction,
+            fill: $entry.fill.as_deref(),
+        }
+    };
+}
+
+impl<'f> Resolution<'f> {
+    fn new(findings: &mut Findings, file: &'f SceneFile) -> Resolution<'f> {
+        let top = Trail::Top;
+        if file.drystone.0 != 1 {
+            findings.add(&top.key("drystone"), problem::version(file.drystone.0));
+        }
+        let gravity = file.gravity.unwrap_or(GRAVITY);
+        is_sane(findings, &top.key("gravity"), &gravity);
+        let kernel = file.kernel.unwrap_or(0.0);
+        if is_sane(findings, &top.key("kernel"), &[kernel]) && !(0.0..=1.0).contains(&kernel) {
+            findings.add(&top.key("kernel"), problem::kernel(kernel));
+        }
+        let lattice = lattice(findings, file.grid.as_ref());
+        let grid_known =
+            !findings.doubt.touches_key("grid") && lattice.is_some() == file.grid.is_some();
+        let names = |list: &[(String, _)]| list.len();
+        let materials = Names::new(
+            "material",
+            file.materials.0.iter().map(|m| m.0.as_str()).collect(),
+            findings
+                .doubt
+                .hides_names("materials", names(&file.materials.0)),
+        );
+        let shapes = Names::new(
+            "shape",
+            file.shapes
+                .0
+                .iter()
+                .map(|s| s.0.as_str())
+                .chain(shape::BUILT_IN)
+                .collect(),
+            findings.doubt.hides_names("shapes", file.shapes.0.len()),
+        );
+        let mut resolution = Resolution {
+            file,
+            gravity: Vector::new(gravity[0], gravity[1]),
+            kernel,
+            friction: at_least_zero(findings, &top, "friction", file.friction).unwrap_or(FRICTION),
+            density: at_least_zero(findings, &top, "density", file.density).unwrap_or(DENSITY),
+            thickness: at_least_zero(findings, &top, "thickness", file.thickness)
+                .unwrap_or(THICKNESS),
+            lattice,
+            grid_known,
+            materials,
+            material_entries: Vec::new(),
+            shapes,
+            outlines: Vec::new(),
+            ids: file
+                .blocks
+                .iter()
+                .enumerate()
+                .map(|(i, b)| b.id.clone().unwrap_or_else(|| (i + 1).to_string()))
+                .collect(),
+            robot_ids: file
+                .robots
+                .iter()
+                .enumerate()
+                .map(|(i, r)| r.id.clone().unwrap_or_else(|| format!("r{i}")))
+                .collect(),
+        };
+        resolution.material_entries = material_values(findings, file);
+        resolution.outlines = resolution.shape_outlines(findings);
+        resolution
+    }
+
+    fn scene(&self, findings: &mut Findings) -> Option<Scene> {
+        let top = Trail::Top;
+        let (ground, blocks) = (self.ground(findings), self.blocks(findings));
+        ids(
+            findings,
+            &top.key("blocks"),
+            "block",
+            &self.ids,
+            self.file.blocks.iter().map(|b| b.id.is_some()),
+        );
+        ids(
+            findings,
+            &top.key("robots"),
+            "robot",
+            &self.robot_ids,
+            self.file.robots.iter().map(|r| r.id.is_some()),
+        );
+        let friction_pairs = self.friction_pairs(findings);
+        let block_names = Names::new(
+            "block",
+            self.ids.iter().map(String::as_str).collect(),
+            findings.doubt.hides_names("blocks", self.ids.len()),
+        );
+        let robot_names = Names::new(
+            "robot",
+            self.robot_ids.iter().map(String::as_str).collect(),
+            findings.doubt.hides_names("robots", self.robot_ids.len()),
+        );
+        let centroids: Vec<Point> = blocks
+            .iter()
+            .map(|b| b.as_ref().map_or(Point::origin(), |b| b.centroid))
+            .collect();
+        let robots = self.robots(findings, &block_names, &centroids);
+        let loads = self.loads(findings, &block_names, &centroids);
+        let grips: Vec<Option<(BlockId, Point)>> = robots
+            .iter()
+            .map(|r| r.holds.map(|g| (g.block, g.at)))
+            .collect();
+        let frames = if self.file.steps.is_empty() {
+            let holds = |(i, grip): (usize, &Option<(BlockId, Point)>)| {
+                grip.map(|(block, at)| Hold {
+                    robot: RobotId(i),
+                    block,
+                    at,
+                })
+            };
+            vec![play::whole(
+                blocks.len(),
+                grips.iter().enumerate().filter_map(holds).collect(),
+            )]
+        } else {
+            // What follows a step that could not be read is anybody's guess.
+            let known = findings
+                .doubt
+                .first_entry("steps")
+                .unwrap_or(usize::MAX)
+                .min(self.file.steps.len());
+            let cast = Cast {
+                blocks: &block_names,
+                robots: &robot_names,
+                centroids: &centroids,
+                grips: &grips,
+            };
+            play::frames(findings, &self.file.steps[..known], &cast)
+        };
+        let bodies: Vec<(BodyId, &Body)> = (ground.iter().enumerate())
+            .filter_map(|(i, g)| g.as_ref().map(|g| (BodyId::Ground(i), &g.body)))
+            .chain(
+                (blocks.iter().enumerate())
+                    .filter_map(|(i, b)| b.as_ref().map(|b| (BodyId::Block(BlockId(i)), &b.body))),
+            )
+            .collect();
+        let exact = self.lattice.is_some() && bodies.iter().all(|(_, body)| body.cells.is_some());
+        let tolerance = if exact {
+            Tolerance::EXACT
+        } else {
+            tolerance(&bodies)
+        };
+        let steps_unknown = findings.doubt.touches_key("steps") && self.file.steps.is_empty();
+        if !steps_unknown {
+            let lattice = self.lattice.filter(|_| exact);
+            let comparison = Comparison {
+                bodies,
+                names: &self.ids,
+                frames: &frames,
+                lattice,
+                tolerance,
+            };
+            collision::check(findings, &comparison);
+        }
+        Some(Scene {
+            title: self.file.title.clone().unwrap_or_default(),
+            gravity: self.gravity,
+            kernel: self.kernel,
+            lattice: self.lattice,
+            exact,
+            tolerance,
+            ground: ground.into_iter().collect::<Option<_>>()?,
+            blocks: blocks.into_iter().collect::<Option<_>>()?,
+            robots,
+            loads,
+            materials: self
+                .file
+                .materials
+                .0
+                .iter()
+                .map(|m| Material { name: m.0.clone() })
+                .collect(),
+            friction_pairs,
+            corner_contacts: self.file.corner_contacts.unwrap_or(false),
+            frames,
+        })
+    }
+
+    fn shape_outlines(&self, findings: &mut Findings) -> Vec<Option<Outline>> {
+        let top = Trail::Top;
+        let list = top.key("shapes");
+        let mut outlines = Vec::new();
+        for (name, entry) in &self.file.shapes.0 {
+            let at = list.key(name);
+            if shape::BUILT_IN.contains(&name.as_str()) {
+                findings.add_key(&at, problem::built_in_shape(name));
+            }
+            outlines.push(match (&entry.polygon, &entry.cells) {
+                (Some(_), Some(_)) => {
+                    findings.add(&at, problem::two_outlines("polygon", "cells"));
+                    None
+                }
+                (None, None) => {
+                    findings.add(&at, problem::no_shape_outline());
+                    None
+                }
+                (polygon, cells) => self.outline(
+                    findings,
+                    &at,
+                    polygon.as_deref(),
+                    &entry.holes,
+                    cells.as_deref(),
+                ),
+            });
+        }
+        for name in shape::BUILT_IN {
+            let triangular = self
+                .lattice
+                .is_some_and(|l| l.kind == LatticeKind::Triangular);
+            outlines.push(
+                shape::cells(name)
+                    .filter(|_| triangular)
+                    .map(Outline::Cells),
+            );
+        }
+        outlines
+    }
+
+    fn outline(
+        &self,
+        findings: &mut Findings,
+        at: &Trail<'_>,
+        polygon: Option<&[Pair]>,
+        holes: &[Vec<Pair>],
+        cells: Option<&[format::CellEntry]>,
+    ) -> Option<Outline> {
+        if polygon.is_none() && !holes.is_empty() {
+            findings.add(&at.key("holes"), problem::holes_alone());
+            return None;
+        }
+        if findings.doubt.touches(&at.path()) {
+            return None;
+        }
+        match (polygon, cells) {
+            (Some(corners), _) => outline::polygon(findings, at, corners, holes),
+            (None, Some(entries)) if self.grid_known => {
+                outline::cells(findings, at, self.lattice, entries)
+            }
+            _ => None,
+        }
+    }
+
+    fn body(&self, findings: &mut Findings, at: &Trail<'_>, entry: &BodyEntry<'_>) -> Option<Body> {
+        let material = entry
+            .material
+            .and_then(|m| self.materials.find(findings, &at.key("material"), m));
+        let values = material.map(|m| self.material_entries[m]);
+        let friction = at_least_zero(findings, at, "friction", entry.friction);
+        let fill = entry
+            .fill
+            .and_then(|f| colour(findings, &at.key("fill"), f));
+        let angle = entry.angle.unwrap_or(0.0);
+        let place = entry.at.unwrap_or([0.0, 0.0]);
+        let sound = is_sane(findings, &at.key("angle"), &[angle])
+            & is_sane(findings, &at.key("at"), &place);
+        let given = [
+            ("polygon", entry.polygon.is_some()),
+            ("cells", entry.cells.is_some()),
+            ("shape", entry.shape.is_some()),
+        ];
+        let given: Vec<&str> = given.iter().filter(|g| g.1).map(|g| g.0).collect();
+        let own;
+        let outline = match given.as_slice() {
+            [] => {
+                findings.add(at, problem::no_outline());
+                None
+            }
+            [first, second, ..] => {
+                findings.add(at, problem::two_outlines(first, second));
+                None
+            }
+            ["shape"] => {
+                if !entry.holes.is_empty() {
+                    findings.add(&at.key("holes"), problem::holes_alone());
+                }
+                self.shape(findings, &at.key("shape"), entry.shape.unwrap_or(""))
+            }
+            _ => {
+                own = self.outline(findings, at, entry.polygon, entry.holes, entry.cells);
+                own.as_ref()
+            }
+        };
+        if !sound || !self.grid_known || findings.doubt.touches(&at.path()) {
+            return None;
+        }
+        let (polygon, cells) = outline::placed(findings, at, self.lattice, outline?, place, angle)?;
+        Some(Body {
+            polygon,
+            cells,
+            material,
+            friction: friction
+                .or(values.and_then(|v| v.friction))
+                .unwrap_or(self.friction),
+            fill: fill.or(values.and_then(|v| v.fill)),
+        })
+    }
+
+    fn shape(&self, findings: &mut Findings, at: &Trail<'_>, name: &str) -> Option<&Outline> {
+        let number = self.shapes.find(findings, at, name)?;
+        let outline = self.outlines[number].as_ref();
+        if outline.is_none() && number >= self.file.shapes.0.len() && self.grid_known {
+            findings.add(at, problem::shape_without_grid(name));
+        }
+        outline
+    }
+
+    fn ground(&self, findings: &mut Findings) -> Vec<Option<Ground>> {
+        let top = Trail::Top;
+        let list = top.key("ground");
+        (self.file.ground.iter().enumerate())
+            .map(|(i, entry)| {
+                Some(Ground {
+                    body: self.body(findings, &list.index(i), &body_entry!(entry))?,
+                })
+            })
+            .collect()
+    }
+
+    fn blocks(&self, findings: &mut Findings) -> Vec<Option<Block>> {
+        let top = Trail::Top;
+        let list = top.key("blocks");
+        (self.file.blocks.iter().enumerate())
+            .map(|(i, entry)| self.block(findings, &list.index(i), entry, i))
+            .collect()
+    }
+
+    fn block(
+        &self,
+        findings: &mut Findings,
+        at: &Trail<'_>,
+        entry: &format::BlockEntry,
+        i: usize,
+    ) -> Option<Block> {
+        let weight = at_least_zero(findings, at, "weight", entry.weight);
+        let mass = at_least_zero(findings, at, "mass", entry.mass);
+        let density = at_least_zero(findings, at, "density", entry.density);
+        let body = self.body(findings, at, &body_entry!(entry))?;
+        let area = match (&body.cells, self.lattice) {
+            (Some(cells), Some(lattice)) => cells.len() as f64 * lattice.cell_area(),
+            _ => body.polygon.area(),
+        };
+        let density = density
+            .or_else(|| body.material.and_then(|m| self.material_entries[m].density))
+            .unwrap_or(self.density);
+        let weight = weight.unwrap_or_else(|| {
+            mass.unwrap_or(density * area * self.thickness) * self.gravity.norm()
+        });
+        if !(weight <= LARGEST) {
+            findings.add(at, problem::too_heavy(weight, LARGEST));
+            return None;
+        }
+        Some(Block {
+            id: self.ids[i].clone(),
+            centroid: body.polygon.centroid(),
+            body,
+            weight,
+        })
+    }
+
+    fn friction_pairs(&self, findings: &mut Findings) -> Vec<([usize; 2], f64)> {
+        let top = Trail::Top;
+        let list = top.key("friction_pairs");
+        let mut pairs = Vec::new();
+        let mut seen: BTreeMap<[usize; 2], usize> = BTreeMap::new();
+        for (i, entry) in self.file.friction_pairs.iter().enumerate() {
+            let at = list.index(i);
+            let between = at.key("between");
+            let friction = at_least_zero(findings, &at, "friction", Some(entry.friction));
+            let a = self
+                .materials
+                .find(findings, &between.index(0), &entry.between[0]);
+            let b = self
+                .materials
+                .find(findings, &between.index(1), &entry.between[1]);
+            let (Some(a), Some(b)) = (a, b) else { continue };
+            let pair = [a.min(b), a.max(b)];
+            if let Some(first) = seen.get(&pair) {
+                findings.add(&between, problem::pair_twice(&entry.between, *first));
+                continue;
+            }
+            seen.insert(pair, i);
+            pairs.extend(friction.map(|friction| (pair, friction)));
+        }
+        pairs
+    }
+
+    fn robots(
+        &self,
+        findings: &mut Findings,
+        blocks: &Names<'_>,
+        centroids: &[Point],
+    ) -> Vec<Robot> {
+        let top = Trail::Top;
+        let list = top.key("robots");
+        let mut robots = Vec::new();
+        for (i, entry) in self.file.robots.iter().enumerate() {
+            let at = list.index(i);
+            let block = entry
+                .holds
+                .as_ref()
+                .and_then(|b| blocks.find(findings, &at.key("holds"), b))
+                .map(BlockId);
+            if let Some(point) = entry.at {
+                is_sane(findings, &at.key("at"), &point);
+            }
+            let grip = |block: BlockId| {
+                entry
+                    .at
+                    .map_or(centroids[block.0], |p| Point::new(p[0], p[1]))
+            };
+            robots.push(Robot {
+                id: self.robot_ids[i].clone(),
+                limits: limits(findings, &at.key("limits"), entry.limits.as_ref()),
+                holds: block.map(|block| Grip {
+                    block,
+                    at: grip(block),
+                }),
+            });
+        }
+        robots
+    }
+
+    fn loads(&self, findings: &mut Findings, blocks: &Names<'_>, centroids: &[Point]) -> Vec<Load> {
+        let top = Trail::Top;
+        let list = top.key("loads");
+        let mut loads = Vec::new();
+        for (i, entry) in self.file.loads.iter().enumerate() {
+            let at = list.index(i);
+            let force = entry.force.unwrap_or([0.0, 0.0]);
+            let torque = entry.torque.unwrap_or(0.0);
+            is_sane(findings, &at.key("force"), &force);
+            is_sane(findings, &at.key("torque"), &[torque]);
+            if let Some(point) = entry.at {
+                is_sane(findings, &at.key("at"), &point);
+            }
+            let Some(block) = blocks
+                .find(findings, &at.key("block"), &entry.block)
+                .map(BlockId)
+            else {
+                continue;
+            };
+            let point = entry
+                .at
+                .map_or(centroids[block.0], |p| Point::new(p[0], p[1]));
+            loads.push(Load {
+                block,
+                force: Vector::new(force[0], force[1]),
+                at: point,
+                torque,
+            });
+        }
+        loads
+    }
+}
+
+fn lattice(findings: &mut Findings, entry: Option<&format::GridEntry>) -> Option<Lattice> {
+    let entry = entry?;
+    let (top, side) = (Trail::Top, entry.side.unwrap_or(1.0));
+    let grid = top.key("grid");
+    let at = grid.key("side");
+    if !is_sane(findings, &at, &[side]) {
+        return None;
+    }
+    if side <= 0.0 {
+        findings.add(&at, problem::side(side));
+        return None;
+    }
+    let kind = match entry.kind {
+        format::GridKind::Triangular => LatticeKind::Triangular,
+        format::GridKind::Square => LatticeKind::Square,
+    };
+    Some(Lattice { kind, side })
+}
+
+fn material_values(findings: &mut Findings, file: &SceneFile) -> Vec<MaterialValues> {
+    let top = Trail::Top;
+    let list = top.key("materials");
+    let mut values = Vec::new();
+    for (name, entry) in &file.materials.0 {
+        let at = list.key(name);
+        values.push(MaterialValues {
+            density: at_least_zero(findings, &at, "density", entry.density),
+            friction: at_least_zero(findings, &at, "friction", entry.friction),
+            fill: entry
+                .fill
+                .as_deref()
+                .and_then(|f| colour(findings, &at.key("fill"), f)),
+        });
+    }
+    values
+}
+
+/// Notes ids that are used twice, empty or reserved.
+fn ids(
+    findings: &mut Findings,
+    list: &Trail<'_>,
+    sort: &str,
+    ids: &[String],
+    given: impl Iterator<Item = bool>,
+) {
+    let mut first: BTreeMap<&str, usize> = BTreeMap::new();
+    for (i, (id, given)) in ids.iter().zip(given).enumerate() {
+        let entry = list.index(i);
+        let inner = entry.key("id");
+        let at = if given { &inner } else { &entry };
+        if id.is_empty() {
+            findings.add(at, problem::empty_id(sort));
+        } else if sort == "block" && id == "ground" {
+            findings.add(at, problem::reserved_id());
+        }
+        if let Some(first) = first.get(id.as_str()) {
+            findings.add(
+                at,
+                problem::id_twice(sort, id, &list.index(*first).path().to_string()),
+            );
+        } else {
+            first.insert(id, i);
+        }
+    }
+}
+
+fn limits(findings: &mut Findings, at: &Trail<'_>, entry: Option<&LimitsEntry>) -> Limits {
+    let Some(entry) = entry else {
+        return Limits::default();
+    };
+    let force = at_least_zero(findings, at, "force", entry.force);
+    Limits {
+        fx: at_least_zero(findings, at, "fx", entry.fx)
+            .or(force)
+            .unwrap_or(f64::INFINITY),
+        fy: at_least_zero(findings, at, "fy", entry.fy)
+            .or(force)
+            .unwrap_or(f64::INFINITY),
+        torque: at_least_zero(findings, at, "torque", entry.torque).unwrap_or(0.0),
+    }
+}
+
+/// A colour written `#rrggbb` or `#rgb`.
+fn colour(findings: &mut Findings, at: &Trail<'_>, text: &str) -> Option<Rgb> {
+    let digits: Option<Vec<u8>> = text.strip_prefix('#').and_then(|hex| {
+        hex.chars()
+            .map(|c| c.to_digit(16).and_then(|d| u8::try_from(d).ok()))
+            .collect()
+    });
+    match digits.as_deref() {
+        Some([r, g, b]) => Some(Rgb([r * 17, g * 17, b * 17])),
+        Some([a, b, c, d, e, f]) => Some(Rgb([a * 16 + b, c * 16 + d, e * 16 + f])),
+        _ => {
+            findings.add(at, problem::colour(text));
+            None
+        }
+    }
+}
+
+/// How close is close: from the box around all blocks, and their median size.
+fn tolerance(bodies: &[(BodyId, &Body)]) -> Tolerance {
+    let blocks = bodies
+        .iter()
+        .filter(|(id, _)| matches!(id, BodyId::Block(_)));
+    let boxes: Vec<Bounds> = blocks
+        .map(|(_, body)| Polygon::bounds(&body.polygon))
+        .collect();
+    let Some(around) = boxes.iter().copied().reduce(Bounds::union) else {
+        return Tolerance::of(0.0, 0.0);
+    };
+    let mut sizes: Vec<f64> = boxes.iter().map(|b| b.diagonal()).collect();
+    sizes.sort_by(f64::total_cmp);
+    Tolerance::of(around.diagonal(), sizes[sizes.len() / 2])
+}
