@@ -1,3 +1,7 @@
-//! The `drystone` program.
+//! The `drystone` program: everything is in the library's `cli`.
 
-fn main() {}
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    drystone::cli::run()
+}

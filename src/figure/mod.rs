@@ -21,4 +21,5 @@ pub use forces::forces;
 pub use mark::{ArrowKind, ForceArrow, Marks, TurnArrow, TurnKind, arrows, marks};
 pub use option::{ArrowScale, ForceStyle, Normalisation, Options};
 pub use shapes::shapes;
+pub(crate) use words::letter;
 pub use words::quantity;

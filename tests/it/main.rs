@@ -3,3 +3,4 @@
 mod gallery;
 mod layers;
 mod problems;
+mod program;

@@ -16,12 +16,20 @@ struct Case {
 
 fn cases() -> Vec<Case> {
     let text = std::fs::read_to_string(REFERENCE).expect("the cases are there");
-    let parts = text.split("\n## ").map(|part| part.trim_start_matches("## "));
+    let parts = text
+        .split("\n## ")
+        .map(|part| part.trim_start_matches("## "));
     parts
         .map(|part| {
             let (title, rest) = part.split_once('\n').expect("a title");
-            let (scene, said) = rest.split_once("\n--\n").expect("a scene, and what is said of it");
-            Case { title: title.into(), scene: scene.into(), said: said.trim().into() }
+            let (scene, said) = rest
+                .split_once("\n--\n")
+                .expect("a scene, and what is said of it");
+            Case {
+                title: title.into(),
+                scene: scene.into(),
+                said: said.trim().into(),
+            }
         })
         .collect()
 }
@@ -30,11 +38,17 @@ fn refused(text: &str) -> Problems {
     let problems = Scene::from_json(text).expect_err("refused");
     assert!(!problems.list.is_empty());
     for problem in &problems.list {
-        assert!(!problem.message.is_empty() && !problem.help.is_empty(), "{problem}");
+        assert!(
+            !problem.message.is_empty() && !problem.help.is_empty(),
+            "{problem}"
+        );
         assert!(problem.line >= 1 && problem.column >= 1, "{problem}");
         let span = problem.span.clone().expect("a text has spans");
         let read = problems.text.as_deref().expect("the text is kept");
-        assert!(read.get(span).is_some(), "the span of {problem} lies in the text");
+        assert!(
+            read.get(span).is_some(),
+            "the span of {problem} lies in the text"
+        );
     }
     problems
 }
@@ -48,9 +62,15 @@ fn every_case_is_said_as_agreed() {
     for case in &cases {
         let said = refused(&case.scene).to_string();
         if said != case.said {
-            wrong.push(format!("{}:\n{}\n  instead of\n{}", case.title, said, case.said));
+            wrong.push(format!(
+                "{}:\n{}\n  instead of\n{}",
+                case.title, said, case.said
+            ));
         }
-        updated.push_str(&format!("## {}\n{}\n--\n{said}\n\n", case.title, case.scene));
+        updated.push_str(&format!(
+            "## {}\n{}\n--\n{said}\n\n",
+            case.title, case.scene
+        ));
     }
     if std::env::var_os("UPDATE_SNAPSHOTS").is_some() {
         std::fs::write(REFERENCE, updated).expect("the cases can be written");
@@ -82,7 +102,10 @@ fn a_file_with_one_byte_changed_never_panics() {
             bytes[end] = byte;
             if let Err(problems) = Scene::from_slice(&bytes) {
                 assert!(!problems.list.is_empty());
-                assert!(!problems.to_string().contains("schema"), "{end} {byte}: {problems}");
+                assert!(
+                    !problems.to_string().contains("schema"),
+                    "{end} {byte}: {problems}"
+                );
             }
         }
     }
@@ -93,18 +116,25 @@ fn nesting_without_end_is_refused() {
     for opened in ["[", "{\"a\":", "{\"drystone\":1,\"blocks\":[{\"x\":"] {
         let problems = refused(&opened.repeat(100_000));
         assert_eq!(problems.list.len(), 1);
-        assert!(problems.list[0].message.contains("nested more than"), "{problems}");
+        assert!(
+            problems.list[0].message.contains("nested more than"),
+            "{problems}"
+        );
     }
 }
 
 #[test]
 fn bytes_that_are_no_text_are_refused_where_they_stand() {
-    let problems = Scene::from_slice(b"{ \"drystone\": 1,\n  \"title\": \"caf\xE9\" }").expect_err("refused");
+    let problems =
+        Scene::from_slice(b"{ \"drystone\": 1,\n  \"title\": \"caf\xE9\" }").expect_err("refused");
     assert_eq!(
         problems.to_string(),
         "line 2, column 16: the byte 0xE9 is not UTF-8 text\n  help: save the file in the encoding UTF-8"
     );
-    let utf16: Vec<u8> = [0xFF, 0xFE].into_iter().chain("{ }".encode_utf16().flat_map(u16::to_le_bytes)).collect();
+    let utf16: Vec<u8> = [0xFF, 0xFE]
+        .into_iter()
+        .chain("{ }".encode_utf16().flat_map(u16::to_le_bytes))
+        .collect();
     let problems = Scene::from_slice(&utf16).expect_err("refused");
     assert!(problems.to_string().contains("UTF-16"), "{problems}");
 }
@@ -114,38 +144,63 @@ fn a_byte_order_mark_is_no_part_of_the_text() {
     let marked = format!("\u{feff}{}", r#"{ "drystone": 1, "blocks": [] }"#);
     assert!(Scene::from_slice(marked.as_bytes()).is_ok());
     assert!(Scene::from_json(&marked).is_ok());
-    let problems = Scene::from_slice("\u{feff}{ \"drystone\": 2, \"blocks\": [] }".as_bytes()).expect_err("refused");
+    let problems = Scene::from_slice("\u{feff}{ \"drystone\": 2, \"blocks\": [] }".as_bytes())
+        .expect_err("refused");
     assert_eq!((problems.list[0].line, problems.list[0].column), (1, 15));
 }
 
 #[test]
 fn a_scene_made_in_code_has_paths_but_no_lines() {
-    let block = BlockEntry { polygon: Some(vec![[0.0, 0.0], [f64::NAN, 0.0], [0.0, 1.0]]), ..BlockEntry::default() };
-    let file = SceneFile { blocks: vec![block], kernel: Some(f64::INFINITY), ..SceneFile::default() };
+    let block = BlockEntry {
+        polygon: Some(vec![[0.0, 0.0], [f64::NAN, 0.0], [0.0, 1.0]]),
+        ..BlockEntry::default()
+    };
+    let file = SceneFile {
+        blocks: vec![block],
+        kernel: Some(f64::INFINITY),
+        ..SceneFile::default()
+    };
     let problems = Scene::new(file).expect_err("refused");
     assert_eq!(
         problems.to_string(),
         "kernel: the number is inf\n  help: give a finite number\n\
          blocks[0].polygon[1]: the number is NaN\n  help: give a finite number"
     );
-    assert!(problems.text.is_none() && problems.list.iter().all(|p| p.span.is_none() && p.line == 0));
+    assert!(
+        problems.text.is_none()
+            && problems
+                .list
+                .iter()
+                .all(|p| p.span.is_none() && p.line == 0)
+    );
 }
 
 #[test]
 fn what_a_problem_points_at_is_what_it_speaks_of() {
     let text = "{ \"drystone\": 1, \"krenel\": 0.5,\n  \"blocks\": [ { \"id\": \"a\",\n    \"weight\": -2 } ] }";
     let problems = refused(text);
-    let pointed: Vec<&str> = problems.list.iter().map(|p| &text[p.span.clone().expect("span")]).collect();
+    let pointed: Vec<&str> = problems
+        .list
+        .iter()
+        .map(|p| &text[p.span.clone().expect("span")])
+        .collect();
     assert_eq!(pointed, ["\"krenel\"", "{ \"id\": \"a\",", "-2"]);
 }
 
 #[test]
 fn a_thousand_blocks_in_one_place_are_refused_in_words_and_in_time() {
     let block = r#"{ "polygon": [[0, 0], [1, 0], [0, 1]] }"#;
-    let text = format!("{{ \"drystone\": 1, \"blocks\": [{}] }}", vec![block; 1000].join(","));
+    let text = format!(
+        "{{ \"drystone\": 1, \"blocks\": [{}] }}",
+        vec![block; 1000].join(",")
+    );
     let problems = refused(&text);
     assert_eq!(problems.list.len(), 1001);
-    assert!(problems.to_string().contains("more overlaps than the 1000 listed"));
+    assert!(
+        problems
+            .to_string()
+            .contains("more overlaps than the 1000 listed")
+    );
     let lattice = text.replace(r#""polygon": [[0, 0], [1, 0], [0, 1]]"#, r#""shape": "up""#);
     let lattice = lattice.replacen('{', r#"{ "grid": { "kind": "triangular" },"#, 1);
     assert_eq!(refused(&lattice).list.len(), 1001);
