@@ -11,7 +11,7 @@ use crate::interface::Interface;
 use crate::program::{Group, Program, Scale, assemble, load_on};
 use crate::proof::{self, Held, Motion, Pressed, Proof, Yardstick};
 use crate::scene::{BodyId, Frame, Scene};
-use crate::solve::{Amounts, Effort, balance, single, stick};
+use crate::solve::{Amounts, Care, Effort, balance, single, stick};
 
 /// What was found out about one group, forces in the order of its interfaces and holds.
 #[derive(Clone, Debug)]
@@ -94,28 +94,49 @@ pub(super) fn solved(
             return case.stands(carried, Effort::default());
         }
     }
-    let first = balance(&program);
-    let tried = first.forces.map(|amounts| case.carried(&program, &amounts));
-    if let Some(carried) = tried.filter(|c| c.proof.holds()) {
-        return case.stands(carried, first.effort);
-    }
-    let stuck = stick(&program);
-    let effort = first.effort.and(stuck.effort);
-    let carried = case.carried(&program, &stuck.forces);
-    if stuck.balanced && carried.proof.holds() {
-        return case.stands(carried, effort);
-    }
-    let motions = [stuck.motion, first.motion]
-        .into_iter()
-        .flatten()
-        .map(|y| case.moved(&y));
-    let mut best: Option<(Vec<Motion>, Proof)> = None;
-    for motion in motions {
-        let proof = proof::mechanism(scene, frame, &motion, &case.touching(), yardstick);
-        if best.as_ref().is_none_or(|b| !b.1.holds() && proof.holds()) {
-            best = Some((motion, proof));
+    // Quick first; full care only where the quick answer has no proof.
+    let mut effort = Effort::default();
+    let mut direction = None;
+    for care in [Care::Quick, Care::Full] {
+        let first = balance(&program, care);
+        effort = effort.and(first.effort);
+        let tried = first.forces.map(|amounts| case.carried(&program, &amounts));
+        if let Some(carried) = tried.filter(|c| c.proof.holds()) {
+            return case.stands(carried, effort);
+        }
+        direction = first.motion;
+        if direction
+            .as_ref()
+            .is_some_and(|y| case.mechanism(&case.moved(y)).holds())
+        {
+            break;
         }
     }
+    let mut stuck = stick(&program, Care::Quick);
+    let mut best = None;
+    for care in [Care::Quick, Care::Full] {
+        if care == Care::Full {
+            stuck = stick(&program, care);
+        }
+        effort = effort.and(stuck.effort);
+        let carried = case.carried(&program, &stuck.forces);
+        if stuck.balanced && carried.proof.holds() {
+            return case.stands(carried, effort);
+        }
+        best = [stuck.motion.as_ref(), direction.as_ref()]
+            .into_iter()
+            .flatten()
+            .map(|y| {
+                let motion = case.moved(y);
+                let proof = case.mechanism(&motion);
+                (motion, proof)
+            })
+            .reduce(|a, b| if !a.1.holds() && b.1.holds() { b } else { a });
+        if best.as_ref().is_some_and(|b| b.1.holds()) {
+            break;
+        }
+    }
+    let carried = case.carried(&program, &stuck.forces);
     let (mechanism, proof, verdict, doubt) = match best {
         Some((mut motion, proof)) if proof.holds() => {
             // Proved with every block; what only trembles is left out of what is told.
@@ -173,6 +194,16 @@ impl Case<'_> {
             .iter()
             .map(|i| self.interfaces[*i])
             .collect()
+    }
+
+    fn mechanism(&self, motion: &[Motion]) -> Proof {
+        proof::mechanism(
+            self.scene,
+            self.frame,
+            motion,
+            &self.touching(),
+            self.yardstick,
+        )
     }
 
     /// Newtons from pure numbers, made admissible to the last bit, with their proof.

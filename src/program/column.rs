@@ -1,8 +1,8 @@
 //! [`Column`]: one force of amount ≥ 0 and the balance rows it enters. The only index arithmetic of the crate.
 //!
-//! Admissible contact forces are the generators of the friction cone of each application point: the normal alone (cost
-//! 1) and the normal with full friction either way, N ± μ t̂ (cost 1 + μ). Every admissible contact force is a sum of
-//! these with amounts ≥ 0, so no inequality rows remain ([Vallat23] §2.0.3 in other unknowns, the same optimum).
+//! Admissible contact forces are the generators of the friction cone of each application point: the normal alone and the
+//! normal with full friction either way, (n̂ ± μ t̂)/(1 + μ), each at cost 1 a unit. Every admissible contact force is a
+//! sum of these with amounts ≥ 0, so no inequality rows remain ([Vallat23] §2.0.3 in other unknowns, the same optimum).
 
 use super::{Contact, GripTerm, Program};
 use crate::geometry::{Vector, cross, quarter_turn};
@@ -10,14 +10,16 @@ use crate::geometry::{Vector, cross, quarter_turn};
 /// Which force a column stands for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Force {
-    /// A pressing force at an application point of a contact, with `slope` newtons of friction per newton of normal force.
+    /// A pressing force at an application point of a contact, with friction of 0 or ±μ times the normal force.
     Ray {
         /// The contact.
         contact: usize,
         /// The application point, 0 or 1.
         point: usize,
-        /// 0, +μ or −μ.
-        slope: f64,
+        /// Normal force per unit.
+        normal: f64,
+        /// Friction per unit, signed along (−n_y, n_x).
+        friction: f64,
     },
     /// A robot's force (component 0, 1) or torque (2), along `sign`.
     Grip {
@@ -142,24 +144,25 @@ pub fn columns(program: &Program) -> Vec<Column> {
     for (number, contact) in program.contacts.iter().enumerate() {
         for point in 0..contact.points {
             let mu = contact.friction;
-            for slope in if mu > 0.0 {
+            for side in if mu > 0.0 {
                 &[0.0, 1.0, -1.0][..]
             } else {
                 &[0.0][..]
             } {
+                // A unit of any generator costs 1, so that rough and smooth contacts look alike to the solver.
+                let (normal, friction) = if *side == 0.0 {
+                    (1.0, 0.0)
+                } else {
+                    (1.0 / (1.0 + mu), side * mu / (1.0 + mu))
+                };
                 let force = Force::Ray {
                     contact: number,
                     point,
-                    slope: slope * mu,
+                    normal,
+                    friction,
                 };
-                let direction = contact.normal + quarter_turn(contact.normal) * (slope * mu);
-                columns.push(contact_column(
-                    contact,
-                    point,
-                    direction,
-                    force,
-                    1.0 + slope.abs() * mu,
-                ));
+                let direction = contact.normal * normal + quarter_turn(contact.normal) * friction;
+                columns.push(contact_column(contact, point, direction, force, 1.0));
             }
         }
     }

@@ -145,14 +145,16 @@ fn product(a: &Force, b: &Force) -> Option<f64> {
             Force::Ray {
                 contact: c,
                 point: p,
-                slope: s,
+                normal: m,
+                friction: s,
             },
             Force::Ray {
                 contact: d,
                 point: q,
-                slope: t,
+                normal: n,
+                friction: t,
             },
-        ) if c == d => Some(f64::from(u8::from(p == q)) + s * t),
+        ) if c == d => Some(if p == q { m * n } else { 0.0 } + s * t),
         (
             Force::Grip {
                 grip: g,
@@ -228,12 +230,12 @@ pub fn source(program: &Program, beta: f64) -> Conic {
             .collect(),
         ..smooth
     };
-    // With μ = 1 the generators N, N + t̂, N − t̂ of a point give its three unknowns back as differences.
+    // With μ = 1 the generators n̂, (n̂ + t̂)/2, (n̂ − t̂)/2 of a point give t̂ and −t̂ back as differences.
     for chunk in columns(&rough).chunks(3) {
         if let Force::Ray { contact, .. } = chunk[0].force {
             cones.push((posed.len(), program.contacts[contact].friction));
         }
-        posed.extend([chunk[0], chunk[1].less(&chunk[0]), chunk[2].less(&chunk[0])]);
+        posed.extend([chunk[0], chunk[1].less(&chunk[2]), chunk[2].less(&chunk[1])]);
     }
     let full = super::Program {
         contacts: Vec::new(),

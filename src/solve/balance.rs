@@ -1,6 +1,6 @@
 //! The hard program: admissible forces of least sum that balance every block, or a motion that none can stop.
 
-use super::{Amounts, Effort, Status, gathered, kept, tidy, twin};
+use super::{Amounts, Care, Effort, Status, gathered, kept, tidy, twin};
 use crate::program::{Program, columns};
 
 /// What the hard program gave.
@@ -15,10 +15,10 @@ pub struct Balance {
 }
 
 /// Solves the hard program of [Vallat23] §2.0.7 through its kinematic twin.
-pub fn balance(program: &Program) -> Balance {
+pub fn balance(program: &Program, care: Care) -> Balance {
     let mut effort = Effort::default();
     let columns = columns(program);
-    let solved = twin(&program.need, &columns, &mut effort, |c| c.cost);
+    let solved = twin(&program.need, &columns, care, &mut effort, |c| c.cost);
     match solved.status {
         Status::Solved => {
             let (face, amounts) = kept(&columns, &solved.amounts, &solved.active);
@@ -29,7 +29,7 @@ pub fn balance(program: &Program) -> Balance {
                     .sum::<f64>()
             };
             // On the true face every balance costs the same; a dearer one means a column too many was taken for active.
-            let chosen = tidy(&program.need, &face, &mut effort)
+            let chosen = tidy(&program.need, &face, care, &mut effort)
                 .filter(|t| (cost(t) - solved.aim).abs() <= 1e-6 * solved.aim.abs())
                 .unwrap_or(amounts);
             let (forces, _) = gathered(program, &face, &chosen);

@@ -40,11 +40,21 @@ pub struct Answer {
 /// The tolerance of feasibility and gap the solver is asked for.
 pub const TOLERANCE: f64 = 1e-9;
 
+/// How much the solver takes care.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Care {
+    /// Neither equilibration nor refinement of its linear systems: two thirds of the time. Good for the many programs
+    /// whose pure numbers are all near 1, and safe because an answer is believed only with its proof.
+    Quick,
+    /// The solver's own defaults.
+    Full,
+}
+
 /// Solves a conic problem.
 ///
 /// # Panics
 /// If the data hold a number that is not finite: scenes are checked at the door, so that is our own mistake.
-pub fn solve(problem: &Conic, tolerance: f64) -> Answer {
+pub fn solve(problem: &Conic, tolerance: f64, care: Care) -> Answer {
     let finite = |list: &[f64]| list.iter().all(|v| v.is_finite());
     let entries = problem
         .matrix
@@ -70,6 +80,8 @@ pub fn solve(problem: &Conic, tolerance: f64) -> Answer {
         direct_solve_method: "qdldl".to_string(),
         presolve_enable: false,
         max_iter: 100,
+        equilibrate_enable: care == Care::Full,
+        iterative_refinement_enable: care == Care::Full,
         tol_gap_abs: tolerance,
         tol_gap_rel: tolerance,
         tol_feas: tolerance,

@@ -8,15 +8,16 @@
 
 mod balance;
 mod conic;
+mod exact;
 mod single;
 mod stick;
 
 pub use balance::{Balance, balance};
-pub use conic::{Answer, Status, TOLERANCE, solve};
+pub use conic::{Answer, Care, Status, TOLERANCE, solve};
 pub use single::single;
 pub use stick::{Stuck, stick};
 
-use crate::program::{Column, Force, Program, kinematic, least_squares};
+use crate::program::{Column, Conic, Force, Program, kinematic, least_squares};
 
 /// Amounts of the forces of a program, pure numbers.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,10 +58,11 @@ impl Amounts {
             Force::Ray {
                 contact,
                 point,
-                slope,
+                normal,
+                friction,
             } => {
-                self.normal[contact][point] += amount;
-                self.friction[contact] += slope * amount;
+                self.normal[contact][point] += normal * amount;
+                self.friction[contact] += friction * amount;
             }
             Force::StickNormal { contact, point } => self.normal[contact][point] += amount,
             Force::StickFriction { contact, sign } => self.friction[contact] += sign * amount,
@@ -111,17 +113,16 @@ struct Twin {
     aim: f64,
 }
 
-/// Solves the kinematic twin of some columns.
+/// Solves the kinematic twin of some columns, again with full care where the quick way ends nowhere.
 fn twin(
     need: &[f64],
     columns: &[Column],
+    care: Care,
     effort: &mut Effort,
     cost: impl Fn(&Column) -> f64,
 ) -> Twin {
     let (conic, row_of) = kinematic(need, columns, cost);
-    let answer = solve(&conic, TOLERANCE);
-    effort.iterations += answer.iterations;
-    effort.programs += 1;
+    let answer = careful(&conic, care, effort);
     if answer.x.is_empty() {
         let n = columns.len();
         return Twin {
@@ -158,14 +159,34 @@ fn twin(
     }
 }
 
-/// The amounts of least Σ force² on given columns, if the solver finds them.
-fn tidy(need: &[f64], columns: &[Column], effort: &mut Effort) -> Option<Vec<f64>> {
+/// Solves, and solves again with full care where the quick way ends nowhere.
+fn careful(conic: &Conic, care: Care, effort: &mut Effort) -> Answer {
+    let mut answer = solve(conic, TOLERANCE, care);
+    *effort = effort.and(Effort {
+        iterations: answer.iterations,
+        programs: 1,
+    });
+    if answer.status == Status::Unclear && care == Care::Quick {
+        answer = solve(conic, TOLERANCE, Care::Full);
+        *effort = effort.and(Effort {
+            iterations: answer.iterations,
+            programs: 1,
+        });
+    }
+    answer
+}
+
+/// The amounts of least Σ force² on given columns, if there are such.
+///
+/// Where the balance leaves no choice they come from elimination, exact to rounding; else from a quadratic program.
+fn tidy(need: &[f64], columns: &[Column], care: Care, effort: &mut Effort) -> Option<Vec<f64>> {
     if columns.is_empty() {
         return Some(Vec::new());
     }
-    let answer = solve(&least_squares(need, columns), TOLERANCE);
-    effort.iterations += answer.iterations;
-    effort.programs += 1;
+    if let Some(amounts) = exact::only(need, columns) {
+        return Some(amounts);
+    }
+    let answer = careful(&least_squares(need, columns), care, effort);
     (answer.status == Status::Solved).then(|| answer.x.iter().map(|v| v.max(0.0)).collect())
 }
 

@@ -8,7 +8,7 @@
 //! the order of the file; a tie between mirror images stays a tie, and the figure of a mirrored scene is the mirrored
 //! figure.
 
-use super::{Amounts, Effort, Status, Twin, gathered, kept, tidy, twin};
+use super::{Amounts, Care, Effort, Status, Twin, gathered, kept, tidy, twin};
 use crate::program::{Column, Program, columns, sticking_columns};
 
 /// Rounds of concentrating; the count of points rarely falls after the third.
@@ -30,11 +30,11 @@ pub struct Stuck {
 }
 
 /// Solves the soft program.
-pub fn stick(program: &Program) -> Stuck {
+pub fn stick(program: &Program, care: Care) -> Stuck {
     let mut effort = Effort::default();
     let mut all = columns(program);
     all.extend(sticking_columns(program));
-    let first = twin(&program.need, &all, &mut effort, |c| {
+    let first = twin(&program.need, &all, care, &mut effort, |c| {
         if c.force.sticks() { 1.0 } else { 0.0 }
     });
     let motion = || Some(first.y.iter().map(|v| -v).collect());
@@ -59,7 +59,7 @@ pub fn stick(program: &Program) -> Stuck {
         (sticking_sum(columns, amounts) - least).abs()
             <= 1e-6 * least + 1e-9 * largest(&program.need)
     };
-    let second = twin(&program.need, &face, &mut effort, |c| c.cost);
+    let second = twin(&program.need, &face, care, &mut effort, |c| c.cost);
     if let Some(next) = narrowed(&face, &second, &unchanged) {
         (face, amounts) = next;
     }
@@ -76,7 +76,7 @@ pub fn stick(program: &Program) -> Stuck {
         {
             column.cost = 1e-2 * most / (amount + 1e-3 * most);
         }
-        let concentrated = twin(&program.need, &face, &mut effort, |c| {
+        let concentrated = twin(&program.need, &face, care, &mut effort, |c| {
             if c.force.sticks() { c.cost } else { 0.0 }
         });
         if concentrated.status != Status::Solved || !unchanged(&face, &concentrated.amounts) {
@@ -95,7 +95,7 @@ pub fn stick(program: &Program) -> Stuck {
             break;
         }
     }
-    let chosen = tidy(&program.need, &face, &mut effort)
+    let chosen = tidy(&program.need, &face, care, &mut effort)
         .filter(|t| unchanged(&face, t))
         .unwrap_or(amounts);
     let (forces, sticking) = gathered(program, &face, &chosen);

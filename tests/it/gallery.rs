@@ -1,5 +1,8 @@
 //! The gallery of the source: its panels as scenes of our own, beside the numbers its author's program computed.
 
+use drystone::Analysis;
+use drystone::analysis::{Failure, Verdict};
+use drystone::geometry::{Point, Vector};
 use drystone::scene::{Frame, Scene};
 use serde_json::Value;
 
@@ -133,4 +136,158 @@ fn figure_4_plans_the_block_of_its_title() {
         assert_eq!(frame.plans[0].robot.0, robot);
         assert_eq!(scene.blocks[frame.plans[0].block.0].id, "5");
     }
+}
+
+/// Corner forces of the source at an interface as (N1, N2, f⁺ − f⁻).
+fn expected_forces(interface: &Value) -> ([f64; 2], f64) {
+    let corner = |k: usize, n: usize| {
+        interface["corner_forces_N_fplus_fminus"][k][n]
+            .as_f64()
+            .expect("a force")
+    };
+    (
+        [corner(0, 0), corner(1, 0)],
+        corner(0, 1) - corner(0, 2) + corner(1, 1) - corner(1, 2),
+    )
+}
+
+fn point(value: &Value) -> Point {
+    Point::new(value[0].as_f64().expect("x"), value[1].as_f64().expect("y"))
+}
+
+/// Verdict, totals, robots and every interface of every panel, to the six places the source is rounded to.
+#[test]
+fn forces_are_those_of_the_source() {
+    for (name, panel) in panels() {
+        let scene = scene(&panel);
+        let analysis = Analysis::of(&scene);
+        let found = &analysis.frames[panel["frame"].as_u64().expect("a frame") as usize];
+        let expected = &panel["expected"];
+        let verdict = if expected["verdict"] == "stable" {
+            Verdict::Stable
+        } else {
+            Verdict::Unstable
+        };
+        assert_eq!(found.verdict, verdict, "{name}");
+        assert!(found.proof.holds(), "{name}: {:?}", found.proof);
+        let near = |a: f64, b: f64, what: &str| {
+            assert!((a - b).abs() <= 1e-6, "{name}, {what}: {a} against {b}")
+        };
+        if let Some(total) = expected["total_force"].as_f64() {
+            near(found.total_force, total, "total force");
+        }
+        let sticking = expected["sticking"].as_array().expect("a list");
+        near(
+            found.total_sticking,
+            sticking
+                .iter()
+                .map(|s| s[1].as_f64().expect("an amount"))
+                .sum(),
+            "total sticking",
+        );
+        let mut amounts: Vec<f64> = sticking.iter().filter_map(|s| s[1].as_f64()).collect();
+        let mut failing: Vec<f64> = found.failures.iter().map(amount).collect();
+        amounts.sort_by(f64::total_cmp);
+        failing.sort_by(f64::total_cmp);
+        assert_eq!(amounts.len(), failing.len(), "{name}: {:?}", found.failures);
+        for (a, b) in failing.iter().zip(&amounts) {
+            near(*a, *b, "a failure");
+        }
+        for (number, robot) in expected["robots"]
+            .as_array()
+            .expect("robots")
+            .iter()
+            .enumerate()
+        {
+            let value = |k: usize| robot[k].as_f64().expect("a force");
+            let gives = found.robots.iter().find(|r| r.robot.0 == number);
+            let (force, torque) = gives.map_or((Vector::zeros(), 0.0), |r| (r.force, r.torque));
+            near(force.x, value(0) - value(1), "robot force x");
+            near(force.y, value(2) - value(3), "robot force y");
+            near(torque, value(4) - value(5), "robot torque");
+        }
+        let interfaces = expected["interfaces"].as_array().expect("interfaces");
+        assert_eq!(found.contacts.len(), interfaces.len(), "{name}");
+        for interface in interfaces {
+            let points = [
+                point(&interface["application_points"][0]),
+                point(&interface["application_points"][1]),
+            ];
+            let lies = |p: Point, q: Point| (p - q).norm() < 2e-6;
+            let contact = found.contacts.iter().find(|c| {
+                let [p, q] = c.application_points;
+                (lies(p, points[0]) && lies(q, points[1]))
+                    || (lies(q, points[0]) && lies(p, points[1]))
+            });
+            let contact = contact.unwrap_or_else(|| panic!("{name}: no interface at {points:?}"));
+            let (mut normal, friction) = expected_forces(interface);
+            if !lies(contact.application_points[0], points[0]) {
+                normal.reverse();
+            }
+            near(contact.normal_forces[0], normal[0], "N1");
+            near(contact.normal_forces[1], normal[1], "N2");
+            // The source does not say on which of two blocks it counts friction; the balance fixes the sign, and the
+            // arrows of the figure are compared with theirs.
+            near(contact.friction_force.abs(), friction.abs(), "T");
+            let sum = normal[0] + normal[1];
+            if sum > 1e-3 {
+                let points = contact.application_points;
+                let at = points[0] + (points[1] - points[0]) * (normal[1] / sum);
+                assert!(
+                    (contact.resultant.at - at).norm() < 3e-6,
+                    "{name}: {} {at}",
+                    contact.resultant.at
+                );
+            }
+        }
+    }
+}
+
+fn amount(failure: &Failure) -> f64 {
+    match failure {
+        Failure::Tension { force, .. }
+        | Failure::Friction { force, .. }
+        | Failure::RobotForce { force, .. } => force.norm(),
+        Failure::RobotTorque { torque, .. } => torque.abs(),
+    }
+}
+
+/// What carries figures 9a and 9b when the neglected effect is switched on.
+#[test]
+fn neglected_effects_carry_figure_9() {
+    let read = |name: &str| -> Value {
+        let path = format!("{}/assets/thesis/{name}", env!("CARGO_MANIFEST_DIR"));
+        serde_json::from_str(&std::fs::read_to_string(path).expect("the scene is there"))
+            .expect("JSON")
+    };
+    let stands = |file: &Value| crate::structure::first(file).verdict == Verdict::Stable;
+    for (corner_contacts, kernel, least) in [
+        (true, 0.2, 0.5389),
+        (true, 0.0, 0.3849),
+        (false, 0.2, 1.6166),
+        (false, 0.0, 1.1547),
+    ] {
+        let mut file = read("figure-9a.json");
+        file["corner_contacts"] = corner_contacts.into();
+        file["kernel"] = kernel.into();
+        file["friction"] = (least - 0.0002).into();
+        assert!(
+            !stands(&file),
+            "corner contacts {corner_contacts}, kernel {kernel}"
+        );
+        file["friction"] = (least + 0.0002).into();
+        assert!(
+            stands(&file),
+            "corner contacts {corner_contacts}, kernel {kernel}"
+        );
+    }
+    let mut file = read("figure-9b.json");
+    file["robots"][0]["limits"]["torque"] = 100.0.into();
+    let frame = crate::structure::first(&file);
+    assert_eq!(frame.verdict, Verdict::Stable);
+    assert!(
+        (frame.robots[0].torque.abs() - 6.204).abs() < 1e-3,
+        "{:?}",
+        frame.robots
+    );
 }

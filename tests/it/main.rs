@@ -1,6 +1,9 @@
 //! All integration tests in one program: what a person or another program sees of drystone.
 
 mod gallery;
+mod laws;
 mod layers;
 mod problems;
 mod program;
+mod statics;
+mod structure;

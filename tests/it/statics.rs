@@ -1,0 +1,293 @@
+//! Answers known by hand, asymmetric ones, so that no mirrored or swapped sign survives.
+
+use drystone::analysis::{Failure, Verdict};
+use serde_json::json;
+
+use crate::structure::{
+    arch, block, first, harmonic, on_floor, on_slope, rectangle, verdict, wall,
+};
+
+const STANDS: Verdict = Verdict::Stable;
+const FALLS: Verdict = Verdict::Unstable;
+
+#[test]
+fn a_block_slides_where_the_slope_is_steeper_than_friction() {
+    for friction in [0.1, 0.35, 0.7, 1.2] {
+        let limit = libm::atan(friction).to_degrees();
+        for sign in [1.0, -1.0] {
+            assert_eq!(
+                verdict(&on_slope(sign * (limit - 0.001), 4.0, 1.0, friction, 0.0)),
+                STANDS,
+                "{friction}"
+            );
+            assert_eq!(
+                verdict(&on_slope(sign * (limit + 0.001), 4.0, 1.0, friction, 0.0)),
+                FALLS,
+                "{friction}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_sliding_block_lacks_just_the_friction_that_is_missing() {
+    let (degrees, friction, weight): (f64, f64, f64) = (30.0, 0.2, 5.0);
+    let frame = first(&on_slope(degrees, 4.0, 1.0, friction, 0.0));
+    let [Failure::Friction { force, .. }] = frame.failures[..] else {
+        panic!("{:?}", frame.failures)
+    };
+    let angle = degrees.to_radians();
+    let missing = weight * (libm::sin(angle) - friction * libm::cos(angle));
+    assert!((force.norm() - missing).abs() < 1e-9);
+    // Up the slope, which rises to the right.
+    assert!(force.x > 0.0 && force.y > 0.0);
+    assert!((frame.total_sticking - missing).abs() < 1e-9);
+    // Rigid plasticity lets a sliding contact open by μ per unit of slip: the block leaves arctan μ off the slope.
+    let moves = frame.mechanism[0];
+    let heading = angle - libm::atan(friction);
+    assert!(
+        (moves.velocity.x + libm::cos(heading)).abs() < 1e-6 && moves.spin.abs() < 1e-6,
+        "{moves:?}"
+    );
+    assert!(
+        (moves.velocity.y + libm::sin(heading)).abs() < 1e-6,
+        "{moves:?}"
+    );
+}
+
+#[test]
+fn a_block_topples_where_its_weight_leaves_the_kernel() {
+    let (width, height): (f64, f64) = (1.0, 3.0);
+    for kernel in [0.0, 0.2, 0.6] {
+        let limit = libm::atan(width * (1.0 - kernel) / height).to_degrees();
+        for sign in [1.0, -1.0] {
+            assert_eq!(
+                verdict(&on_slope(
+                    sign * (limit - 0.001),
+                    width,
+                    height,
+                    5.0,
+                    kernel
+                )),
+                STANDS,
+                "{kernel}"
+            );
+            assert_eq!(
+                verdict(&on_slope(
+                    sign * (limit + 0.001),
+                    width,
+                    height,
+                    5.0,
+                    kernel
+                )),
+                FALLS,
+                "{kernel}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_toppling_block_turns_about_its_lower_corner() {
+    let frame = first(&on_slope(25.0, 1.0, 3.0, 5.0, 0.0));
+    let moves = frame.mechanism[0];
+    // Anticlockwise, downhill to the left; the lower left corner (−0.3, 0) turned by 25° stays where it is.
+    assert!(moves.spin > 0.0);
+    let corner = drystone::geometry::Point::new(
+        -0.3 * libm::cos(0.4363323129985824),
+        -0.3 * libm::sin(0.4363323129985824),
+    );
+    let scene = crate::structure::scene(&on_slope(25.0, 1.0, 3.0, 5.0, 0.0));
+    assert!(moves.at(&scene, corner).norm() < 1e-6);
+}
+
+#[test]
+fn the_harmonic_stack_stands_just_short_of_its_limit() {
+    for n in [1, 2, 5, 10, 30] {
+        assert_eq!(verdict(&harmonic(n, 0.999)), STANDS, "{n} bricks");
+        assert_eq!(verdict(&harmonic(n, 1.001)), FALLS, "{n} bricks");
+    }
+}
+
+#[test]
+fn a_semicircular_arch_needs_the_thickness_milankovitch_found() {
+    assert_eq!(verdict(&arch(181, 0.107, 0.7)), FALLS);
+    assert_eq!(verdict(&arch(181, 0.108, 0.7)), STANDS);
+}
+
+#[test]
+fn a_thick_arch_needs_the_friction_at_its_springings() {
+    // The smallest μ of a thick semicircular arch with radial joints is 0.3092.
+    assert_eq!(verdict(&arch(181, 0.3, 0.305)), FALLS);
+    assert_eq!(verdict(&arch(181, 0.3, 0.315)), STANDS);
+}
+
+#[test]
+fn an_interlocking_wall_stands_without_thrust() {
+    let frame = first(&wall(6, 5));
+    assert_eq!(frame.verdict, STANDS);
+    let floor: f64 = frame
+        .contacts
+        .iter()
+        .filter(|c| matches!(c.interface.bodies[1], drystone::scene::BodyId::Ground(_)))
+        .map(|c| c.normal_forces[0] + c.normal_forces[1])
+        .sum();
+    assert!((floor - frame.weight).abs() < 1e-9 * frame.weight);
+    // Bricks side by side have no reason to push.
+    for contact in frame
+        .contacts
+        .iter()
+        .filter(|c| c.interface.normal.x.abs() > 0.5)
+    {
+        assert_eq!(contact.normal_forces, [0.0, 0.0]);
+    }
+}
+
+#[test]
+fn a_leg_hangs_from_its_bar_only_where_they_are_one_piece() {
+    let mut file = json!({ "drystone": 1, "friction": 0.4,
+        "ground": [{ "polygon": rectangle(-3.0, 0.0, 1.5, 1.0) }, { "polygon": rectangle(1.5, 0.0, 1.5, 1.0) }],
+        "blocks": [block("bar", rectangle(-2.0, 1.0, 4.0, 1.0), 3.0), block("leg", rectangle(-0.5, 0.0, 1.0, 1.0), 1.0)] });
+    // Nothing sticks: the leg falls, the bar stays.
+    let cut = first(&file);
+    assert_eq!(cut.verdict, FALLS);
+    assert!(
+        cut.mechanism.iter().all(|m| m.block.0 == 1),
+        "{:?}",
+        cut.mechanism
+    );
+    let tee = json!([
+        [-2, 1],
+        [-0.5, 1],
+        [-0.5, 0],
+        [0.5, 0],
+        [0.5, 1],
+        [2, 1],
+        [2, 2],
+        [-2, 2]
+    ]);
+    file["blocks"] = json!([block("tee", tee, 4.0)]);
+    assert_eq!(verdict(&file), STANDS);
+}
+
+#[test]
+fn uneven_loads_on_two_supports_follow_the_lever() {
+    // A beam of 6 N from x = 0 to 6 on posts at 0…1 and 5…6, 9 N hung at x = 2: about the left post's inner edge etc.
+    let mut file = on_floor(
+        0.5,
+        vec![
+            block("left", rectangle(0.0, 0.0, 1.0, 2.0), 1.0),
+            block("right", rectangle(5.0, 0.0, 1.0, 2.0), 1.0),
+            block("beam", rectangle(0.0, 2.0, 6.0, 0.5), 6.0),
+        ],
+    );
+    file["loads"] = json!([{ "block": "beam", "force": [0, -9], "at": [2, 2.5] }]);
+    file["kernel"] = json!(1.0);
+    // With kernel 1 each post carries at its middle, x = 0.5 and 5.5: a statically determinate beam.
+    let frame = first(&file);
+    assert_eq!(frame.verdict, STANDS);
+    let right = (6.0 * (3.0 - 0.5) + 9.0 * (2.0 - 0.5)) / 5.0;
+    let carried = |x: f64| {
+        let contact = frame
+            .contacts
+            .iter()
+            .find(|c| c.resultant.at.y == 2.0 && (c.resultant.at.x - x).abs() < 1e-9);
+        contact.map(|c| c.resultant.force.y).unwrap_or(f64::NAN)
+    };
+    assert!(
+        (carried(5.5) - right).abs() < 1e-9,
+        "{} {right}",
+        carried(5.5)
+    );
+    assert!((carried(0.5) - (15.0 - right)).abs() < 1e-9);
+}
+
+#[test]
+fn a_block_rests_on_the_edge_of_a_hole_and_in_the_middle_of_three() {
+    // A window frame with a block standing inside on the hole's lower edge.
+    let frame_block = json!({ "id": "frame", "polygon": rectangle(0.0, 0.0, 6.0, 6.0),
+        "holes": [rectangle(1.0, 1.0, 4.0, 4.0)], "weight": 10 });
+    let file = on_floor(
+        0.5,
+        vec![
+            frame_block,
+            block("inside", rectangle(1.5, 1.0, 1.0, 2.0), 3.0),
+        ],
+    );
+    let frame = first(&file);
+    assert_eq!(frame.verdict, STANDS);
+    assert_eq!(frame.contacts.len(), 2);
+    // One lower edge shared by three blocks side by side makes three interfaces.
+    let three = on_floor(
+        0.5,
+        vec![
+            block("base", rectangle(0.0, 0.0, 6.0, 1.0), 4.0),
+            block("a", rectangle(0.0, 1.0, 2.0, 1.0), 1.0),
+            block("b", rectangle(2.0, 1.0, 1.0, 1.0), 1.0),
+            block("c", rectangle(3.0, 1.0, 3.0, 1.0), 1.0),
+        ],
+    );
+    let frame = first(&three);
+    let on_base = frame
+        .contacts
+        .iter()
+        .filter(|c| c.interface.ends[0].y == 1.0 && c.interface.ends[1].y == 1.0);
+    assert_eq!(on_base.count(), 3);
+    assert_eq!(frame.verdict, STANDS);
+}
+
+#[test]
+fn what_touches_nothing_falls_freely() {
+    let file = on_floor(0.5, vec![block("up", rectangle(0.0, 3.0, 1.0, 1.0), 2.0)]);
+    let frame = first(&file);
+    assert_eq!(frame.verdict, FALLS);
+    assert_eq!(frame.unsupported.len(), 1);
+    assert_eq!(frame.mechanism[0].velocity.y, -1.0);
+    assert_eq!(frame.total_sticking, 0.0);
+}
+
+#[test]
+fn a_corner_set_into_a_straight_edge_changes_nothing() {
+    let mut plain = on_floor(0.5, vec![block("a", rectangle(0.0, 0.0, 2.0, 1.0), 6.0)]);
+    plain["kernel"] = json!(0.3);
+    let mut notched = plain.clone();
+    notched["blocks"][0]["polygon"] = json!([[0, 0], [0.7, 0], [2, 0], [2, 1], [0, 1]]);
+    let (a, b) = (first(&plain), first(&notched));
+    assert_eq!(a.contacts.len(), 1);
+    assert_eq!(b.contacts.len(), 1);
+    let (p, q) = (&a.contacts[0], &b.contacts[0]);
+    assert!((p.application_points[0] - q.application_points[0]).norm() < 1e-12);
+    assert!((p.normal_forces[0] - q.normal_forces[0]).abs() < 1e-9);
+}
+
+#[test]
+fn a_robot_carries_what_it_may_and_the_rest_sticks() {
+    let mut file = on_floor(0.5, vec![block("a", rectangle(0.0, 3.0, 1.0, 1.0), 8.0)]);
+    file["robots"] =
+        json!([{ "id": "r", "holds": "a", "limits": { "fx": 10, "fy": 5, "torque": 0 } }]);
+    let frame = first(&file);
+    assert_eq!(frame.verdict, FALLS);
+    let [Failure::RobotForce { force, .. }] = frame.failures[..] else {
+        panic!("{:?}", frame.failures)
+    };
+    assert!((force.y - 3.0).abs() < 1e-9 && force.x.abs() < 1e-9);
+    assert!((frame.robots[0].force.y - 5.0).abs() < 1e-9);
+    file["robots"][0]["limits"]["fy"] = json!(8.001);
+    let frame = first(&file);
+    assert_eq!(frame.verdict, STANDS);
+    assert!((frame.robots[0].limit_used - 8.0 / 8.001).abs() < 1e-9);
+}
+
+#[test]
+fn a_robot_that_grips_off_centre_needs_a_torque() {
+    let mut file = on_floor(0.5, vec![block("a", rectangle(0.0, 3.0, 2.0, 1.0), 8.0)]);
+    file["robots"] = json!([{ "id": "r", "holds": "a", "at": [0.25, 3.5] }]);
+    let frame = first(&file);
+    // The weight acts 0.75 m to the right of the grip and turns clockwise; the missing torque turns back.
+    let [Failure::RobotTorque { torque, .. }] = frame.failures[..] else {
+        panic!("{:?}", frame.failures)
+    };
+    assert!((torque - 6.0).abs() < 1e-9);
+    file["robots"][0]["limits"] = json!({ "torque": 6.001 });
+    assert_eq!(verdict(&file), STANDS);
+}
