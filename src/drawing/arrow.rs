@@ -15,7 +15,7 @@ pub const HEAD_LENGTH: f64 = 4.5;
 /// An arrow whose shaft runs from `from` by `along` (right and down), `width` pixels wide. Empty for a zero vector.
 pub fn straight(from: PagePoint, along: (f64, f64), width: f64) -> Outline {
     let length = libm::hypot(along.0, along.1);
-    if !(length > 0.0) {
+    if length.is_nan() || length <= 0.0 {
         return Outline::default();
     }
     let (ux, uy) = (along.0 / length, along.1 / length);
@@ -31,6 +31,15 @@ pub fn straight(from: PagePoint, along: (f64, f64), width: f64) -> Outline {
         at(length, half),
         at(0.0, half),
     ])
+}
+
+/// The head alone of the arrow that [`straight`] draws, open where the shaft meets it, so that a line along its edge
+/// leaves no seam between the two.
+pub fn head(from: PagePoint, along: (f64, f64), width: f64) -> Outline {
+    let arrow = straight(from, along, width);
+    // Corners 1 to 5 of the arrow: from one edge of the shaft around the tip to the other.
+    let corners = arrow.points().skip(1).take(5);
+    Outline::line(corners)
 }
 
 /// An arrow along a circle about `centre`, from the angle `start` through `sweep` radians, both anticlockwise as seen on

@@ -202,6 +202,9 @@ pub struct Group {
     pub title: String,
     /// More about it; empty for none.
     pub description: String,
+    /// Whether it only repeats what lies below it, for the eye alone: then it hides nothing from a hovering mouse or a
+    /// screen reader.
+    pub echo: bool,
     /// The part of the page within which it shows; everything where `None`.
     pub clip: Option<PageRect>,
     /// What is in it, the lowest first.

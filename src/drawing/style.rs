@@ -104,12 +104,12 @@ impl Theme {
     /// The arrow colour of the block placed as number `place`, from 1: entry `place` mod 5 of five, so the first block
     /// wears the second colour, as in the source.
     pub fn arrow(&self, place: usize) -> Colour {
-        self.arrows[place % self.arrows.len()]
+        entry(&self.arrows, place).unwrap_or(self.ink)
     }
 
     /// The colour of a robot by its number, from 0.
     pub fn robot(&self, number: usize) -> Colour {
-        self.robots[number % self.robots.len()]
+        entry(&self.robots, number).unwrap_or(self.ink)
     }
 
     /// The colour of an amplitude as a share of the largest: entry ⌊256·share⌋ of 256, the ends holding on.
@@ -124,6 +124,14 @@ impl Theme {
         let entry = (share * 256.0) as usize;
         Colour::hex(self.amplitudes[entry.min(255)])
     }
+}
+
+/// An entry of a list that begins again at its end.
+fn entry(list: &[Colour], number: usize) -> Option<Colour> {
+    number
+        .checked_rem(list.len())
+        .and_then(|i| list.get(i))
+        .copied()
 }
 
 impl Default for Theme {

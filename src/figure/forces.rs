@@ -7,7 +7,7 @@ use super::panel;
 use super::stage::Stage;
 use super::verdict;
 use super::words::{letter, quantity};
-use crate::analysis::Analysis;
+use crate::analysis::{Analysis, FrameAnalysis};
 use crate::drawing::{
     Anchor, Camera, Drawing, Face, Group, Item, Outline, PagePoint, Path, Stroke, Text, text,
 };
@@ -225,25 +225,33 @@ impl Strip<'_> {
     /// The whole figure in sentences.
     fn told(&self) -> String {
         let scene = self.stage.analysis.scene;
-        let tell = |(frame, found): (usize, &crate::analysis::FrameAnalysis)| {
+        let tell = |(frame, found): (usize, &FrameAnalysis)| {
             let caption = self.caption(frame, " ");
             let lead = if caption.is_empty() {
                 String::new()
             } else {
                 format!("{caption}: ")
             };
-            let reason = verdict::reason(scene, found);
-            let reason = if reason.is_empty() {
-                reason
+            let count = scene.frames[frame].placed.len();
+            let blocks = if count == 1 {
+                "1 block".to_owned()
             } else {
-                format!(", {reason}")
+                format!("{count} blocks")
             };
-            let blocks = scene.frames[frame].placed.len();
-            let weight = quantity(found.weight, "N");
-            format!(
-                "{lead}{} ({blocks} blocks of {weight} together){reason}.",
+            let mut sentence = format!(
+                "{lead}{blocks}, {} in all, {}",
+                quantity(found.weight, "N"),
                 verdict::word(found.verdict)
-            )
+            );
+            for more in [verdict::reason(scene, found)]
+                .iter()
+                .chain(&found.notices)
+                .filter(|m| !m.is_empty())
+            {
+                sentence.push_str("; ");
+                sentence.push_str(more);
+            }
+            sentence + "."
         };
         let frames: Vec<String> = self
             .stage

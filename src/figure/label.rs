@@ -1,6 +1,6 @@
 //! Where a block's name has room: the place inside the block that is farthest from its edges, arrows and discs.
 
-use super::mark::{ForceArrow, Marks};
+use super::arrow::{ForceArrow, Marks};
 use super::stage::{DISC, Stage};
 use crate::drawing::arrow::{HEAD_LENGTH, HEAD_WIDTH};
 use crate::geometry::{Point, Polygon};
@@ -84,7 +84,8 @@ fn from_edges(polygon: &Polygon, p: Point) -> f64 {
         .fold(f64::INFINITY, f64::min)
 }
 
-fn from_arrow(arrow: &ForceArrow, p: Point) -> f64 {
+/// How far a point is from an arrow's ink, metres; below 0 inside it.
+pub(crate) fn from_arrow(arrow: &ForceArrow, p: Point) -> f64 {
     let end = arrow.at + arrow.vector;
     let tip = end + arrow.vector.normalize() * (HEAD_LENGTH * arrow.width);
     let shaft = from_segment(arrow.at, end, p) - arrow.width / 2.0;

@@ -7,7 +7,7 @@ pub(crate) const MARGIN: f64 = 36.0;
 /// Room between panels beside each other, pixels.
 pub(crate) const GAP: f64 = 44.0;
 /// Most room across for all panels of a row, pixels.
-const ACROSS: f64 = 1000.0;
+const ACROSS: f64 = 1028.0;
 /// Least width of a panel, so that captions have room, pixels.
 const LEAST: f64 = 240.0;
 /// A unit edge is drawn at most this long in a strip, pixels.
@@ -67,8 +67,10 @@ impl Layout {
             (_, 1) => 460.0,
             _ => 360.0,
         };
-        (room / stage.view.width())
+        let scale = (room / stage.view.width())
             .min(high / stage.view.height())
-            .min(LARGEST_UNIT / stage.unit)
+            .min(LARGEST_UNIT / stage.unit);
+        // A scene too small for its own coordinates to tell its places apart has no scale.
+        if scale.is_finite() { scale } else { 1.0 }
     }
 }

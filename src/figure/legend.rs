@@ -1,8 +1,10 @@
 //! The key: what the colours and signs of a figure mean. It lists only what occurs.
 
+use super::arrow::TurnKind;
 use super::fill::FillScale;
-use super::mark::{FORCE_WIDTH, TurnKind};
+use super::mark::FORCE_WIDTH;
 use super::option::ArrowScale;
+use super::panel::TEXTURE;
 use super::stage::Stage;
 use super::words::{quantity, round_below};
 use crate::drawing::arrow::{HEAD_LENGTH, straight};
@@ -21,6 +23,8 @@ const SIGN: f64 = 9.0;
 pub(crate) enum Entry {
     /// Arrow colours and the blocks they belong to.
     Blocks(Vec<(Colour, String)>),
+    /// The arrow colours, of more blocks than can be listed.
+    Colours(Vec<Colour>),
     /// A robot's disc.
     Robot(Colour, String),
     /// The outline of a planned block.
@@ -44,6 +48,7 @@ impl Entry {
                         .map(|b| 8.0 + 22.0 + 5.0 + wide(&b.1))
                         .sum::<f64>()
             }
+            Entry::Colours(colours) => 30.0 * colours.len() as f64 + wide(COLOURS),
             Entry::Robot(_, id) => 2.0 * SIGN + 7.0 + wide(&robot(id)),
             Entry::Planned(_) => 2.0 * SIGN + 7.0 + wide(PLANNED),
             Entry::Missing => 34.0 + 7.0 + wide(MISSING),
@@ -81,6 +86,15 @@ impl Entry {
                     items.push(words(x, id));
                     x += text::width(id, Face::Sans, SIZE);
                 }
+                items
+            }
+            Entry::Colours(colours) => {
+                let arrow = |(i, colour): (usize, &Colour)| -> Item {
+                    let shaft = straight(at.moved(30.0 * i as f64, 0.0), (10.0, 0.0), 2.6);
+                    Path::filled(shaft, *colour).into()
+                };
+                let mut items: Vec<Item> = colours.iter().enumerate().map(arrow).collect();
+                items.push(words(30.0 * colours.len() as f64, COLOURS));
                 items
             }
             Entry::Robot(colour, id) => {
@@ -146,6 +160,7 @@ impl Entry {
     }
 }
 
+const COLOURS: &str = "forces on a block wear the colour of its weight";
 const PLANNED: &str = "planned block";
 const MISSING: &str = "missing: what would have to stick or be given";
 const BAR: f64 = 120.0;
@@ -194,6 +209,8 @@ pub(crate) fn entries(stage: &Stage<'_>, unit: f64) -> Vec<Entry> {
     let short = seen.iter().all(|s| s.1.chars().count() <= 12);
     if !clash && short && !seen.is_empty() && seen.len() <= 6 {
         entries.push(Entry::Blocks(seen));
+    } else if seen.len() > 1 && unit >= TEXTURE {
+        entries.push(Entry::Colours(theme.arrows.clone()));
     }
     let holds = |number: usize| {
         scene

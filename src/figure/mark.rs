@@ -4,12 +4,13 @@
 //! has its own arrow, opposite to the other's, both from the moment-equivalent point Σ N_k p_k / Σ N_k of their
 //! interface ([Vallat23] §2.0.9). Robots' arrows are wider, what fails is widest, red, and apart from what is carried.
 
+use super::arrow::{ArrowKind, ForceArrow, Marks, TurnArrow, TurnKind};
 use super::option::{ForceStyle, Normalisation, Options};
 use super::stage::unit;
 use crate::analysis::{Analysis, Contact, Failure, FrameAnalysis};
 use crate::drawing::Colour;
 use crate::geometry::{Point, Vector, quarter_turn};
-use crate::scene::{BlockId, BodyId, Frame, RobotId, Scene};
+use crate::scene::{BlockId, BodyId, Frame, Scene};
 
 /// Shaft width of a force's arrow, in unit edges.
 pub(crate) const FORCE_WIDTH: f64 = 0.05;
@@ -21,108 +22,12 @@ pub(crate) const FAILURE_WIDTH: f64 = 0.10;
 const NOISE: f64 = 1e-6;
 /// In [`Normalisation::Drawn`] a failure's shaft is at least so many unit edges long: it must not be overlooked.
 const LEAST_FAILURE: f64 = 0.08;
+/// In [`Normalisation::Drawn`] shafts shorter than this, in unit edges, grow thinner with their head …
+const THINNER_BELOW: f64 = 0.35;
+/// … down to this share of the width: else many small forces are nothing but heads.
+const THINNEST: f64 = 0.65;
 /// The source draws what fails at this share of the scale of the block it acts on.
 const SOURCE_FAILURE: f64 = 0.4;
-
-/// What a straight arrow tells.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum ArrowKind {
-    /// The weight of a block.
-    Weight,
-    /// A load on a block.
-    Load,
-    /// Normal and friction force together, from this body.
-    Contact(BodyId),
-    /// The normal force of an interface, from this body.
-    Normal(BodyId),
-    /// The friction force of an interface, from this body.
-    Friction(BodyId),
-    /// A robot's force.
-    Robot(RobotId),
-    /// Half of the vertical pair that stands for a robot's torque.
-    RobotTorque(RobotId),
-    /// A pull that would have to stick, from this body.
-    MissingPull(BodyId),
-    /// Friction that would have to stick, from this body.
-    MissingFriction(BodyId),
-    /// A force beyond a robot's limits.
-    MissingRobotForce(RobotId),
-    /// Half of the vertical pair that stands for a torque beyond a robot's limit.
-    MissingTorque(RobotId),
-}
-
-impl ArrowKind {
-    /// Whether the arrow tells what would be needed rather than what is there.
-    pub fn is_failure(self) -> bool {
-        matches!(
-            self,
-            ArrowKind::MissingPull(_)
-                | ArrowKind::MissingFriction(_)
-                | ArrowKind::MissingRobotForce(_)
-                | ArrowKind::MissingTorque(_)
-        )
-    }
-}
-
-/// A straight arrow in the scene.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ForceArrow {
-    /// The body the force acts on.
-    pub on: BodyId,
-    /// Where it begins, metres.
-    pub at: Point,
-    /// Its shaft, metres.
-    pub vector: Vector,
-    /// The force it tells, N; for half of a torque's pair, the torque in N·m per metre of distance of the two halves.
-    pub force: Vector,
-    /// Its colour.
-    pub colour: Colour,
-    /// Width of its shaft, metres.
-    pub width: f64,
-    /// What it tells.
-    pub kind: ArrowKind,
-}
-
-/// What a turning arrow tells.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TurnKind {
-    /// The torque of a load.
-    Load,
-    /// A robot's torque.
-    Robot(RobotId),
-    /// A torque beyond a robot's limit.
-    Missing(RobotId),
-}
-
-/// A turning arrow in the scene.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TurnArrow {
-    /// The body the torque acts on.
-    pub on: BodyId,
-    /// Its centre, metres.
-    pub at: Point,
-    /// The torque, N·m, anticlockwise positive.
-    pub torque: f64,
-    /// Length of its shaft along the circle, metres, with the torque's sign.
-    pub arc: f64,
-    /// Its colour.
-    pub colour: Colour,
-    /// Width of its shaft, metres.
-    pub width: f64,
-    /// What it tells.
-    pub kind: TurnKind,
-}
-
-/// Every arrow of a frame in drawing order: block by block, robots, and at last what fails.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Marks {
-    /// The straight ones.
-    pub arrows: Vec<ForceArrow>,
-    /// The turning ones.
-    pub turns: Vec<TurnArrow>,
-    /// The amount that is one unit edge long, N; 0 where there is no force.
-    pub newtons_per_unit: f64,
-}
 
 /// The straight arrows of frame `frame` (from 0), as [`marks`] has them. No arrows for a frame there is not.
 pub fn arrows(analysis: &Analysis<'_>, frame: usize, options: &Options) -> Vec<ForceArrow> {
@@ -166,8 +71,8 @@ pub(crate) fn largest(
         }
         Normalisation::Drawn => {
             for contact in &found.contacts {
-                for (_, force, _) in parts(contact, options.style) {
-                    most = most.max(force.norm());
+                for part in parts(contact, options.style) {
+                    most = most.max(part.force.norm());
                 }
             }
             for robot in &found.robots {
@@ -212,7 +117,7 @@ pub fn marks(
     else {
         return marks;
     };
-    if !(newtons_per_unit > 0.0) {
+    if newtons_per_unit.is_nan() || newtons_per_unit <= 0.0 {
         return marks;
     }
     let scene = analysis.scene;
@@ -229,31 +134,35 @@ pub fn marks(
     marks
 }
 
-/// The forces of an interface on its first body, by style: kind (told the other body), force and nothing for zero.
-fn parts(contact: &Contact, style: ForceStyle) -> Vec<(fn(BodyId) -> ArrowKind, Vector, Point)> {
+/// A force of an interface on its first body.
+struct Part {
+    /// What its arrow tells, given the other body.
+    kind: fn(BodyId) -> ArrowKind,
+    force: Vector,
+    at: Point,
+}
+
+/// The forces of an interface on its first body, by style.
+fn parts(contact: &Contact, style: ForceStyle) -> Vec<Part> {
     let at = contact.resultant.at;
+    let part = |kind, force| Part { kind, force, at };
     match style {
         ForceStyle::Resultant => {
             let on_first = contact.resultant.on == contact.interface.bodies[0];
-            let force = if on_first {
-                contact.resultant.force
-            } else {
-                -contact.resultant.force
-            };
-            vec![(ArrowKind::Contact, force, at)]
+            let force = contact.resultant.force;
+            vec![part(
+                ArrowKind::Contact,
+                if on_first { force } else { -force },
+            )]
         }
         ForceStyle::Components => {
             let normal = contact.interface.normal;
+            let pressed: f64 = contact.normal_forces.iter().sum();
             vec![
-                (
-                    ArrowKind::Normal,
-                    normal * contact.normal_forces.iter().sum::<f64>(),
-                    at,
-                ),
-                (
+                part(ArrowKind::Normal, normal * pressed),
+                part(
                     ArrowKind::Friction,
                     quarter_turn(normal) * contact.friction_force,
-                    at,
                 ),
             ]
         }
@@ -285,10 +194,22 @@ impl Pen<'_> {
                 vector,
                 force,
                 colour: look.0,
-                width: look.1 * self.edge,
+                width: self.width(look.1, vector),
                 kind,
             });
         }
+    }
+
+    /// Width of an arrow's shaft in metres, `full` unit edges where the arrow is long enough.
+    fn width(&self, full: f64, vector: Vector) -> f64 {
+        let share = match self.options.normalisation {
+            Normalisation::Source => 1.0,
+            Normalisation::Drawn => {
+                let length = vector.norm() / self.edge;
+                libm::sqrt(length / THINNER_BELOW).clamp(THINNEST, 1.0)
+            }
+        };
+        full * share * self.edge
     }
 
     /// A torque: a turning arrow, or the source's vertical pair at half an edge to either side.
@@ -371,8 +292,15 @@ impl Pen<'_> {
                 } else {
                     (first, -1.0)
                 };
-                for (kind, force, at) in parts(contact, self.options.style) {
-                    self.straight(marks, kind(from), on, at, force * sign, look);
+                for part in parts(contact, self.options.style) {
+                    self.straight(
+                        marks,
+                        (part.kind)(from),
+                        on,
+                        part.at,
+                        part.force * sign,
+                        look,
+                    );
                 }
             }
         }
@@ -481,7 +409,7 @@ impl Pen<'_> {
                     vector,
                     force,
                     colour: look.0,
-                    width: look.1 * self.edge,
+                    width: self.width(look.1, vector),
                     kind,
                 });
             }

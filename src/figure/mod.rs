@@ -4,6 +4,7 @@
 //! [`Analysis`](crate::analysis::Analysis) become shapes of a [`Drawing`](crate::drawing::Drawing). Nothing is computed
 //! here that a verdict rests on. One file per kind of figure: [`forces`], [`shapes`].
 
+mod arrow;
 mod fill;
 mod forces;
 mod label;
@@ -14,11 +15,13 @@ mod option;
 mod panel;
 mod shapes;
 mod stage;
+mod told;
 mod verdict;
 mod words;
 
+pub use arrow::{ArrowKind, ForceArrow, Marks, TurnArrow, TurnKind};
 pub use forces::forces;
-pub use mark::{ArrowKind, ForceArrow, Marks, TurnArrow, TurnKind, arrows, marks};
+pub use mark::{arrows, marks};
 pub use option::{ArrowScale, ForceStyle, Normalisation, Options};
 pub use shapes::shapes;
 pub(crate) use words::letter;

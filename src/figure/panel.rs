@@ -2,18 +2,25 @@
 
 use core::f64::consts::FRAC_PI_2;
 
-use super::fill::FillScale;
+use super::arrow::{ForceArrow, TurnArrow, TurnKind};
 use super::label;
-use super::mark::{ArrowKind, ForceArrow, TurnArrow, TurnKind};
+use super::mark::FORCE_WIDTH;
 use super::stage::{DISC, MANY, Stage};
-use super::words::{force, quantity};
-use crate::drawing::arrow::{straight, turning};
-use crate::drawing::{Anchor, Camera, Colour, Face, Group, Outline, Path, Stroke, Text, text};
-use crate::geometry::Lattice;
-use crate::scene::{Block, BlockId, Body, BodyId, Rgb};
+use super::told;
+use crate::drawing::arrow::{head, straight, turning};
+use crate::drawing::{
+    Anchor, Camera, Colour, Face, Group, Item, Outline, Path, Stroke, Text, text,
+};
+use crate::geometry::{Lattice, Point, Vector};
+use crate::scene::{BlockId, Body, Rgb};
 
 /// Radius of a turning arrow in unit edges: around a robot's disc.
 const TURN: f64 = 0.46;
+
+/// Where a unit edge is shorter than this, pixels, arrows are texture rather than signs.
+pub(crate) const TEXTURE: f64 = 20.0;
+/// Least width of a shaft, pixels, where blocks are large enough to bear it.
+const LEAST_SHAFT: f64 = 2.5;
 
 /// What the camera sees of frame `number`.
 pub(crate) fn picture(stage: &Stage<'_>, number: usize, camera: &Camera) -> Group {
@@ -39,10 +46,13 @@ pub(crate) fn picture(stage: &Stage<'_>, number: usize, camera: &Camera) -> Grou
         }
         .into(),
     );
+    if !many && pen.unit() >= TEXTURE {
+        group.items.push(pen.heads().into());
+    }
     group.items.push(pen.arrows(true).into());
     group
         .items
-        .retain(|item| !matches!(item, crate::drawing::Item::Group(g) if g.items.is_empty()));
+        .retain(|item| !matches!(item, Item::Group(g) if g.items.is_empty()));
     group
 }
 
@@ -72,6 +82,27 @@ pub(crate) fn seams(body: &Body, lattice: Option<Lattice>, camera: &Camera) -> O
     outline
 }
 
+/// Outlines joined by colour, in the order in which the colours came.
+#[derive(Default)]
+struct ByColour(Vec<(Colour, Outline)>);
+
+impl ByColour {
+    fn add(&mut self, fill: Colour, outline: Outline) {
+        match self.0.iter_mut().find(|known| known.0 == fill) {
+            Some(known) => known.1.extend(outline),
+            None => self.0.push((fill, outline)),
+        }
+    }
+
+    fn paths(self, stroke: Option<Stroke>) -> impl Iterator<Item = Item> {
+        let path = move |(fill, outline)| Path {
+            stroke: stroke.clone(),
+            ..Path::filled(outline, fill)
+        };
+        self.0.into_iter().map(path).map(Item::from)
+    }
+}
+
 struct Pen<'a> {
     stage: &'a Stage<'a>,
     number: usize,
@@ -80,6 +111,8 @@ struct Pen<'a> {
     line: f64,
     /// Width of the seam around arrows, pixels.
     casing: f64,
+    /// How much wider than told arrows are drawn: at small scales, so that their colours can be told apart.
+    wider: f64,
 }
 
 impl<'a> Pen<'a> {
@@ -90,7 +123,13 @@ impl<'a> Pen<'a> {
             number,
             camera,
             line: (0.028 * unit).clamp(0.25, 1.5),
-            casing: (0.016 * unit).clamp(0.1, 1.0),
+            casing: (0.012 * unit).clamp(0.1, 0.9),
+            // Texture would turn to soup.
+            wider: if unit < TEXTURE {
+                1.0
+            } else {
+                (LEAST_SHAFT / (FORCE_WIDTH * unit)).clamp(1.0, 1.35)
+            },
         }
     }
 
@@ -106,15 +145,14 @@ impl<'a> Pen<'a> {
             return group;
         }
         group.clip = Some(self.camera.rect(self.stage.view));
+        let mut colours = ByColour::default();
         for ground in &scene.ground {
             let fill = ground.body.fill.map_or(theme.ground, colour);
-            let outline = self.camera.polygon(&ground.body.polygon);
-            group.items.push(
-                Path::filled(outline, fill)
-                    .with_stroke(Stroke::new(theme.outline, self.line))
-                    .into(),
-            );
+            colours.add(fill, self.camera.polygon(&ground.body.polygon));
         }
+        group
+            .items
+            .extend(colours.paths(Some(Stroke::new(theme.outline, self.line))));
         group
     }
 
@@ -150,7 +188,7 @@ impl<'a> Pen<'a> {
             let fill = self.fill(place, *id);
             let outline = self.camera.polygon(&block.body.polygon);
             let mut body = Group::of_class("block").titled(format!("Block {}", block.id));
-            body.description = self.told(place, block);
+            body.description = told::block(self.stage, self.number, place, block);
             body = body.with(Path::filled(outline.clone(), fill));
             let seams = seams(&block.body, scene.lattice, self.camera);
             body = body.with(Path::stroked(seams, self.seam(fill)));
@@ -166,22 +204,6 @@ impl<'a> Pen<'a> {
         group
     }
 
-    /// A block's numbers in words.
-    fn told(&self, place: usize, block: &Block) -> String {
-        let share = self.stage.fills.shares[self.number][place];
-        let fill = match self.stage.fills.scale {
-            FillScale::Limit(limit) => {
-                format!(
-                    "colour: {:.1} % of the robots' limit of {}",
-                    100.0 * share,
-                    quantity(limit, "N")
-                )
-            }
-            FillScale::Largest(largest) => format!("colour: {}", quantity(share * largest, "N")),
-        };
-        format!("weight {}, {fill}", quantity(block.weight, "N"))
-    }
-
     fn names(&self) -> Vec<Text> {
         let size = (0.25 * self.unit()).clamp(0.0, 14.0);
         if !self.stage.options.labels || size < 8.0 {
@@ -193,7 +215,7 @@ impl<'a> Pen<'a> {
         let metres = self.stage.unit / self.unit();
         let radius = |id: BlockId| libm::hypot(half(id), 0.38 * size) * metres;
         let places = label::places(self.stage, frame, &self.stage.marks[self.number], radius);
-        let name = |(place, (id, at)): (usize, (&BlockId, Option<crate::geometry::Point>))| {
+        let name = |(place, (id, at)): (usize, (&BlockId, Option<Point>))| {
             let fill = self.fill(place, *id);
             let ink = if fill.brightness() < 0.55 {
                 Colour::WHITE
@@ -221,22 +243,14 @@ impl<'a> Pen<'a> {
         let (scene, theme) = (self.stage.analysis.scene, &self.stage.options.theme);
         let frame = &scene.frames[self.number];
         let mut group = Group::of_class("blocks").titled(format!("{} blocks", frame.placed.len()));
-        let mut colours: Vec<(Colour, Outline)> = Vec::new();
+        let mut colours = ByColour::default();
         for (place, id) in frame.placed.iter().enumerate() {
-            let fill = self.fill(place, *id);
             let outline = self.camera.polygon(&scene.blocks[id.0].body.polygon);
-            match colours.iter_mut().find(|c| c.0 == fill) {
-                Some(known) => known.1.extend(outline),
-                None => colours.push((fill, outline)),
-            }
+            colours.add(self.fill(place, *id), outline);
         }
-        for (fill, outline) in colours {
-            group.items.push(
-                Path::filled(outline, fill)
-                    .with_stroke(Stroke::new(theme.outline, self.line))
-                    .into(),
-            );
-        }
+        group
+            .items
+            .extend(colours.paths(Some(Stroke::new(theme.outline, self.line))));
         group
     }
 
@@ -278,7 +292,12 @@ impl<'a> Pen<'a> {
     }
 
     fn arrow(&self, arrow: &ForceArrow) -> Path {
-        let width = self.camera.length(arrow.width);
+        let wider = if arrow.kind.is_failure() {
+            1.0
+        } else {
+            self.wider
+        };
+        let width = wider * self.camera.length(arrow.width);
         let outline = straight(
             self.camera.place(arrow.at),
             self.camera.turn(arrow.vector),
@@ -287,17 +306,70 @@ impl<'a> Pen<'a> {
         Path::filled(outline, arrow.colour).cased(self.stage.options.theme.casing, self.casing)
     }
 
+    /// The heads of all arrows once more, above all shafts: along a line of thrust arrows lie on each other, and a shaft
+    /// must not hide which way another points.
+    fn heads(&self) -> Group {
+        let mut group = Group {
+            echo: true,
+            ..Group::of_class("heads")
+        };
+        let marks = &self.stage.marks[self.number];
+        for arrow in marks.arrows.iter().filter(|a| !a.kind.is_failure()) {
+            let width = self.wider * self.camera.length(arrow.width);
+            let (from, along) = (self.camera.place(arrow.at), self.camera.turn(arrow.vector));
+            let head = Path::filled(head(from, along, width), arrow.colour);
+            group.items.push(
+                head.cased(self.stage.options.theme.casing, self.casing)
+                    .into(),
+            );
+        }
+        group
+    }
+
     fn turn(&self, turn: &TurnArrow) -> Path {
         let radius = TURN * self.stage.unit;
         let sweep = (turn.arc.abs() / radius).clamp(0.7, 5.0) * turn.arc.signum();
         let outline = turning(
             self.camera.place(turn.at),
             self.camera.length(radius),
-            FRAC_PI_2 - sweep / 2.0,
+            self.clearest(turn, radius, sweep) - sweep / 2.0,
             sweep,
             self.camera.length(turn.width),
         );
         Path::filled(outline, turn.colour).cased(self.stage.options.theme.casing, self.casing)
+    }
+
+    /// The direction from a turning arrow's centre to its middle in which it keeps farthest from straight arrows; the
+    /// top where that is as good as any.
+    fn clearest(&self, turn: &TurnArrow, radius: f64, sweep: f64) -> f64 {
+        let arrows = &self.stage.marks[self.number].arrows;
+        // The head lies beyond the sweep.
+        let ends = [
+            -0.5 * sweep,
+            0.5 * sweep + sweep.signum() * 4.5 * turn.width / radius,
+        ];
+        let clear = |middle: f64| {
+            let from_arrows = |share: f64| {
+                let angle = middle + ends[0] + (ends[1] - ends[0]) * share;
+                let p = turn.at + Vector::new(libm::cos(angle), libm::sin(angle)) * radius;
+                arrows
+                    .iter()
+                    .map(|a| label::from_arrow(a, p))
+                    .fold(f64::INFINITY, f64::min)
+            };
+            (0..9)
+                .map(|i| from_arrows(f64::from(i) / 8.0))
+                .fold(f64::INFINITY, f64::min)
+        };
+        let mut best = (clear(FRAC_PI_2), FRAC_PI_2);
+        for step in [1, -1, 2, -2, 3, -3, 4, -4, 5, -5, 6] {
+            let middle = FRAC_PI_2 + f64::from(step) * FRAC_PI_2 / 3.0;
+            let room = clear(middle);
+            if room > best.0 + 0.02 * self.stage.unit {
+                best = (room, middle);
+            }
+        }
+        best.1
     }
 
     /// The arrows of what is there, or of what is missing, each with its numbers.
@@ -309,7 +381,7 @@ impl<'a> Pen<'a> {
             .iter()
             .filter(|a| a.kind.is_failure() == missing)
         {
-            let title = self.arrow_told(arrow);
+            let title = told::arrow(self.stage, arrow);
             group.items.push(
                 Group::of_class("force")
                     .titled(title)
@@ -322,7 +394,7 @@ impl<'a> Pen<'a> {
             .iter()
             .filter(|t| matches!(t.kind, TurnKind::Missing(_)) == missing)
         {
-            let title = self.turn_told(turn);
+            let title = told::turn(self.stage, turn);
             group.items.push(
                 Group::of_class("torque")
                     .titled(title)
@@ -336,83 +408,15 @@ impl<'a> Pen<'a> {
     /// As [`Pen::arrows`] for scenes of very many blocks: one path for all arrows of a colour.
     fn arrows_by_colour(&self) -> Group {
         let mut group = Group::of_class("forces");
-        let mut colours: Vec<(Colour, Outline)> = Vec::new();
+        let mut colours = ByColour::default();
         for arrow in self.stage.marks[self.number]
             .arrows
             .iter()
             .filter(|a| !a.kind.is_failure())
         {
-            let outline = self.arrow(arrow).outline;
-            match colours.iter_mut().find(|c| c.0 == arrow.colour) {
-                Some(known) => known.1.extend(outline),
-                None => colours.push((arrow.colour, outline)),
-            }
+            colours.add(arrow.colour, self.arrow(arrow).outline);
         }
-        group.items.extend(
-            colours
-                .into_iter()
-                .map(|(fill, outline)| Path::filled(outline, fill).into()),
-        );
+        group.items.extend(colours.paths(None));
         group
-    }
-
-    fn arrow_told(&self, arrow: &ForceArrow) -> String {
-        let scene = self.stage.analysis.scene;
-        let named = |id: BodyId| match id {
-            BodyId::Ground(_) => "the ground".to_owned(),
-            BodyId::Block(_) => format!("block {}", scene.name(id)),
-        };
-        let robot = |id: crate::scene::RobotId| format!("robot {}", scene.robots[id.0].id);
-        let (on, amount) = (named(arrow.on), force(arrow.force));
-        let torque = quantity(arrow.force.norm() * self.stage.unit, "N·m");
-        match arrow.kind {
-            ArrowKind::Weight => format!("Weight of {on}: {amount}"),
-            ArrowKind::Load => format!("Load on {on}: {amount}"),
-            ArrowKind::Contact(from) => format!("Force on {on} from {}: {amount}", named(from)),
-            ArrowKind::Normal(from) => {
-                format!("Normal force on {on} from {}: {amount}", named(from))
-            }
-            ArrowKind::Friction(from) => {
-                format!("Friction force on {on} from {}: {amount}", named(from))
-            }
-            ArrowKind::Robot(id) => format!("Force on {on} from {}: {amount}", robot(id)),
-            ArrowKind::RobotTorque(id) => format!("Torque on {on} from {}: {torque}", robot(id)),
-            ArrowKind::MissingPull(from) => {
-                format!("Missing pull on {on} from {}: {amount}", named(from))
-            }
-            ArrowKind::MissingFriction(from) => {
-                format!("Missing friction on {on} from {}: {amount}", named(from))
-            }
-            ArrowKind::MissingRobotForce(id) => {
-                format!("Missing force on {on} from {}: {amount}", robot(id))
-            }
-            ArrowKind::MissingTorque(id) => {
-                format!("Missing torque on {on} from {}: {torque}", robot(id))
-            }
-        }
-    }
-
-    fn turn_told(&self, turn: &TurnArrow) -> String {
-        let scene = self.stage.analysis.scene;
-        let direction = if turn.torque > 0.0 {
-            "anticlockwise"
-        } else {
-            "clockwise"
-        };
-        let amount = format!("{} {direction}", quantity(turn.torque.abs(), "N·m"));
-        let on = scene.name(turn.on);
-        match turn.kind {
-            TurnKind::Load => format!("Torque of a load on block {on}: {amount}"),
-            TurnKind::Robot(id) => format!(
-                "Torque on block {on} from robot {}: {amount}",
-                scene.robots[id.0].id
-            ),
-            TurnKind::Missing(id) => {
-                format!(
-                    "Missing torque on block {on} from robot {}: {amount}",
-                    scene.robots[id.0].id
-                )
-            }
-        }
     }
 }

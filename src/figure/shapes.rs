@@ -5,18 +5,26 @@ use super::panel::seams;
 use crate::drawing::{
     Anchor, Camera, Drawing, Face, Group, Outline, PagePoint, Path, Stroke, Text, Theme,
 };
-use crate::geometry::{Bounds, Cell, Lattice, Point};
-use crate::scene::Body;
+use crate::geometry::{Bounds, Cell, Lattice, LatticeKind, Point};
+use crate::scene::{Body, shape};
 
-const UNIT: f64 = 54.0;
+const UNIT: f64 = 46.0;
 const CAPTION: f64 = 17.0;
 const ACROSS: f64 = 900.0;
 
-/// A sheet that shows each named set of cells: its outline, the seams between its cells, and a small cross at its
-/// lattice origin, the point that a scene's `at` places.
-///
-/// Shapes whose cells do not hang together are left out.
-pub fn shapes(lattice: Lattice, named: &[(String, Vec<Cell>)], theme: &Theme) -> Drawing {
+/// A sheet of the built-in shapes of the triangular lattice, in the source's colours.
+pub fn shapes() -> Drawing {
+    let lattice = Lattice {
+        kind: LatticeKind::Triangular,
+        side: 1.0,
+    };
+    let named = shape::BUILT_IN.map(|name| (name, shape::cells(name).unwrap_or_default()));
+    sheet(lattice, &named, &Theme::default())
+}
+
+/// Each named set of cells: its outline, the seams between its cells, and a small cross at its lattice origin, the point
+/// that a scene's `at` places.
+fn sheet(lattice: Lattice, named: &[(&str, Vec<Cell>)], theme: &Theme) -> Drawing {
     let mut sheet = Vec::new();
     for (name, cells) in named {
         let Some(polygon) = lattice.polygon(cells) else {
@@ -76,7 +84,7 @@ pub fn shapes(lattice: Lattice, named: &[(String, Vec<Cell>)], theme: &Theme) ->
             .with(Path::stroked(cross.clone(), Stroke::new(theme.page, 4.0)))
             .with(Path::stroked(cross, Stroke::new(theme.failure, 1.8)))
             .with(
-                Text::new(caption, name.as_str(), Face::Serif, CAPTION, theme.ink)
+                Text::new(caption, **name, Face::Serif, CAPTION, theme.ink)
                     .anchored(Anchor::Middle),
             );
         items.push(shape.into());

@@ -1,7 +1,8 @@
 //! [`Stage`]: what all panels of a figure share: the unit edge, the view, colours, and each frame's arrows.
 
+use super::arrow::Marks;
 use super::fill::Fills;
-use super::mark::{self, Marks};
+use super::mark;
 use super::option::{ArrowScale, Options};
 use crate::analysis::Analysis;
 use crate::drawing::arrow::{HEAD_LENGTH, HEAD_WIDTH};

@@ -3,7 +3,7 @@
 use super::words::{listed, quantity};
 use crate::analysis::{Failure, FrameAnalysis, Verdict};
 use crate::drawing::{Colour, Group, Outline, PagePoint, Path, Stroke, Theme};
-use crate::scene::Scene;
+use crate::scene::{BodyId, Scene};
 
 /// The word for a verdict.
 pub(crate) fn word(verdict: Verdict) -> &'static str {
@@ -57,7 +57,7 @@ pub(crate) fn mark(verdict: Verdict, centre: PagePoint, r: f64, theme: &Theme) -
     }
 }
 
-/// Why a frame does not stand, or what a reader should know; empty where there is nothing to say.
+/// Why a frame does not stand, in words; empty where it does.
 pub(crate) fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
     let mut sentences = Vec::new();
     if !found.unsupported.is_empty() {
@@ -81,7 +81,6 @@ pub(crate) fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
     if found.verdict == Verdict::Undecided && !found.doubt.is_empty() {
         sentences.push(found.doubt.clone());
     }
-    sentences.extend(found.notices.iter().cloned());
     sentences.join("; ")
 }
 
@@ -105,10 +104,11 @@ fn amount(failure: &Failure) -> f64 {
 
 /// What is missing, in words.
 pub(crate) fn missing(scene: &Scene, failure: &Failure) -> String {
-    let pair = |bodies: &[_; 2]| {
-        let [a, b] = bodies.map(|id| scene.name(id).to_owned());
-        format!("{b} and {a}")
+    let named = |id: BodyId| match id {
+        BodyId::Ground(_) => "the ground",
+        BodyId::Block(_) => scene.name(id),
     };
+    let pair = |[a, b]: &[BodyId; 2]| format!("{} and {}", named(*a), named(*b));
     match failure {
         Failure::Tension { bodies, force, .. } => {
             format!(

@@ -19,8 +19,9 @@ pub fn quantity(value: f64, unit: &str) -> String {
             format!("unlimited {unit}")
         };
     }
-    // Rounded in decimal first: the digits then cannot round up over the edge of a prefix.
-    let rounded = format!("{:.2e}", value.abs());
+    // Rounded in decimal first: the digits then cannot round up over the edge of a prefix. A tie goes up, whichever side
+    // of it the noise of a solution fell.
+    let rounded = format!("{:.2e}", value.abs() * (1.0 + 1e-7));
     let (mantissa, exponent) = rounded.split_once('e').unwrap_or((&rounded, "0"));
     let exponent: i32 = exponent.parse().unwrap_or(0);
     let sign = if value < 0.0 { "−" } else { "" };
@@ -119,6 +120,8 @@ mod tests {
             (433.72, "434 N"),
             (0.1348, "135 mN"),
             (9.995e5, "1 MN"),
+            (4.125 - 1e-9, "4.13 N"),
+            (4.125 + 1e-9, "4.13 N"),
             (1e-9, "1 nN"),
             (2.5e14, "2.5×10¹⁴ N"),
             (3e-15, "3×10⁻¹⁵ N"),

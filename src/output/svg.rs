@@ -123,6 +123,10 @@ impl Writer<'_> {
                 },
             );
         }
+        if group.echo {
+            self.attribute("aria-hidden", "true");
+            self.attribute("pointer-events", "none");
+        }
         if let Some(id) = clip {
             self.attribute("clip-path", &format!("url(#{id})"));
         }
@@ -232,7 +236,7 @@ fn steps(outline: &Outline) -> String {
     d
 }
 
-/// The one number printer: at most three decimals, no needless zero, no −0.
+/// The one number printer: at most two decimals, a hundredth of a pixel, no needless zero, no −0.
 ///
 /// # Panics
 /// For a number that is not finite.
@@ -241,7 +245,7 @@ fn number(value: f64) -> String {
         value.is_finite(),
         "a drawing holds the number {value}; every number of a drawing is finite"
     );
-    let mut text = format!("{value:.3}");
+    let mut text = format!("{value:.2}");
     let kept = text.trim_end_matches('0').trim_end_matches('.').len();
     text.truncate(kept);
     if text == "-0" { "0".to_owned() } else { text }
@@ -300,11 +304,11 @@ mod tests {
         let cases = [
             (0.0, "0"),
             (-0.0, "0"),
-            (-0.0004, "0"),
+            (-0.004, "0"),
             (1.5, "1.5"),
             (-2.25, "-2.25"),
             (100.0, "100"),
-            (1.0 / 3.0, "0.333"),
+            (1.0 / 3.0, "0.33"),
         ];
         for (value, expected) in cases {
             assert_eq!(number(value), expected);

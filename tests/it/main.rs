@@ -3,6 +3,7 @@
 mod gallery;
 mod laws;
 mod layers;
+mod pictures;
 mod problems;
 mod program;
 mod statics;

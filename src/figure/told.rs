@@ -1,0 +1,85 @@
+//! What a hovering mouse and a screen reader are told of blocks and arrows: their numbers, with units.
+
+use super::arrow::{ArrowKind, ForceArrow, TurnArrow, TurnKind};
+use super::fill::FillScale;
+use super::stage::Stage;
+use super::words::{force, quantity};
+use crate::scene::{Block, BodyId};
+
+/// A block's numbers in words.
+pub(crate) fn block(stage: &Stage<'_>, frame: usize, place: usize, block: &Block) -> String {
+    let share = stage.fills.shares[frame][place];
+    let fill = match stage.fills.scale {
+        FillScale::Limit(limit) => {
+            format!(
+                "colour: {:.1} % of the robots' limit of {}",
+                100.0 * share,
+                quantity(limit, "N")
+            )
+        }
+        FillScale::Largest(largest) => format!("colour: {}", quantity(share * largest, "N")),
+    };
+    format!("weight {}, {fill}", quantity(block.weight, "N"))
+}
+
+/// An arrow's numbers in words.
+pub(crate) fn arrow(stage: &Stage<'_>, arrow: &ForceArrow) -> String {
+    let scene = stage.analysis.scene;
+    let named = |id: BodyId| match id {
+        BodyId::Ground(_) => "the ground".to_owned(),
+        BodyId::Block(_) => format!("block {}", scene.name(id)),
+    };
+    let robot = |id: crate::scene::RobotId| format!("robot {}", scene.robots[id.0].id);
+    let (on, amount) = (named(arrow.on), force(arrow.force));
+    let torque = quantity(arrow.force.norm() * stage.unit, "N·m");
+    match arrow.kind {
+        ArrowKind::Weight => format!("Weight of {on}: {amount}"),
+        ArrowKind::Load => format!("Load on {on}: {amount}"),
+        ArrowKind::Contact(from) => format!("Force on {on} from {}: {amount}", named(from)),
+        ArrowKind::Normal(from) => {
+            format!("Normal force on {on} from {}: {amount}", named(from))
+        }
+        ArrowKind::Friction(from) => {
+            format!("Friction force on {on} from {}: {amount}", named(from))
+        }
+        ArrowKind::Robot(id) => format!("Force on {on} from {}: {amount}", robot(id)),
+        ArrowKind::RobotTorque(id) => format!("Torque on {on} from {}: {torque}", robot(id)),
+        ArrowKind::MissingPull(from) => {
+            format!("Missing pull on {on} from {}: {amount}", named(from))
+        }
+        ArrowKind::MissingFriction(from) => {
+            format!("Missing friction on {on} from {}: {amount}", named(from))
+        }
+        ArrowKind::MissingRobotForce(id) => {
+            format!("Missing force on {on} from {}: {amount}", robot(id))
+        }
+        ArrowKind::MissingTorque(id) => {
+            format!("Missing torque on {on} from {}: {torque}", robot(id))
+        }
+    }
+}
+
+/// A turning arrow's numbers in words.
+pub(crate) fn turn(stage: &Stage<'_>, turn: &TurnArrow) -> String {
+    let scene = stage.analysis.scene;
+    let direction = if turn.torque > 0.0 {
+        "anticlockwise"
+    } else {
+        "clockwise"
+    };
+    let amount = format!("{} {direction}", quantity(turn.torque.abs(), "N·m"));
+    let on = scene.name(turn.on);
+    match turn.kind {
+        TurnKind::Load => format!("Torque of a load on block {on}: {amount}"),
+        TurnKind::Robot(id) => format!(
+            "Torque on block {on} from robot {}: {amount}",
+            scene.robots[id.0].id
+        ),
+        TurnKind::Missing(id) => {
+            format!(
+                "Missing torque on block {on} from robot {}: {amount}",
+                scene.robots[id.0].id
+            )
+        }
+    }
+}
