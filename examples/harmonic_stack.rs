@@ -3,6 +3,8 @@
 //! The answer is known: half a brick's length times 1 + 1/2 + … + 1/n. A stack that keeps 0.1 % inside stands, one that
 //! goes 0.1 % beyond falls.
 
+#![allow(clippy::print_stdout, reason = "an example speaks to a person")]
+
 use std::error::Error;
 
 use drystone::scene::format::{BlockEntry, GroundEntry, Pair, SceneFile};

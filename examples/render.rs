@@ -2,6 +2,8 @@
 //!
 //! `cargo run --release --example render -- assets/thesis/figure-4.json figure-4.png`
 
+#![allow(clippy::print_stdout, reason = "an example speaks to a person")]
+
 use std::error::Error;
 use std::{env, fs};
 

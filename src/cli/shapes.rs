@@ -9,11 +9,8 @@ use crate::cli::destination::{self, Destination};
 use crate::cli::ending::Ending;
 use crate::cli::picture::{Format, Picture};
 use crate::cli::terminal::Terminal;
-use crate::drawing::Theme;
 use crate::figure;
-use crate::geometry::{Cell, Lattice, LatticeKind};
 use crate::output::file::Existing;
-use crate::scene::shape::{BUILT_IN, cells};
 
 /// Draw the built-in shapes of the triangular lattice, with their cells and origins
 #[derive(Debug, Args)]
@@ -39,17 +36,7 @@ impl Shapes {
             let why = "a PNG is not for reading on a terminal; send it to a file with -o";
             return Err(Complaint::CommandLine(why.into()));
         }
-        let lattice = Lattice {
-            kind: LatticeKind::Triangular,
-            side: 1.0,
-        };
-        let named: Vec<(String, Vec<Cell>)> = BUILT_IN
-            .iter()
-            .filter_map(|name| Some(((*name).into(), cells(name)?)))
-            .collect();
-        let bytes = self
-            .picture
-            .bytes(&figure::shapes(lattice, &named, &Theme::default()), format)?;
+        let bytes = self.picture.bytes(&figure::shapes(), format)?;
         match destination {
             Destination::Stdout => terminal.print_bytes(&bytes),
             Destination::File(path) => destination::write(&[(path, bytes)], Existing::Replace),

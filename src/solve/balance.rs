@@ -14,7 +14,7 @@ pub struct Balance {
     pub effort: Effort,
 }
 
-/// Solves the hard program of [Vallat23] §2.0.7 through its kinematic twin.
+/// Solves the hard program of [Vallat23](crate::doc::references) §2.0.7 through its kinematic twin.
 pub fn balance(program: &Program, care: Care) -> Balance {
     let mut effort = Effort::default();
     let columns = columns(program);

@@ -11,7 +11,8 @@ use drystone::effect::{Situation, plan};
 use drystone::interface::Interfaces;
 use drystone::program::{Program, Scale, assemble, groups, source};
 use drystone::scene::format::{BlockEntry, GroundEntry, Pair, SceneFile};
-use drystone::{Analysis, Scene, figure, output, solve};
+use drystone::solve::{Care, TOLERANCE, balance, solve};
+use drystone::{Analysis, Scene, figure, output};
 
 const FIGURE_4: &str = include_str!("../../assets/thesis/figure-4.json");
 
@@ -34,13 +35,14 @@ fn check(bencher: Bencher, blocks: usize) {
 #[divan::bench(args = WALLS)]
 fn our_program(bencher: Bencher, blocks: usize) {
     let program = program(&wall(blocks));
-    bencher.bench_local(|| solve::balance(black_box(&program)));
+    bencher.bench_local(|| balance(black_box(&program), Care::Quick));
 }
 
+/// With the solver's own settings.
 #[divan::bench(args = WALLS)]
 fn the_sources_soft_program(bencher: Bencher, blocks: usize) {
     let program = program(&wall(blocks));
-    bencher.bench_local(|| solve::solve(&source(black_box(&program), BETA), solve::TOLERANCE));
+    bencher.bench_local(|| solve(&source(black_box(&program), BETA), TOLERANCE, Care::Full));
 }
 
 #[divan::bench(args = WALLS)]
