@@ -68,7 +68,8 @@ pub(crate) fn force(force: Vector) -> String {
     } else {
         degrees
     };
-    format!("{} at {degrees:.0}°", quantity(force.norm(), "N"))
+    // Adding 0 turns −0 into 0.
+    format!("{} at {:.0}°", quantity(force.norm(), "N"), degrees + 0.0)
 }
 
 /// The largest of 1, 2 and 5 times a power of ten that is at most `value`, 0 for none.
