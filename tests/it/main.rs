@@ -7,10 +7,12 @@
 )]
 
 mod gallery;
+mod hard;
 mod laws;
 mod layers;
 mod pictures;
 mod problems;
 mod program;
+mod scenes;
 mod statics;
 mod structure;
