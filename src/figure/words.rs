@@ -62,12 +62,8 @@ fn superscript(value: i32) -> String {
 
 /// A force's amount and direction: `7.1 N at 30°`, anticlockwise from the right.
 pub(crate) fn force(force: Vector) -> String {
-    let degrees = libm::atan2(force.y, force.x).to_degrees().round();
-    let degrees = if degrees < 0.0 {
-        degrees + 360.0
-    } else {
-        degrees
-    };
+    // Rounded before it is brought into 0 … 359, so that a hair below the right is 0° and neither −0° nor 360°.
+    let degrees = (libm::atan2(force.y, force.x).to_degrees().round() + 360.0) % 360.0;
     format!("{} at {degrees:.0}°", quantity(force.norm(), "N"))
 }
 
