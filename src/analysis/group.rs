@@ -208,19 +208,24 @@ impl Case<'_> {
 
     /// Newtons from pure numbers, made admissible to the last bit, with their proof.
     ///
-    /// Noise below 1e-9 of the heaviest load becomes 0 and friction is cut to μN, so that what is left of the solver's
+    /// Noise below 1e-13 of the heaviest load (of friction: 1e-10 of μN) becomes 0 and friction is cut to μN, so that what is left of the solver's
     /// error shows as imbalance alone, where the proof measures it.
     fn carried(&self, program: &Program, amounts: &Amounts) -> Carried {
         let unit = self.scale.force;
-        let noise = 1e-9 * self.yardstick.force;
+        let noise = 1e-13 * self.yardstick.force;
         let clean = |v: f64| if v.abs() <= noise { 0.0 } else { v };
         let mut contacts = Vec::with_capacity(program.contacts.len());
         for (k, contact) in program.contacts.iter().enumerate() {
             let normal = amounts.normal[k].map(|v| clean(v * unit).max(0.0));
             let most = contact.friction * (normal[0] + normal[1]);
+            let friction = (amounts.friction[k] * unit).clamp(-most, most);
             contacts.push((
                 normal,
-                clean((amounts.friction[k] * unit).clamp(-most, most)),
+                if friction.abs() <= 1e-10 * most {
+                    0.0
+                } else {
+                    friction
+                },
             ));
         }
         let mut grips = Vec::with_capacity(program.grips.len());

@@ -64,7 +64,7 @@ pub struct FrameAnalysis {
     pub robots: Vec<RobotForce>,
     /// What would have to stick for the frame to stand. Empty where it stands.
     pub failures: Vec<Failure>,
-    /// Blocks that no sticking could save: nothing they hang together with reaches ground or a robot.
+    /// Blocks that no sticking could save: they reach neither ground nor a robot, or nothing there could take a moment.
     pub unsupported: Vec<BlockId>,
     /// How the blocks move where the frame falls, the fastest point with speed 1.
     pub mechanism: Vec<Motion>,
@@ -352,6 +352,7 @@ fn gathered(
         effects: plan.reports.clone(),
         proof: Proof::Forces {
             worst_imbalance: 0.0,
+            worst_share: 0.0,
             worst_pull: 0.0,
             worst_slip: 0.0,
         },
@@ -425,18 +426,21 @@ fn worst(a: Proof, b: Proof) -> Proof {
         (
             Proof::Forces {
                 worst_imbalance: i,
+                worst_share: r,
                 worst_pull: p,
                 worst_slip: s,
             },
             Proof::Forces {
                 worst_imbalance: j,
-                worst_pull: q,
-                worst_slip: t,
+                worst_share: q,
+                worst_pull: t,
+                worst_slip: u,
             },
         ) => Proof::Forces {
             worst_imbalance: i.max(j),
-            worst_pull: p.max(q),
-            worst_slip: s.max(t),
+            worst_share: r.max(q),
+            worst_pull: p.max(t),
+            worst_slip: s.max(u),
         },
         (
             Proof::Mechanism {
@@ -473,14 +477,12 @@ fn settle(analysis: &mut FrameAnalysis, situation: &Situation) {
             .take(10)
             .map(|b| situation.scene.blocks[b.0].id.as_str())
             .collect();
-        let more = analysis.unsupported.len().saturating_sub(10);
-        let more = if more > 0 {
-            format!(" and {more} more")
-        } else {
-            String::new()
+        let more = match analysis.unsupported.len() - names.len() {
+            0 => String::new(),
+            n => format!(" and {n} more"),
         };
         analysis.notices.push(format!(
-            "nothing that would stick could hold {}{more}: they reach neither ground nor a robot",
+            "no sticking at the points where forces act could hold {}{more}",
             names.join(", ")
         ));
     }

@@ -152,6 +152,7 @@ impl Polygon {
         let mut flaws = Vec::new();
         let mut listed = vec![outline];
         listed.extend(holes);
+        let mut flat = Vec::new();
         let mut rings: Vec<Vec<(usize, Point)>> = Vec::new();
         for (ring, corners) in listed.into_iter().enumerate() {
             let kept = without_repeats(corners);
@@ -167,13 +168,22 @@ impl Polygon {
                 // Written so that NaN counts as no area.
                 let encloses = area.abs() > 1e-15 * perimeter * perimeter;
                 if !encloses {
-                    flaws.push(Flaw::ZeroArea { ring });
+                    let straight = |p: &Point| orientation(points[0], points[1], *p) == 0.0;
+                    if !area.is_finite() || points.iter().all(straight) {
+                        flaws.push(Flaw::ZeroArea { ring });
+                    } else {
+                        flat.push(Flaw::ZeroArea { ring });
+                    }
                 }
             }
             rings.push(kept);
         }
         if flaws.is_empty() {
+            // The areas on both sides of a crossing can cancel: then the crossing is the flaw, not the area.
             flaws = crossings(&rings);
+        }
+        if flaws.is_empty() {
+            flaws = flat;
         }
         if !flaws.is_empty() {
             return Err(flaws);

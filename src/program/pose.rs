@@ -100,11 +100,21 @@ pub fn kinematic(
     (conic, row_of)
 }
 
+/// Amounts to be corrected by `size` times the unknowns.
+#[derive(Clone, Copy, Debug)]
+pub struct Correction<'a> {
+    /// The amounts so far.
+    pub amounts: &'a [f64],
+    /// What one unit of an unknown stands for.
+    pub size: f64,
+}
+
 /// The forces of least Σ force² among the amounts ≥ 0 of the given columns that give `need`.
 ///
+/// With a `correction` the unknowns are changes to given amounts.
 /// The squares are those of N1, N2, T of each contact and of each component of a grip, not of the generators, so the
 /// answer does not depend on how a cone is written.
-pub fn least_squares(need: &[f64], columns: &[Column]) -> Conic {
+pub fn least_squares(need: &[f64], columns: &[Column], correction: Option<Correction>) -> Conic {
     let mut quadratic = Vec::new();
     // Columns of one contact stand side by side; products reach back only to the contact's first column.
     for (j, column) in columns.iter().enumerate() {
@@ -121,11 +131,12 @@ pub fn least_squares(need: &[f64], columns: &[Column]) -> Conic {
     let mut bound = need.to_vec();
     for (j, column) in columns.iter().enumerate() {
         matrix.extend(column.entries().map(|(row, value)| (row, j, value)));
+        let (floor, size) = correction.map_or((0.0, 1.0), |c| (c.amounts[j] / c.size, c.size));
         matrix.push((bound.len(), j, -1.0));
-        bound.push(0.0);
+        bound.push(floor);
         if column.limit.is_finite() {
             matrix.push((bound.len(), j, 1.0));
-            bound.push(column.limit);
+            bound.push(column.limit / size - floor);
         }
     }
     Conic {

@@ -19,6 +19,8 @@ pub enum Proof {
     Forces {
         /// Worst imbalance of a block, force or moment/L.
         worst_imbalance: f64,
+        /// Worst imbalance of a block in parts of its own load, where that is more than rounding of the heaviest.
+        worst_share: f64,
         /// Worst pull at an application point.
         worst_pull: f64,
         /// Worst friction beyond μN, or robot component beyond its limit.
@@ -40,6 +42,9 @@ impl Proof {
     /// heaviest weight, or a centre of gravity this share of L outside its support.
     pub const BAND: f64 = 1e-7;
 
+    /// Nor may any block be off by more than this share of its own load: a feather under a mountain must balance too.
+    pub const SHARE: f64 = 1e-2;
+
     /// A motion convinces when the loads' power is at least so many times its worst violation.
     pub const CONVINCING: f64 = 1e3;
 
@@ -48,9 +53,13 @@ impl Proof {
         match *self {
             Proof::Forces {
                 worst_imbalance,
+                worst_share,
                 worst_pull,
                 worst_slip,
-            } => worst_imbalance.max(worst_pull).max(worst_slip) <= Self::BAND,
+            } => {
+                worst_imbalance.max(worst_pull).max(worst_slip) <= Self::BAND
+                    && worst_share <= Self::SHARE
+            }
             Proof::Mechanism {
                 power,
                 worst_violation,
@@ -187,12 +196,20 @@ pub fn forces(
             .max(grip.force.y.abs() - limits.fy);
         worst_slip = worst_slip.max((grip.torque.abs() - limits.torque) / yardstick.length);
     }
-    let worst = blocks.iter().map(|block| {
-        let (force, moment) = balance[block.0];
-        force.norm().max(moment.abs() / yardstick.length)
-    });
+    let (mut worst_imbalance, mut worst_share): (f64, f64) = (0.0, 0.0);
+    for block in blocks {
+        let size =
+            |(force, moment): (Vector, f64)| force.norm().max(moment.abs() / yardstick.length);
+        let (off, own) = (size(balance[block.0]), size(load(scene, *block)));
+        worst_imbalance = worst_imbalance.max(off);
+        // What weighs less than the rounding of the heaviest load cannot be told from nothing.
+        if own > 1e-12 * yardstick.force {
+            worst_share = worst_share.max(off / own);
+        }
+    }
     Proof::Forces {
-        worst_imbalance: worst.fold(0.0, f64::max) / yardstick.force,
+        worst_imbalance: worst_imbalance / yardstick.force,
+        worst_share,
         worst_pull: worst_pull / yardstick.force,
         worst_slip: worst_slip.max(0.0) / yardstick.force,
     }

@@ -70,7 +70,7 @@ pub(super) fn check(findings: &mut Findings, scene: &Comparison<'_>) {
             "" => format!("steps[{}]", f.frame),
             title => format!("steps[{}], \"{}\"", f.frame, problem::shortened(title)),
         });
-        let wording = problem::overlap(
+        let wording = problem::outline::overlap(
             &name(f.bodies[1]),
             &name(f.bodies[0]),
             f.area,
@@ -80,7 +80,7 @@ pub(super) fn check(findings: &mut Findings, scene: &Comparison<'_>) {
         findings.add(&list.index(block.0), wording);
     }
     if found.len() > MOST {
-        findings.add(&list, problem::more_overlaps(MOST));
+        findings.add(&list, problem::outline::more_overlaps(MOST));
     }
 }
 

@@ -84,7 +84,16 @@ impl Expectation {
             Expectation::Tuple(items) if items.iter().all(|i| matches!(i, Expectation::Number)) => {
                 format!("a list of {} numbers", items.len())
             }
-            Expectation::Tuple(items) => format!("a list of {}", items.len()),
+            Expectation::Tuple(items) => {
+                format!(
+                    "[{}]",
+                    items
+                        .iter()
+                        .map(Expectation::words)
+                        .collect::<Vec<_>>()
+                        .join(", ")
+                )
+            }
             Expectation::Object(_) | Expectation::Map(_) => "an object".into(),
             Expectation::Any(choices) => problem::choice(
                 choices
@@ -195,7 +204,12 @@ impl Walk<'_> {
                 if names.contains(text) {
                     out.push_str(self.written(node));
                 } else {
-                    self.misfit(at, level, Mark::Value, problem::unknown_choice(text, names));
+                    self.misfit(
+                        at,
+                        level,
+                        Mark::Value,
+                        problem::entry::unknown_choice(text, names),
+                    );
                     out.push_str(&expected.stand_in());
                 }
             }
@@ -210,7 +224,7 @@ impl Walk<'_> {
                         at,
                         level,
                         Mark::Value,
-                        problem::wrong_length(entries.len(), &expected.words()),
+                        problem::entry::wrong_length(entries.len(), &expected.words()),
                     );
                     out.push_str(&expected.stand_in());
                 }
@@ -230,13 +244,7 @@ impl Walk<'_> {
             }
             (Expectation::Any(choices), _) => self.any(node, expected, choices, at, level, out),
             _ => {
-                self.misfit(
-                    at,
-                    level,
-                    Mark::Value,
-                    problem::wrong_type(&expected.words(), &self.found(node)),
-                );
-                out.push_str(&expected.stand_in());
+                self.wrong_type(node, expected, at, level, out);
             }
         }
     }
@@ -278,7 +286,7 @@ impl Walk<'_> {
                     &here,
                     level + 1,
                     Mark::Key,
-                    problem::duplicate_key(&entry.name, line, column),
+                    problem::entry::duplicate_key(&entry.name, line, column),
                 );
                 continue;
             }
@@ -292,7 +300,7 @@ impl Walk<'_> {
                     &here,
                     level + 1,
                     Mark::Key,
-                    problem::unknown_key(&entry.name, free),
+                    problem::entry::unknown_key(&entry.name, free),
                 );
                 continue;
             };
@@ -311,7 +319,7 @@ impl Walk<'_> {
                 &at.key(&key.name),
                 level + 1,
                 Mark::Value,
-                problem::missing_key(&key.name),
+                problem::entry::missing_key(&key.name),
             );
             if out.len() > before + 1 {
                 out.push(',');
@@ -362,22 +370,39 @@ impl Walk<'_> {
             )
         };
         match best {
-            Some((walk, text)) if walk.level > level || choices.iter().any(|c| same_kind(&c)) => {
+            Some((walk, text))
+                if walk.level > level || choices.iter().filter(same_kind).count() == 1 =>
+            {
                 self.level = self.level.min(walk.level);
                 self.findings.list.extend(walk.findings.list);
                 self.doubt.paths.extend(walk.doubt.paths);
                 out.push_str(&text);
             }
             _ => {
-                self.misfit(
-                    at,
-                    level,
-                    Mark::Value,
-                    problem::wrong_type(&expected.words(), &self.found(node)),
-                );
-                out.push_str(&expected.stand_in());
+                self.wrong_type(node, expected, at, level, out);
             }
         }
+    }
+
+    fn wrong_type(
+        &mut self,
+        node: &Node,
+        expected: &Expectation,
+        at: &Trail<'_>,
+        level: usize,
+        out: &mut String,
+    ) {
+        let words = expected.words();
+        let wording = match &node.kind {
+            NodeKind::Text(text)
+                if words == "a number" && text.parse::<f64>().is_ok_and(f64::is_finite) =>
+            {
+                problem::entry::quoted_number(&words, &problem::shortened(text))
+            }
+            _ => problem::entry::wrong_type(&words, &self.found(node)),
+        };
+        self.misfit(at, level, Mark::Value, wording);
+        out.push_str(&expected.stand_in());
     }
 
     fn written(&self, node: &Node) -> &str {
@@ -394,5 +419,57 @@ impl Walk<'_> {
             NodeKind::List(entries) => format!("a list of {}", entries.len()),
             NodeKind::Object(_) => "an object".into(),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::format;
+
+    #[test]
+    fn a_sound_file_is_written_anew_as_it_was() {
+        for text in [
+            include_str!("../../assets/starter.json"),
+            include_str!("../../assets/thesis/figure-4.json"),
+        ] {
+            let source = Source::parse(text);
+            let root = source.root.as_ref().expect("JSON");
+            let checked = check(&source, root, &format::expected());
+            assert!(checked.findings.is_empty() && checked.doubt.paths.is_empty());
+            let (before, after) = (format::parse(text), format::parse(&checked.text));
+            assert_eq!(after.ok(), before.ok());
+        }
+    }
+
+    #[test]
+    fn what_does_not_fit_is_stood_in_for() {
+        let text = r#"{ "drystone": "1", "blocks": [{ "id": 5, "polygon": [[0, 0], [1], [0, 1]] }], "grid": { "side": 2 } }"#;
+        let source = Source::parse(text);
+        let root = source.root.as_ref().expect("JSON");
+        let checked = check(&source, root, &format::expected());
+        let places: Vec<String> = checked
+            .doubt
+            .paths
+            .iter()
+            .map(ToString::to_string)
+            .collect();
+        assert_eq!(
+            places,
+            [
+                "drystone",
+                "blocks[0].id",
+                "blocks[0].polygon[1]",
+                "grid.kind"
+            ]
+        );
+        let file = format::parse(&checked.text)
+            .ok()
+            .expect("the stand-ins fit");
+        assert_eq!(
+            file.blocks[0].polygon,
+            Some(vec![[0.0, 0.0], [0.0, 0.0], [0.0, 1.0]])
+        );
+        assert_eq!(file.grid.and_then(|g| g.side), Some(2.0));
     }
 }

@@ -34,6 +34,12 @@ impl Findings {
         }
     }
 
+    /// Whether the entry that something stands in could not all be read.
+    pub(super) fn doubts(&self, at: &Trail<'_>) -> bool {
+        // A file without doubts is the one that has to be quick.
+        !self.doubt.paths.is_empty() && self.doubt.touches(&at.path())
+    }
+
     /// Notes what is wrong at a value, unless it stands in a part in doubt.
     pub(super) fn add(&mut self, at: &Trail<'_>, wording: Wording) {
         let path = at.path();

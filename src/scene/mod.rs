@@ -14,7 +14,7 @@ mod number;
 mod outline;
 mod path;
 mod play;
-pub mod problem;
+mod problem;
 mod reading;
 mod resolution;
 pub mod shape;

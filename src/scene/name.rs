@@ -50,7 +50,7 @@ impl<'f> Names<'f> {
     ) -> Option<usize> {
         let number = self.get(name);
         if number.is_none() && !self.incomplete {
-            findings.add(at, problem::unknown_name(self.sort, name, &self.list));
+            findings.add(at, problem::name::unknown_name(self.sort, name, &self.list));
         }
         number
     }
@@ -64,7 +64,7 @@ impl<'f> Names<'f> {
     ) -> Option<usize> {
         let number = self.get(name);
         if number.is_none() && !self.incomplete {
-            findings.add_key(at, problem::unknown_name(self.sort, name, &self.list));
+            findings.add_key(at, problem::name::unknown_name(self.sort, name, &self.list));
         }
         number
     }

@@ -11,11 +11,11 @@ pub(super) const LARGEST: f64 = 1e12;
 pub(super) fn is_sane(findings: &mut Findings, at: &Trail<'_>, numbers: &[f64]) -> bool {
     for x in numbers {
         if !x.is_finite() {
-            findings.add(at, problem::not_finite(*x));
+            findings.add(at, problem::number::not_finite(*x));
             return false;
         }
         if x.abs() > LARGEST {
-            findings.add(at, problem::absurd(*x, LARGEST));
+            findings.add(at, problem::number::absurd(*x, LARGEST));
             return false;
         }
     }
@@ -35,7 +35,7 @@ pub(super) fn at_least_zero(
         return None;
     }
     if x < 0.0 {
-        findings.add(&at, problem::negative(key, x));
+        findings.add(&at, problem::number::negative(key, x));
         return None;
     }
     Some(x)

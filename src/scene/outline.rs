@@ -83,9 +83,11 @@ fn note(
         &hole
     };
     match flaw {
-        Flaw::TooFewCorners { corners, .. } => findings.add(at, problem::too_few_corners(corners)),
-        Flaw::ZeroArea { .. } => findings.add(at, problem::zero_area()),
-        Flaw::HoleOutside { .. } => findings.add(at, problem::hole_outside()),
+        Flaw::TooFewCorners { corners, .. } => {
+            findings.add(at, problem::outline::too_few_corners(corners))
+        }
+        Flaw::ZeroArea { .. } => findings.add(at, problem::outline::zero_area()),
+        Flaw::HoleOutside { .. } => findings.add(at, problem::outline::hole_outside()),
         Flaw::Crossing {
             rings,
             corners: first,
@@ -98,13 +100,13 @@ fn note(
                     holes.get(ring - 1).map_or(0, Vec::len)
                 }
             };
-            let side = |k: usize| problem::Side {
+            let side = |k: usize| problem::outline::Side {
                 hole: rings[k].checked_sub(1),
                 corners: [first[k], (first[k] + 1) % count(rings[k]).max(1)],
             };
             findings.add(
                 &at.index(first[0]),
-                problem::crossing(&side(0), &side(1), point),
+                problem::outline::crossing(&side(0), &side(1), point),
             );
         }
     }
@@ -119,11 +121,11 @@ pub(super) fn cells(
 ) -> Option<Outline> {
     let at = at.key("cells");
     let Some(lattice) = lattice else {
-        findings.add(&at, problem::cells_without_grid());
+        findings.add(&at, problem::outline::cells_without_grid());
         return None;
     };
     if entries.is_empty() {
-        findings.add(&at, problem::no_cells());
+        findings.add(&at, problem::outline::no_cells());
         return None;
     }
     let mut sound = true;
@@ -138,12 +140,12 @@ pub(super) fn cells(
             }
             (CellEntry::Square(x, y), LatticeKind::Square) => (x, y, Half::Whole),
             (CellEntry::Square(..), LatticeKind::Triangular) => {
-                findings.add(&at, problem::square_cell());
+                findings.add(&at, problem::outline::square_cell());
                 sound = false;
                 continue;
             }
             (CellEntry::Triangle(..), LatticeKind::Square) => {
-                findings.add(&at, problem::triangle_cell());
+                findings.add(&at, problem::outline::triangle_cell());
                 sound = false;
                 continue;
             }
@@ -154,7 +156,7 @@ pub(super) fn cells(
         };
         let cell = Cell { x, y, half };
         if let Some(first) = seen.insert(cell, i) {
-            findings.add(&at, problem::cell_twice(first));
+            findings.add(&at, problem::outline::cell_twice(first));
             sound = false;
         }
         cells.push(cell);
@@ -163,7 +165,7 @@ pub(super) fn cells(
         return None;
     }
     if lattice.polygon(&cells).is_none() {
-        findings.add(&at, problem::cells_apart());
+        findings.add(&at, problem::outline::cells_apart());
         return None;
     }
     Some(Outline::Cells(cells))
@@ -175,11 +177,11 @@ fn node(findings: &mut Findings, at: &Trail<'_>, pair: Pair) -> Option<(i64, i64
         return None;
     }
     if pair.iter().any(|x| x.fract() != 0.0) {
-        findings.add(at, problem::not_whole(pair));
+        findings.add(at, problem::outline::not_whole(pair));
         return None;
     }
     if pair.iter().any(|x| x.abs() > REACH) {
-        findings.add(at, problem::beyond_lattice(pair, REACH));
+        findings.add(at, problem::outline::beyond_lattice(pair, REACH));
         return None;
     }
     Some((pair[0] as i64, pair[1] as i64))
@@ -207,7 +209,10 @@ pub(super) fn placed(
             };
             let steps = angle.rem_euclid(360.0) / turn;
             if steps.fract() != 0.0 {
-                findings.add(&trail.key("angle"), problem::angle_off_lattice(angle, turn));
+                findings.add(
+                    &trail.key("angle"),
+                    problem::outline::angle_off_lattice(angle, turn),
+                );
                 return None;
             }
             let by = by?;

@@ -102,7 +102,7 @@ impl Standing {
             let at = list.index(i);
             if let Some(block) = cast.blocks.find(findings, &at, name).map(BlockId) {
                 if let Some((since, _)) = self.since.get(&block) {
-                    findings.add(&at, problem::placed_twice(name, *since, number));
+                    findings.add(&at, problem::step::placed_twice(name, *since, number));
                     continue;
                 }
                 self.since.insert(block, (number, self.next));
@@ -140,7 +140,7 @@ impl Standing {
         cast: &Cast<'_>,
     ) {
         let Some((_, place)) = self.since.remove(&block) else {
-            findings.add(at, problem::removed_unplaced(name));
+            findings.add(at, problem::step::removed_unplaced(name));
             return;
         };
         self.order.remove(&place);
@@ -151,7 +151,10 @@ impl Standing {
             .map(|(r, _)| *r)
             .collect();
         if let Some(robot) = holders.first() {
-            findings.add(at, problem::removed_held(name, cast.robots.name(robot.0)));
+            findings.add(
+                at,
+                problem::step::removed_held(name, cast.robots.name(robot.0)),
+            );
         }
         for robot in holders {
             self.holds.remove(&robot);
@@ -176,7 +179,7 @@ impl Standing {
         let sound = point.is_none_or(|p| is_sane(findings, &at.key("at"), &p));
         let Some(block) = block else { return };
         if !self.since.contains_key(&block) {
-            findings.add(name_at, problem::held_unplaced(robot_name, name));
+            findings.add(name_at, problem::step::held_unplaced(robot_name, name));
             return;
         }
         let Some(robot) = robot else { return };
@@ -185,7 +188,7 @@ impl Standing {
         {
             findings.add(
                 at,
-                problem::holds_two(robot_name, cast.blocks.name(other.0), name),
+                problem::step::holds_two(robot_name, cast.blocks.name(other.0), name),
             );
         }
         if sound {
@@ -208,7 +211,7 @@ impl Standing {
             let block = cast.blocks.find(findings, &at, name).map(BlockId);
             let Some(block) = block else { continue };
             if self.since.contains_key(&block) {
-                findings.add(&at, problem::planned_placed(robot_name, name));
+                findings.add(&at, problem::step::planned_placed(robot_name, name));
             } else if let Some(robot) = robot {
                 plans.push(Plan { robot, block });
             }

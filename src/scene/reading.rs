@@ -85,7 +85,11 @@ fn misfits(text: &str, refusal: &format::Refusal) -> Problems {
     let Some(checked) = checked.filter(|c| !c.findings.is_empty()) else {
         // The two readers disagree: the first one's words are right, if less kind.
         let byte = source.byte(refusal.line, refusal.column);
-        return Problems::of_text(&source, byte..byte, problem::reader_says(&refusal.words));
+        return Problems::of_text(
+            &source,
+            byte..byte,
+            problem::entry::reader_says(&refusal.words),
+        );
     };
     let mut findings = checked.findings;
     if let Ok(file) = format::parse(&checked.text)

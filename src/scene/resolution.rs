@@ -2,20 +2,22 @@
 
 use std::collections::BTreeMap;
 
+mod body;
+mod robot;
+
+use self::body::colour;
 use super::collision::{self, Comparison};
 use super::finding::{Doubt, Finding, Findings};
-use super::format::{self, LimitsEntry, Pair, SceneFile};
+use super::format::{self, Pair, SceneFile};
 use super::frame::Hold;
 use super::name::Names;
-use super::number::{LARGEST, at_least_zero, is_sane};
-use super::outline::{self, Outline};
+use super::number::{at_least_zero, is_sane};
+use super::outline::Outline;
 use super::path::Trail;
 use super::play::{self, Cast};
 use super::problem;
 use super::shape;
-use super::{
-    Block, BlockId, Body, BodyId, Grip, Ground, Limits, Load, Material, Rgb, Robot, RobotId, Scene,
-};
+use super::{BlockId, Body, BodyId, Material, Rgb, RobotId, Scene};
 use crate::geometry::{Bounds, Lattice, LatticeKind, Point, Polygon, Tolerance, Vector};
 
 const FRICTION: f64 = 0.7;
@@ -62,46 +64,20 @@ struct MaterialValues {
     fill: Option<Rgb>,
 }
 
-/// The keys that blocks and ground share.
-struct BodyEntry<'f> {
-    polygon: Option<&'f [Pair]>,
-    holes: &'f [Vec<Pair>],
-    cells: Option<&'f [format::CellEntry]>,
-    shape: Option<&'f str>,
-    at: Option<Pair>,
-    angle: Option<f64>,
-    material: Option<&'f str>,
-    friction: Option<f64>,
-    fill: Option<&'f str>,
-}
-
-macro_rules! body_entry {
-    ($entry:expr) => {
-        BodyEntry {
-            polygon: $entry.polygon.as_deref(),
-            holes: &$entry.holes,
-            cells: $entry.cells.as_deref(),
-            shape: $entry.shape.as_deref(),
-            at: $entry.at,
-            angle: $entry.angle,
-            material: $entry.material.as_deref(),
-            friction: $entry.friction,
-            fill: $entry.fill.as_deref(),
-        }
-    };
-}
-
 impl<'f> Resolution<'f> {
     fn new(findings: &mut Findings, file: &'f SceneFile) -> Resolution<'f> {
         let top = Trail::Top;
         if file.drystone.0 != 1 {
-            findings.add(&top.key("drystone"), problem::version(file.drystone.0));
+            findings.add(
+                &top.key("drystone"),
+                problem::number::version(file.drystone.0),
+            );
         }
         let gravity = file.gravity.unwrap_or(GRAVITY);
         is_sane(findings, &top.key("gravity"), &gravity);
         let kernel = file.kernel.unwrap_or(0.0);
         if is_sane(findings, &top.key("kernel"), &[kernel]) && !(0.0..=1.0).contains(&kernel) {
-            findings.add(&top.key("kernel"), problem::kernel(kernel));
+            findings.add(&top.key("kernel"), problem::number::kernel(kernel));
         }
         let lattice = lattice(findings, file.grid.as_ref());
         let grid_known =
@@ -277,15 +253,15 @@ impl<'f> Resolution<'f> {
         for (name, entry) in &self.file.shapes.0 {
             let at = list.key(name);
             if shape::BUILT_IN.contains(&name.as_str()) {
-                findings.add_key(&at, problem::built_in_shape(name));
+                findings.add_key(&at, problem::name::built_in_shape(name));
             }
             outlines.push(match (&entry.polygon, &entry.cells) {
                 (Some(_), Some(_)) => {
-                    findings.add(&at, problem::two_outlines("polygon", "cells"));
+                    findings.add(&at, problem::outline::two_outlines("polygon", "cells"));
                     None
                 }
                 (None, None) => {
-                    findings.add(&at, problem::no_shape_outline());
+                    findings.add(&at, problem::outline::no_shape_outline());
                     None
                 }
                 (polygon, cells) => self.outline(
@@ -310,147 +286,6 @@ impl<'f> Resolution<'f> {
         outlines
     }
 
-    fn outline(
-        &self,
-        findings: &mut Findings,
-        at: &Trail<'_>,
-        polygon: Option<&[Pair]>,
-        holes: &[Vec<Pair>],
-        cells: Option<&[format::CellEntry]>,
-    ) -> Option<Outline> {
-        if polygon.is_none() && !holes.is_empty() {
-            findings.add(&at.key("holes"), problem::holes_alone());
-            return None;
-        }
-        if findings.doubt.touches(&at.path()) {
-            return None;
-        }
-        match (polygon, cells) {
-            (Some(corners), _) => outline::polygon(findings, at, corners, holes),
-            (None, Some(entries)) if self.grid_known => {
-                outline::cells(findings, at, self.lattice, entries)
-            }
-            _ => None,
-        }
-    }
-
-    fn body(&self, findings: &mut Findings, at: &Trail<'_>, entry: &BodyEntry<'_>) -> Option<Body> {
-        let material = entry
-            .material
-            .and_then(|m| self.materials.find(findings, &at.key("material"), m));
-        let values = material.map(|m| self.material_entries[m]);
-        let friction = at_least_zero(findings, at, "friction", entry.friction);
-        let fill = entry
-            .fill
-            .and_then(|f| colour(findings, &at.key("fill"), f));
-        let angle = entry.angle.unwrap_or(0.0);
-        let place = entry.at.unwrap_or([0.0, 0.0]);
-        let sound = is_sane(findings, &at.key("angle"), &[angle])
-            & is_sane(findings, &at.key("at"), &place);
-        let given = [
-            ("polygon", entry.polygon.is_some()),
-            ("cells", entry.cells.is_some()),
-            ("shape", entry.shape.is_some()),
-        ];
-        let given: Vec<&str> = given.iter().filter(|g| g.1).map(|g| g.0).collect();
-        let own;
-        let outline = match given.as_slice() {
-            [] => {
-                findings.add(at, problem::no_outline());
-                None
-            }
-            [first, second, ..] => {
-                findings.add(at, problem::two_outlines(first, second));
-                None
-            }
-            ["shape"] => {
-                if !entry.holes.is_empty() {
-                    findings.add(&at.key("holes"), problem::holes_alone());
-                }
-                self.shape(findings, &at.key("shape"), entry.shape.unwrap_or(""))
-            }
-            _ => {
-                own = self.outline(findings, at, entry.polygon, entry.holes, entry.cells);
-                own.as_ref()
-            }
-        };
-        if !sound || !self.grid_known || findings.doubt.touches(&at.path()) {
-            return None;
-        }
-        let (polygon, cells) = outline::placed(findings, at, self.lattice, outline?, place, angle)?;
-        Some(Body {
-            polygon,
-            cells,
-            material,
-            friction: friction
-                .or(values.and_then(|v| v.friction))
-                .unwrap_or(self.friction),
-            fill: fill.or(values.and_then(|v| v.fill)),
-        })
-    }
-
-    fn shape(&self, findings: &mut Findings, at: &Trail<'_>, name: &str) -> Option<&Outline> {
-        let number = self.shapes.find(findings, at, name)?;
-        let outline = self.outlines[number].as_ref();
-        if outline.is_none() && number >= self.file.shapes.0.len() && self.grid_known {
-            findings.add(at, problem::shape_without_grid(name));
-        }
-        outline
-    }
-
-    fn ground(&self, findings: &mut Findings) -> Vec<Option<Ground>> {
-        let top = Trail::Top;
-        let list = top.key("ground");
-        (self.file.ground.iter().enumerate())
-            .map(|(i, entry)| {
-                Some(Ground {
-                    body: self.body(findings, &list.index(i), &body_entry!(entry))?,
-                })
-            })
-            .collect()
-    }
-
-    fn blocks(&self, findings: &mut Findings) -> Vec<Option<Block>> {
-        let top = Trail::Top;
-        let list = top.key("blocks");
-        (self.file.blocks.iter().enumerate())
-            .map(|(i, entry)| self.block(findings, &list.index(i), entry, i))
-            .collect()
-    }
-
-    fn block(
-        &self,
-        findings: &mut Findings,
-        at: &Trail<'_>,
-        entry: &format::BlockEntry,
-        i: usize,
-    ) -> Option<Block> {
-        let weight = at_least_zero(findings, at, "weight", entry.weight);
-        let mass = at_least_zero(findings, at, "mass", entry.mass);
-        let density = at_least_zero(findings, at, "density", entry.density);
-        let body = self.body(findings, at, &body_entry!(entry))?;
-        let area = match (&body.cells, self.lattice) {
-            (Some(cells), Some(lattice)) => cells.len() as f64 * lattice.cell_area(),
-            _ => body.polygon.area(),
-        };
-        let density = density
-            .or_else(|| body.material.and_then(|m| self.material_entries[m].density))
-            .unwrap_or(self.density);
-        let weight = weight.unwrap_or_else(|| {
-            mass.unwrap_or(density * area * self.thickness) * self.gravity.norm()
-        });
-        if !(weight <= LARGEST) {
-            findings.add(at, problem::too_heavy(weight, LARGEST));
-            return None;
-        }
-        Some(Block {
-            id: self.ids[i].clone(),
-            centroid: body.polygon.centroid(),
-            body,
-            weight,
-        })
-    }
-
     fn friction_pairs(&self, findings: &mut Findings) -> Vec<([usize; 2], f64)> {
         let top = Trail::Top;
         let list = top.key("friction_pairs");
@@ -469,81 +304,13 @@ impl<'f> Resolution<'f> {
             let (Some(a), Some(b)) = (a, b) else { continue };
             let pair = [a.min(b), a.max(b)];
             if let Some(first) = seen.get(&pair) {
-                findings.add(&between, problem::pair_twice(&entry.between, *first));
+                findings.add(&between, problem::name::pair_twice(&entry.between, *first));
                 continue;
             }
             seen.insert(pair, i);
             pairs.extend(friction.map(|friction| (pair, friction)));
         }
         pairs
-    }
-
-    fn robots(
-        &self,
-        findings: &mut Findings,
-        blocks: &Names<'_>,
-        centroids: &[Point],
-    ) -> Vec<Robot> {
-        let top = Trail::Top;
-        let list = top.key("robots");
-        let mut robots = Vec::new();
-        for (i, entry) in self.file.robots.iter().enumerate() {
-            let at = list.index(i);
-            let block = entry
-                .holds
-                .as_ref()
-                .and_then(|b| blocks.find(findings, &at.key("holds"), b))
-                .map(BlockId);
-            if let Some(point) = entry.at {
-                is_sane(findings, &at.key("at"), &point);
-            }
-            let grip = |block: BlockId| {
-                entry
-                    .at
-                    .map_or(centroids[block.0], |p| Point::new(p[0], p[1]))
-            };
-            robots.push(Robot {
-                id: self.robot_ids[i].clone(),
-                limits: limits(findings, &at.key("limits"), entry.limits.as_ref()),
-                holds: block.map(|block| Grip {
-                    block,
-                    at: grip(block),
-                }),
-            });
-        }
-        robots
-    }
-
-    fn loads(&self, findings: &mut Findings, blocks: &Names<'_>, centroids: &[Point]) -> Vec<Load> {
-        let top = Trail::Top;
-        let list = top.key("loads");
-        let mut loads = Vec::new();
-        for (i, entry) in self.file.loads.iter().enumerate() {
-            let at = list.index(i);
-            let force = entry.force.unwrap_or([0.0, 0.0]);
-            let torque = entry.torque.unwrap_or(0.0);
-            is_sane(findings, &at.key("force"), &force);
-            is_sane(findings, &at.key("torque"), &[torque]);
-            if let Some(point) = entry.at {
-                is_sane(findings, &at.key("at"), &point);
-            }
-            let Some(block) = blocks
-                .find(findings, &at.key("block"), &entry.block)
-                .map(BlockId)
-            else {
-                continue;
-            };
-            let point = entry
-                .at
-                .map_or(centroids[block.0], |p| Point::new(p[0], p[1]));
-            loads.push(Load {
-                block,
-                force: Vector::new(force[0], force[1]),
-                at: point,
-                torque,
-            });
-        }
-        loads
     }
 }
 
@@ -556,7 +323,7 @@ fn lattice(findings: &mut Findings, entry: Option<&format::GridEntry>) -> Option
         return None;
     }
     if side <= 0.0 {
-        findings.add(&at, problem::side(side));
+        findings.add(&at, problem::number::side(side));
         return None;
     }
     let kind = match entry.kind {
@@ -598,50 +365,17 @@ fn ids(
         let inner = entry.key("id");
         let at = if given { &inner } else { &entry };
         if id.is_empty() {
-            findings.add(at, problem::empty_id(sort));
+            findings.add(at, problem::name::empty_id(sort));
         } else if sort == "block" && id == "ground" {
-            findings.add(at, problem::reserved_id());
+            findings.add(at, problem::name::reserved_id());
         }
         if let Some(first) = first.get(id.as_str()) {
             findings.add(
                 at,
-                problem::id_twice(sort, id, &list.index(*first).path().to_string()),
+                problem::name::id_twice(sort, id, &list.index(*first).path().to_string()),
             );
         } else {
             first.insert(id, i);
-        }
-    }
-}
-
-fn limits(findings: &mut Findings, at: &Trail<'_>, entry: Option<&LimitsEntry>) -> Limits {
-    let Some(entry) = entry else {
-        return Limits::default();
-    };
-    let force = at_least_zero(findings, at, "force", entry.force);
-    Limits {
-        fx: at_least_zero(findings, at, "fx", entry.fx)
-            .or(force)
-            .unwrap_or(f64::INFINITY),
-        fy: at_least_zero(findings, at, "fy", entry.fy)
-            .or(force)
-            .unwrap_or(f64::INFINITY),
-        torque: at_least_zero(findings, at, "torque", entry.torque).unwrap_or(0.0),
-    }
-}
-
-/// A colour written `#rrggbb` or `#rgb`.
-fn colour(findings: &mut Findings, at: &Trail<'_>, text: &str) -> Option<Rgb> {
-    let digits: Option<Vec<u8>> = text.strip_prefix('#').and_then(|hex| {
-        hex.chars()
-            .map(|c| c.to_digit(16).and_then(|d| u8::try_from(d).ok()))
-            .collect()
-    });
-    match digits.as_deref() {
-        Some([r, g, b]) => Some(Rgb([r * 17, g * 17, b * 17])),
-        Some([a, b, c, d, e, f]) => Some(Rgb([a * 16 + b, c * 16 + d, e * 16 + f])),
-        _ => {
-            findings.add(at, problem::colour(text));
-            None
         }
     }
 }

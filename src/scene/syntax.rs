@@ -25,7 +25,7 @@ pub(super) fn not_utf8(bytes: &[u8], valid: usize) -> Problems {
         .chars()
         .next()
         .map_or(valid, |c| valid + c.len_utf8());
-    Problems::of_text(&source, valid..end, problem::not_utf8(byte, utf16))
+    Problems::of_text(&source, valid..end, problem::text::not_utf8(byte, utf16))
 }
 
 fn explain(source: &Source<'_>, byte: usize, refusal: &Refusal) -> (Range<usize>, Wording) {
@@ -35,7 +35,7 @@ fn explain(source: &Source<'_>, byte: usize, refusal: &Refusal) -> (Range<usize>
         .next()
         .map_or(byte, |c| byte + c.len_utf8());
     if text.trim().is_empty() {
-        return (0..0, problem::empty_text());
+        return (0..0, problem::text::empty_text());
     }
     if refusal.kind == RefusalKind::End {
         let opened = open_bracket(text).map(|(c, at)| {
@@ -43,36 +43,39 @@ fn explain(source: &Source<'_>, byte: usize, refusal: &Refusal) -> (Range<usize>
             (c, line, column)
         });
         let end = text.trim_end().len();
-        return (end..end, problem::early_end(opened));
+        return (end..end, problem::text::early_end(opened));
     }
     let words = refusal.words.as_str();
     if words.contains("recursion limit") {
-        return (one, problem::too_deep());
+        return (one, problem::text::too_deep());
+    }
+    if words.contains("control character") {
+        return open_string(source, byte);
+    }
+    if words.contains("escape") || words.contains("surrogate") {
+        return (one, problem::text::not_json(words));
     }
     let token = token(text, byte);
     let found = &text[token.clone()];
     if words.contains("number out of range") {
-        return (token.clone(), problem::number_too_large(found));
+        return (token.clone(), problem::text::number_too_large(found));
     }
     if let Some(wording) = known_token(found) {
         return (token, wording);
     }
-    if words.contains("control character") {
-        return (one, problem::open_string());
-    }
     match text[byte..].trim_start().chars().next() {
-        Some('/' | '#') => return (one, problem::comment()),
-        Some('\'') => return (one, problem::single_quotes()),
+        Some('/' | '#') => return (one, problem::text::comment()),
+        Some('\'') => return (one, problem::text::single_quotes()),
         _ => {}
     }
     if words.contains("trailing comma") {
         let comma = text[..byte].rfind(',').map_or(one, |c| c..c + 1);
-        return (comma, problem::trailing_comma());
+        return (comma, problem::text::trailing_comma());
     }
     if words.contains("expected `,`") {
-        return (one, problem::missing_comma(words));
+        return (one, problem::text::missing_comma(words));
     }
-    (one, problem::not_json(words))
+    (one, problem::text::not_json(words))
 }
 
 /// What to say of words and numbers that other languages know.
@@ -80,21 +83,21 @@ fn known_token(found: &str) -> Option<Wording> {
     let bare = found.trim_start_matches(['-', '+']);
     match bare {
         "NaN" | "nan" | "Infinity" | "infinity" | "Inf" | "inf" | "INF" => {
-            return Some(problem::not_a_number(found));
+            return Some(problem::text::not_a_number(found));
         }
-        "True" => return Some(problem::foreign_word(found, "true")),
-        "False" => return Some(problem::foreign_word(found, "false")),
-        "None" | "nil" | "undefined" => return Some(problem::foreign_word(found, "null")),
+        "True" => return Some(problem::text::foreign_word(found, "true")),
+        "False" => return Some(problem::text::foreign_word(found, "false")),
+        "None" | "nil" | "undefined" => return Some(problem::text::foreign_word(found, "null")),
         "true" | "false" | "null" => return None,
         _ => {}
     }
     let first = found.chars().next()?;
     if first.is_alphabetic() || first == '_' {
-        return Some(problem::bare_word(found));
+        return Some(problem::text::bare_word(found));
     }
     let digits = found.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '.' | '+' | '-'));
     let sound = found.parse::<f64>().is_ok() && is_json_number(found);
-    (digits && !sound).then(|| problem::odd_number(found))
+    (digits && !sound).then(|| problem::text::odd_number(found))
 }
 
 /// Whether a text that is a number for Rust is one for JSON.
@@ -124,6 +127,17 @@ fn token(text: &str, byte: usize) -> Range<usize> {
         .map(char::len_utf8)
         .sum::<usize>();
     byte - before..byte + after
+}
+
+/// A string that is still open where its line ends.
+fn open_string(source: &Source<'_>, byte: usize) -> (Range<usize>, Wording) {
+    let text = source.text;
+    let broken = text[..byte].trim_end_matches(['\n', '\r']).len();
+    let start = match open_bracket(&text[..broken]) {
+        Some(('"', start)) => start,
+        _ => broken,
+    };
+    (start..broken, problem::text::open_string())
 }
 
 /// The innermost bracket, brace or quote that is still open at the end.

@@ -1,6 +1,6 @@
 //! The hard program: admissible forces of least sum that balance every block, or a motion that none can stop.
 
-use super::{Amounts, Care, Effort, Status, gathered, kept, tidy, twin};
+use super::{Amounts, Care, Effort, Status, gathered, kept, refined, rest, tidy, twin};
 use crate::program::{Program, columns};
 
 /// What the hard program gave.
@@ -14,6 +14,12 @@ pub struct Balance {
     pub effort: Effort,
 }
 
+/// Slack may outweigh the amount so many times before a column is left out of the face of optima.
+///
+/// The first value is the plain rule. Near the edge of standing an amount can be as small as its slack; then more columns
+/// are let in, until what they carry balances.
+const MARGINS: [f64; 3] = [1.0, 1e3, 1e6];
+
 /// Solves the hard program of [Vallat23] §2.0.7 through its kinematic twin.
 pub fn balance(program: &Program, care: Care) -> Balance {
     let mut effort = Effort::default();
@@ -21,18 +27,26 @@ pub fn balance(program: &Program, care: Care) -> Balance {
     let solved = twin(&program.need, &columns, care, &mut effort, |c| c.cost);
     match solved.status {
         Status::Solved => {
-            let (face, amounts) = kept(&columns, &solved.amounts, &solved.active);
-            let cost = |amounts: &[f64]| {
-                face.iter()
-                    .zip(amounts)
-                    .map(|(c, a)| c.cost * a)
-                    .sum::<f64>()
+            let mut found = None;
+            for margin in MARGINS {
+                let (face, _) = kept(&columns, &solved.amounts, &solved.active(margin));
+                let Some(amounts) = tidy(&program.need, &face, care, &mut effort) else {
+                    continue;
+                };
+                let cost: f64 = face.iter().zip(&amounts).map(|(c, a)| c.cost * a).sum();
+                // On the true face every balance costs the same; a dearer one means a column too many.
+                let cheap = (cost - solved.aim).abs() <= 1e-6 * solved.aim.abs();
+                if cheap && rest(&program.need, &face, &amounts) <= 1e-8 {
+                    found = Some((face, amounts));
+                    break;
+                }
+            }
+            let (face, amounts) = found.unwrap_or_else(|| (columns, solved.amounts));
+            let amounts = match care {
+                Care::Quick => amounts,
+                Care::Full => refined(&program.need, &face, amounts, &mut effort),
             };
-            // On the true face every balance costs the same; a dearer one means a column too many was taken for active.
-            let chosen = tidy(&program.need, &face, care, &mut effort)
-                .filter(|t| (cost(t) - solved.aim).abs() <= 1e-6 * solved.aim.abs())
-                .unwrap_or(amounts);
-            let (forces, _) = gathered(program, &face, &chosen);
+            let (forces, _) = gathered(program, &face, &amounts);
             Balance {
                 forces: Some(forces),
                 motion: None,

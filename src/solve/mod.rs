@@ -17,7 +17,7 @@ pub use conic::{Answer, Care, Status, TOLERANCE, solve};
 pub use single::single;
 pub use stick::{Stuck, stick};
 
-use crate::program::{Column, Conic, Force, Program, kinematic, least_squares};
+use crate::program::{Column, Conic, Correction, Force, Program, kinematic, least_squares};
 
 /// Amounts of the forces of a program, pure numbers.
 #[derive(Clone, Debug, PartialEq)]
@@ -108,9 +108,20 @@ struct Twin {
     y: Vec<f64>,
     /// Amount of each column.
     amounts: Vec<f64>,
-    /// Whether each column belongs to the face of optima.
-    active: Vec<bool>,
+    /// Slack of each column: by how much it is too dear to be used.
+    slack: Vec<f64>,
     aim: f64,
+}
+
+impl Twin {
+    /// Whether each column belongs to the face of optima: its slack is at most `margin` times its amount.
+    fn active(&self, margin: f64) -> Vec<bool> {
+        self.amounts
+            .iter()
+            .zip(&self.slack)
+            .map(|(amount, slack)| margin * amount > *slack)
+            .collect()
+    }
 }
 
 /// Solves the kinematic twin of some columns, again with full care where the quick way ends nowhere.
@@ -123,40 +134,31 @@ fn twin(
 ) -> Twin {
     let (conic, row_of) = kinematic(need, columns, cost);
     let answer = careful(&conic, care, effort);
+    let n = columns.len();
+    let mut solved = Twin {
+        status: answer.status,
+        y: vec![0.0; need.len()],
+        amounts: vec![0.0; n],
+        slack: vec![0.0; n],
+        aim: 0.0,
+    };
     if answer.x.is_empty() {
-        let n = columns.len();
-        return Twin {
-            status: answer.status,
-            y: vec![0.0; need.len()],
-            amounts: vec![0.0; n],
-            active: vec![false; n],
-            aim: 0.0,
-        };
+        return solved;
     }
-    let mut amounts = vec![0.0; columns.len()];
-    let mut active = vec![false; columns.len()];
     for (k, row) in row_of.iter().enumerate() {
         if *row == usize::MAX {
-            // The second of a pair posed as one equality.
-            amounts[k] = f64::max(0.0, -answer.z[row_of[k - 1]]);
-            active[k] = true;
+            // The second of a pair posed as one equality: both are active, whatever they carry.
+            solved.amounts[k] = f64::max(f64::MIN_POSITIVE, -answer.z[row_of[k - 1]]);
         } else if *row < conic.equalities {
-            amounts[k] = f64::max(0.0, answer.z[*row]);
-            active[k] = true;
+            solved.amounts[k] = f64::max(f64::MIN_POSITIVE, answer.z[*row]);
         } else {
-            amounts[k] = answer.z[*row].max(0.0);
-            active[k] = answer.z[*row] > answer.s[*row];
+            solved.amounts[k] = answer.z[*row].max(0.0);
+            solved.slack[k] = answer.s[*row];
         }
     }
-    let y = answer.x[..need.len()].to_vec();
-    let aim = need.iter().zip(&y).map(|(b, y)| b * y).sum();
-    Twin {
-        status: answer.status,
-        y,
-        amounts,
-        active,
-        aim,
-    }
+    solved.y.copy_from_slice(&answer.x[..need.len()]);
+    solved.aim = need.iter().zip(&solved.y).map(|(b, y)| b * y).sum();
+    solved
 }
 
 /// Solves, and solves again with full care where the quick way ends nowhere.
@@ -186,8 +188,67 @@ fn tidy(need: &[f64], columns: &[Column], care: Care, effort: &mut Effort) -> Op
     if let Some(amounts) = exact::only(need, columns) {
         return Some(amounts);
     }
-    let answer = careful(&least_squares(need, columns), care, effort);
+    let answer = careful(&least_squares(need, columns, None), care, effort);
     (answer.status == Status::Solved).then(|| answer.x.iter().map(|v| v.max(0.0)).collect())
+}
+
+/// What the amounts leave unbalanced, relative to the largest need.
+fn rest(need: &[f64], columns: &[Column], amounts: &[f64]) -> f64 {
+    largest(&remainder(need, columns, amounts)) / largest(need)
+}
+
+fn remainder(need: &[f64], columns: &[Column], amounts: &[f64]) -> Vec<f64> {
+    let mut rest: Vec<f64> = need.to_vec();
+    for (column, amount) in columns.iter().zip(amounts) {
+        column.add_to(&mut rest, -amount);
+    }
+    rest
+}
+
+fn largest(list: &[f64]) -> f64 {
+    list.iter().fold(0.0, |m: f64, v| m.max(v.abs()))
+}
+
+/// Amounts whose balance is exact to rounding, if they can be had near the given ones.
+///
+/// What is left unbalanced is blown up to size 1 and solved for as a correction, which keeps every amount ≥ 0; each round
+/// gains the solver's nine digits. Without it a feather under a mountain drowns in the mountain's rounding.
+fn refined(
+    need: &[f64],
+    columns: &[Column],
+    mut amounts: Vec<f64>,
+    effort: &mut Effort,
+) -> Vec<f64> {
+    for _ in 0..2 {
+        let rest = remainder(need, columns, &amounts);
+        let size = largest(&rest);
+        if size <= 1e-14 * largest(need) {
+            break;
+        }
+        let blown: Vec<f64> = rest.iter().map(|v| v / size).collect();
+        let correction = Correction {
+            amounts: &amounts,
+            size,
+        };
+        let answer = careful(
+            &least_squares(&blown, columns, Some(correction)),
+            Care::Full,
+            effort,
+        );
+        if answer.status != Status::Solved {
+            break;
+        }
+        let better: Vec<f64> = amounts
+            .iter()
+            .zip(&answer.x)
+            .map(|(a, d)| (a + d * size).max(0.0))
+            .collect();
+        if largest(&remainder(need, columns, &better)) >= size {
+            break;
+        }
+        amounts = better;
+    }
+    amounts
 }
 
 /// Columns that are active, with their amounts.

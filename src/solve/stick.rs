@@ -8,7 +8,7 @@
 //! the order of the file; a tie between mirror images stays a tie, and the figure of a mirrored scene is the mirrored
 //! figure.
 
-use super::{Amounts, Care, Effort, Status, Twin, gathered, kept, tidy, twin};
+use super::{Amounts, Care, Effort, Status, Twin, gathered, kept, largest, refined, tidy, twin};
 use crate::program::{Column, Program, columns, sticking_columns};
 
 /// Rounds of concentrating; the count of points rarely falls after the third.
@@ -53,7 +53,7 @@ pub fn stick(program: &Program, care: Care) -> Stuck {
             effort,
         };
     }
-    let (mut face, mut amounts) = kept(&all, &first.amounts, &first.active);
+    let (mut face, mut amounts) = kept(&all, &first.amounts, &first.active(1.0));
     let least = sticking_sum(&face, &amounts);
     let unchanged = |columns: &[Column], amounts: &[f64]| {
         (sticking_sum(columns, amounts) - least).abs()
@@ -98,6 +98,10 @@ pub fn stick(program: &Program, care: Care) -> Stuck {
     let chosen = tidy(&program.need, &face, care, &mut effort)
         .filter(|t| unchanged(&face, t))
         .unwrap_or(amounts);
+    let chosen = match care {
+        Care::Quick => chosen,
+        Care::Full => refined(&program.need, &face, chosen, &mut effort),
+    };
     let (forces, sticking) = gathered(program, &face, &chosen);
     Stuck {
         balanced: true,
@@ -114,7 +118,7 @@ fn narrowed(
     unchanged: &impl Fn(&[Column], &[f64]) -> bool,
 ) -> Option<(Vec<Column>, Vec<f64>)> {
     (solved.status == Status::Solved && unchanged(face, &solved.amounts))
-        .then(|| kept(face, &solved.amounts, &solved.active))
+        .then(|| kept(face, &solved.amounts, &solved.active(1.0)))
 }
 
 fn sticking_amounts<'a>(
@@ -130,8 +134,4 @@ fn sticking_amounts<'a>(
 
 fn sticking_sum(columns: &[Column], amounts: &[f64]) -> f64 {
     sticking_amounts(columns, amounts).sum()
-}
-
-fn largest(list: &[f64]) -> f64 {
-    list.iter().fold(0.0, |m: f64, v| m.max(v.abs()))
 }

@@ -1,8 +1,10 @@
 //! All integration tests in one program: what a person or another program sees of drystone.
 
 mod gallery;
+mod hard;
 mod laws;
 mod pictures;
 mod problems;
+mod scenes;
 mod statics;
 mod structure;

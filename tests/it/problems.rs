@@ -4,7 +4,8 @@
 //! writes what is said now in place of what was.
 
 use drystone::scene::format::{BlockEntry, SceneFile};
-use drystone::scene::{Problems, Scene};
+use drystone::scene::{Problems, Scene, starter};
+use serde_json::{Value, json};
 
 const REFERENCE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/problems.txt");
 
@@ -106,6 +107,68 @@ fn a_file_with_one_byte_changed_never_panics() {
                     !problems.to_string().contains("schema"),
                     "{end} {byte}: {problems}"
                 );
+            }
+        }
+    }
+}
+
+/// Every way to put `other` in the place of one value of a scene.
+fn with_one_replaced(value: &Value, other: &Value) -> Vec<Value> {
+    let mut all = vec![other.clone()];
+    match value {
+        Value::Array(items) => {
+            for (i, item) in items.iter().enumerate() {
+                all.extend(with_one_replaced(item, other).into_iter().map(|inner| {
+                    let mut items = items.clone();
+                    items[i] = inner;
+                    Value::Array(items)
+                }));
+            }
+        }
+        Value::Object(entries) => {
+            for (key, entry) in entries {
+                all.extend(with_one_replaced(entry, other).into_iter().map(|inner| {
+                    let mut entries = entries.clone();
+                    entries.insert(key.clone(), inner);
+                    Value::Object(entries)
+                }));
+            }
+        }
+        _ => {}
+    }
+    all
+}
+
+#[test]
+fn a_file_with_one_value_replaced_never_panics_and_is_never_told_vaguely() {
+    let sources = [
+        starter().to_string(),
+        SMALL.replace(", \"title2\": null", ""),
+        r##"{ "drystone": 1, "grid": { "kind": "square" }, "blocks": [{ "cells": [[0, 0]], "angle": 90, "fill": "#abc" }],
+            "loads": [{ "block": "1", "force": [1, 2], "torque": 3 }], "friction_pairs": [] }"##
+            .to_string(),
+    ];
+    for source in sources {
+        let whole: Value = serde_json::from_str(&source).expect("JSON");
+        for other in [
+            json!(null),
+            json!(true),
+            json!(-1),
+            json!(1e300),
+            json!(0.5),
+            json!("x"),
+            json!([]),
+            json!({}),
+        ] {
+            for scene in with_one_replaced(&whole, &other) {
+                let text = scene.to_string();
+                if let Err(problems) = Scene::from_json(&text) {
+                    assert!(!problems.list.is_empty());
+                    assert!(
+                        !problems.to_string().contains("drystone schema"),
+                        "{text}\n{problems}"
+                    );
+                }
             }
         }
     }

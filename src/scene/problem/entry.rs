@@ -1,0 +1,79 @@
+//! What is said of keys and values that are not what a scene file holds.
+
+use super::{Wording, choice, say, shortened};
+use crate::scene::name::nearest;
+
+pub(in crate::scene) fn reader_says(words: &str) -> Wording {
+    say(
+        words,
+        "see `drystone schema` for what a scene file may hold",
+    )
+}
+
+pub(in crate::scene) fn wrong_type(expected: &str, found: &str) -> Wording {
+    say(
+        format!("expected {expected}, found {found}"),
+        format!("write {expected} here"),
+    )
+}
+
+pub(in crate::scene) fn quoted_number(expected: &str, found: &str) -> Wording {
+    say(
+        format!("expected {expected}, found the string \"{found}\""),
+        format!("write {found} without quotes"),
+    )
+}
+
+pub(in crate::scene) fn wrong_length(found: usize, expected: &str) -> Wording {
+    let entries = if found == 1 {
+        "1 entry".into()
+    } else {
+        format!("{found} entries")
+    };
+    say(
+        format!("expected {expected}, found {entries}"),
+        format!("write {expected} here"),
+    )
+}
+
+pub(in crate::scene) fn unknown_choice(text: &str, known: &[String]) -> Wording {
+    let names = choice(known.iter().map(|n| format!("\"{n}\"")));
+    let help = match nearest(text, known.iter().map(String::as_str)) {
+        Some(near) => format!("did you mean \"{near}\"?"),
+        None => format!("write {names}"),
+    };
+    say(
+        format!("expected {names}, found \"{}\"", shortened(text)),
+        help,
+    )
+}
+
+pub(in crate::scene) fn unknown_key<'k>(
+    key: &str,
+    known: impl Iterator<Item = &'k str> + Clone,
+) -> Wording {
+    let help = match nearest(key, known.clone()) {
+        Some(near) => format!("the nearest known key is `{near}`"),
+        None => format!("known keys are {}", known.collect::<Vec<_>>().join(", ")),
+    };
+    say(format!("unknown key `{}`", shortened(key)), help)
+}
+
+pub(in crate::scene) fn duplicate_key(key: &str, line: usize, column: usize) -> Wording {
+    say(
+        format!(
+            "the key `{}` stands here twice; first in line {line}, column {column}",
+            shortened(key)
+        ),
+        "take one of the two out",
+    )
+}
+
+pub(in crate::scene) fn missing_key(key: &str) -> Wording {
+    let help = match key {
+        "drystone" => "add `\"drystone\": 1`, the version of the scene format".into(),
+        "blocks" => "add `\"blocks\": […]`, the list of blocks; it may be empty".into(),
+        _ => format!("add `\"{key}\"`"),
+    };
+    say(format!("the key `{key}` is missing"), help)
+}

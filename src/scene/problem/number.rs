@@ -1,0 +1,60 @@
+//! What is said of numbers and colours.
+
+use super::{Wording, digits, say, shortened};
+
+pub(in crate::scene) fn version(found: i64) -> Wording {
+    say(
+        format!("version {found} of the scene format is not known"),
+        "write `\"drystone\": 1`",
+    )
+}
+
+pub(in crate::scene) fn not_finite(x: f64) -> Wording {
+    say(format!("the number is {x}"), "give a finite number")
+}
+
+pub(in crate::scene) fn absurd(x: f64, largest: f64) -> Wording {
+    say(
+        format!("the number {} is beyond ±{}", digits(x), digits(largest)),
+        "check the units: metres, kilograms, newtons",
+    )
+}
+
+pub(in crate::scene) fn negative(what: &str, x: f64) -> Wording {
+    say(
+        format!("negative {what} {}", digits(x)),
+        format!("`{what}` has to be at least 0"),
+    )
+}
+
+pub(in crate::scene) fn kernel(x: f64) -> Wording {
+    say(
+        format!("the kernel {} is outside 0 … 1", digits(x)),
+        "give the share of each contact to stay clear of: 0 for none, 0.2 for a fifth",
+    )
+}
+
+pub(in crate::scene) fn side(x: f64) -> Wording {
+    say(
+        format!("the grid's side {} is not more than 0", digits(x)),
+        "give the edge length of a cell in metres",
+    )
+}
+
+pub(in crate::scene) fn too_heavy(weight: f64, largest: f64) -> Wording {
+    say(
+        format!(
+            "the block comes out {} N heavy, beyond {}",
+            digits(weight),
+            digits(largest)
+        ),
+        "check the units of density, thickness, gravity and polygon",
+    )
+}
+
+pub(in crate::scene) fn colour(text: &str) -> Wording {
+    say(
+        format!("\"{}\" is not a colour", shortened(text)),
+        "write a colour as \"#8b6b3d\" or \"#863\"",
+    )
+}

@@ -1,0 +1,69 @@
+//! What is said of steps that cannot be played.
+
+use super::{Wording, say, shortened};
+
+pub(in crate::scene) fn placed_twice(block: &str, since: usize, now: usize) -> Wording {
+    let when = if since == now {
+        "earlier in this step".into()
+    } else {
+        format!("by steps[{since}]")
+    };
+    say(
+        format!("the block `{}` is already placed, {when}", shortened(block)),
+        "place a block once; `remove` it first to place it anew",
+    )
+}
+
+pub(in crate::scene) fn removed_unplaced(block: &str) -> Wording {
+    say(
+        format!("the block `{}` is removed but not placed", shortened(block)),
+        "remove only blocks that an earlier step placed",
+    )
+}
+
+pub(in crate::scene) fn removed_held(block: &str, robot: &str) -> Wording {
+    say(
+        format!(
+            "the block `{}` is removed while the robot `{}` holds it",
+            shortened(block),
+            shortened(robot)
+        ),
+        format!(
+            "add \"{}\" to `release` of this step or an earlier one",
+            shortened(robot)
+        ),
+    )
+}
+
+pub(in crate::scene) fn held_unplaced(robot: &str, block: &str) -> Wording {
+    say(
+        format!(
+            "the robot `{}` holds the block `{}`, which is not placed",
+            shortened(robot),
+            shortened(block)
+        ),
+        format!(
+            "add \"{}\" to `place` of this step or an earlier one",
+            shortened(block)
+        ),
+    )
+}
+
+pub(in crate::scene) fn holds_two(robot: &str, held: &str, block: &str) -> Wording {
+    let (robot, held, block) = (shortened(robot), shortened(held), shortened(block));
+    say(
+        format!("the robot `{robot}` is to hold the block `{block}` while it still holds `{held}`"),
+        format!("a robot holds one block; add \"{robot}\" to `release` of this step first"),
+    )
+}
+
+pub(in crate::scene) fn planned_placed(robot: &str, block: &str) -> Wording {
+    say(
+        format!(
+            "the robot `{}` plans the block `{}`, which is already placed",
+            shortened(robot),
+            shortened(block)
+        ),
+        "plan only blocks that are not placed",
+    )
+}

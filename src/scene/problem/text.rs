@@ -1,0 +1,110 @@
+//! What is said of a text that is no JSON.
+
+use super::{Wording, say, shortened};
+
+pub(in crate::scene) fn not_utf8(byte: u8, utf16: bool) -> Wording {
+    let help = if utf16 {
+        "the file looks like UTF-16; save it as UTF-8"
+    } else {
+        "save the file in the encoding UTF-8"
+    };
+    say(format!("the byte 0x{byte:02X} is not UTF-8 text"), help)
+}
+
+pub(in crate::scene) fn empty_text() -> Wording {
+    say(
+        "the file is empty",
+        "start from the scene that `drystone new` writes",
+    )
+}
+
+pub(in crate::scene) fn early_end(opened: Option<(char, usize, usize)>) -> Wording {
+    let help = match opened {
+        Some((c, line, column)) => format!(
+            "the `{c}` opened in line {line}, column {column} is never closed; is a part of the file missing?"
+        ),
+        None => "a part of the file seems to be missing".into(),
+    };
+    say("the file ends too early", help)
+}
+
+pub(in crate::scene) fn not_a_number(word: &str) -> Wording {
+    say(
+        format!("`{word}` is not a number JSON knows"),
+        "give a finite number; leave a robot's limit out where there is none",
+    )
+}
+
+pub(in crate::scene) fn foreign_word(word: &str, meant: &str) -> Wording {
+    say(format!("`{word}` is not JSON"), format!("write `{meant}`"))
+}
+
+pub(in crate::scene) fn bare_word(word: &str) -> Wording {
+    say(
+        format!("`{}` is not JSON", shortened(word)),
+        "put strings and keys in double quotes",
+    )
+}
+
+pub(in crate::scene) fn comment() -> Wording {
+    say(
+        "JSON has no comments",
+        "take the comment out; `title` holds text for people",
+    )
+}
+
+pub(in crate::scene) fn single_quotes() -> Wording {
+    say(
+        "JSON has no single quotes",
+        "put strings and keys in double quotes",
+    )
+}
+
+pub(in crate::scene) fn trailing_comma() -> Wording {
+    say(
+        "a comma after the last entry",
+        "take the comma out, or add the entry that follows it",
+    )
+}
+
+pub(in crate::scene) fn number_too_large(text: &str) -> Wording {
+    say(
+        format!("the number {} is too large", shortened(text)),
+        "give a number of at most 1e12",
+    )
+}
+
+pub(in crate::scene) fn odd_number(text: &str) -> Wording {
+    say(
+        format!("`{}` is not a number of JSON", shortened(text)),
+        "write numbers as 0.5, -2 or 1e3: no leading + or 0, and a digit on both sides of the point",
+    )
+}
+
+pub(in crate::scene) fn too_deep() -> Wording {
+    say(
+        "nested more than 127 deep",
+        "a scene needs no more than seven levels of brackets",
+    )
+}
+
+pub(in crate::scene) fn open_string() -> Wording {
+    say(
+        "a string holds a line break or another control character",
+        "close the string on its line; write a line break as \\n and a tab as \\t",
+    )
+}
+
+pub(in crate::scene) fn missing_comma(words: &str) -> Wording {
+    say(
+        words,
+        "put a comma between entries, and check that every bracket is closed",
+    )
+}
+
+pub(in crate::scene) fn not_json(words: &str) -> Wording {
+    say(
+        format!("this is not JSON: {words}"),
+        "correct the text here, or shortly before",
+    )
+}

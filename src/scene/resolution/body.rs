@@ -1,0 +1,199 @@
+//! Blocks and parts of the ground: what they are, where they lie, what they weigh.
+
+use super::Resolution;
+use crate::scene::finding::Findings;
+use crate::scene::format::{self, Pair};
+use crate::scene::number::{LARGEST, at_least_zero, is_sane};
+use crate::scene::outline::{self, Outline};
+use crate::scene::path::Trail;
+use crate::scene::problem;
+use crate::scene::{Block, Body, Ground, Rgb};
+
+/// The keys that blocks and ground share.
+struct BodyEntry<'f> {
+    polygon: Option<&'f [Pair]>,
+    holes: &'f [Vec<Pair>],
+    cells: Option<&'f [format::CellEntry]>,
+    shape: Option<&'f str>,
+    at: Option<Pair>,
+    angle: Option<f64>,
+    material: Option<&'f str>,
+    friction: Option<f64>,
+    fill: Option<&'f str>,
+}
+
+macro_rules! body_entry {
+    ($entry:expr) => {
+        BodyEntry {
+            polygon: $entry.polygon.as_deref(),
+            holes: &$entry.holes,
+            cells: $entry.cells.as_deref(),
+            shape: $entry.shape.as_deref(),
+            at: $entry.at,
+            angle: $entry.angle,
+            material: $entry.material.as_deref(),
+            friction: $entry.friction,
+            fill: $entry.fill.as_deref(),
+        }
+    };
+}
+
+impl Resolution<'_> {
+    pub(super) fn outline(
+        &self,
+        findings: &mut Findings,
+        at: &Trail<'_>,
+        polygon: Option<&[Pair]>,
+        holes: &[Vec<Pair>],
+        cells: Option<&[format::CellEntry]>,
+    ) -> Option<Outline> {
+        if polygon.is_none() && !holes.is_empty() {
+            findings.add(&at.key("holes"), problem::outline::holes_alone());
+            return None;
+        }
+        if findings.doubts(at) {
+            return None;
+        }
+        match (polygon, cells) {
+            (Some(corners), _) => outline::polygon(findings, at, corners, holes),
+            (None, Some(entries)) if self.grid_known => {
+                outline::cells(findings, at, self.lattice, entries)
+            }
+            _ => None,
+        }
+    }
+
+    fn body(&self, findings: &mut Findings, at: &Trail<'_>, entry: &BodyEntry<'_>) -> Option<Body> {
+        let material = entry
+            .material
+            .and_then(|m| self.materials.find(findings, &at.key("material"), m));
+        let values = material.map(|m| self.material_entries[m]);
+        let friction = at_least_zero(findings, at, "friction", entry.friction);
+        let fill = entry
+            .fill
+            .and_then(|f| colour(findings, &at.key("fill"), f));
+        let angle = entry.angle.unwrap_or(0.0);
+        let place = entry.at.unwrap_or([0.0, 0.0]);
+        let sound = is_sane(findings, &at.key("angle"), &[angle])
+            & is_sane(findings, &at.key("at"), &place);
+        let given = [
+            ("polygon", entry.polygon.is_some()),
+            ("cells", entry.cells.is_some()),
+            ("shape", entry.shape.is_some()),
+        ];
+        let given: Vec<&str> = given.iter().filter(|g| g.1).map(|g| g.0).collect();
+        let own;
+        let outline = match given.as_slice() {
+            [] => {
+                findings.add(at, problem::outline::no_outline());
+                None
+            }
+            [first, second, ..] => {
+                findings.add(at, problem::outline::two_outlines(first, second));
+                None
+            }
+            ["shape"] => {
+                if !entry.holes.is_empty() {
+                    findings.add(&at.key("holes"), problem::outline::holes_alone());
+                }
+                self.shape(findings, &at.key("shape"), entry.shape.unwrap_or(""))
+            }
+            _ => {
+                own = self.outline(findings, at, entry.polygon, entry.holes, entry.cells);
+                own.as_ref()
+            }
+        };
+        if !sound || !self.grid_known || findings.doubts(at) {
+            return None;
+        }
+        let (polygon, cells) = outline::placed(findings, at, self.lattice, outline?, place, angle)?;
+        Some(Body {
+            polygon,
+            cells,
+            material,
+            friction: friction
+                .or(values.and_then(|v| v.friction))
+                .unwrap_or(self.friction),
+            fill: fill.or(values.and_then(|v| v.fill)),
+        })
+    }
+
+    fn shape(&self, findings: &mut Findings, at: &Trail<'_>, name: &str) -> Option<&Outline> {
+        let number = self.shapes.find(findings, at, name)?;
+        let outline = self.outlines[number].as_ref();
+        if outline.is_none() && number >= self.file.shapes.0.len() && self.grid_known {
+            findings.add(at, problem::outline::shape_without_grid(name));
+        }
+        outline
+    }
+
+    pub(super) fn ground(&self, findings: &mut Findings) -> Vec<Option<Ground>> {
+        let top = Trail::Top;
+        let list = top.key("ground");
+        (self.file.ground.iter().enumerate())
+            .map(|(i, entry)| {
+                Some(Ground {
+                    body: self.body(findings, &list.index(i), &body_entry!(entry))?,
+                })
+            })
+            .collect()
+    }
+
+    pub(super) fn blocks(&self, findings: &mut Findings) -> Vec<Option<Block>> {
+        let top = Trail::Top;
+        let list = top.key("blocks");
+        (self.file.blocks.iter().enumerate())
+            .map(|(i, entry)| self.block(findings, &list.index(i), entry, i))
+            .collect()
+    }
+
+    fn block(
+        &self,
+        findings: &mut Findings,
+        at: &Trail<'_>,
+        entry: &format::BlockEntry,
+        i: usize,
+    ) -> Option<Block> {
+        let weight = at_least_zero(findings, at, "weight", entry.weight);
+        let mass = at_least_zero(findings, at, "mass", entry.mass);
+        let density = at_least_zero(findings, at, "density", entry.density);
+        let body = self.body(findings, at, &body_entry!(entry))?;
+        let area = match (&body.cells, self.lattice) {
+            (Some(cells), Some(lattice)) => cells.len() as f64 * lattice.cell_area(),
+            _ => body.polygon.area(),
+        };
+        let density = density
+            .or_else(|| body.material.and_then(|m| self.material_entries[m].density))
+            .unwrap_or(self.density);
+        let weight = weight.unwrap_or_else(|| {
+            mass.unwrap_or(density * area * self.thickness) * self.gravity.norm()
+        });
+        if !weight.is_finite() || weight > LARGEST {
+            findings.add(at, problem::number::too_heavy(weight, LARGEST));
+            return None;
+        }
+        Some(Block {
+            id: self.ids[i].clone(),
+            centroid: body.polygon.centroid(),
+            body,
+            weight,
+        })
+    }
+}
+
+/// A colour written `#rrggbb` or `#rgb`.
+pub(super) fn colour(findings: &mut Findings, at: &Trail<'_>, text: &str) -> Option<Rgb> {
+    let digits: Option<Vec<u8>> = text.strip_prefix('#').and_then(|hex| {
+        hex.chars()
+            .map(|c| c.to_digit(16).and_then(|d| u8::try_from(d).ok()))
+            .collect()
+    });
+    match digits.as_deref() {
+        Some([r, g, b]) => Some(Rgb([r * 17, g * 17, b * 17])),
+        Some([a, b, c, d, e, f]) => Some(Rgb([a * 16 + b, c * 16 + d, e * 16 + f])),
+        _ => {
+            findings.add(at, problem::number::colour(text));
+            None
+        }
+    }
+}

@@ -1,0 +1,326 @@
+//! Hard cases: where a tolerance, a large number or a small one can turn a verdict over. Each says why it is hard.
+
+use drystone::Analysis;
+use drystone::analysis::{Proof, Verdict};
+use serde_json::{Value, json};
+
+use crate::structure::{arch, block, first, on_floor, on_slope, rectangle, scene, verdict, wall};
+
+const STANDS: Verdict = Verdict::Stable;
+const FALLS: Verdict = Verdict::Unstable;
+
+fn tower(n: usize, height: f64) -> Value {
+    on_floor(
+        0.5,
+        (0..n)
+            .map(|k| {
+                block(
+                    &format!("{k}"),
+                    rectangle(0.0, k as f64 * height, 1.0, height),
+                    6.0,
+                )
+            })
+            .collect(),
+    )
+}
+
+/// A block with its centre of gravity `beyond` the edge of what it rests on; with `pair`, on another block.
+fn overhang(beyond: f64, pair: bool) -> Value {
+    let mut blocks = vec![block(
+        "a",
+        rectangle(0.5 + beyond, if pair { 0.5 } else { 0.0 }, 1.0, 0.5),
+        6.0,
+    )];
+    if pair {
+        blocks.push(block("b", rectangle(0.0, 0.0, 1.0, 0.5), 6.0));
+    }
+    json!({ "drystone": 1, "ground": [{ "polygon": rectangle(0.0, -1.0, 1.0, 1.0) }], "blocks": blocks })
+}
+
+/// Errors pile up from the top to the foot of a long chain.
+#[test]
+fn a_tower_of_a_thousand_blocks() {
+    let frame = first(&tower(1000, 0.5));
+    assert_eq!(frame.verdict, STANDS);
+    let foot: f64 = frame
+        .contacts
+        .iter()
+        .filter(|c| c.interface.ends[0].y == 0.0)
+        .map(|c| c.normal_forces[0] + c.normal_forces[1])
+        .sum();
+    assert!((foot - 6000.0).abs() < 1e-6 * 6000.0, "{foot}");
+}
+
+/// The thrust of a flat frictionless wedge grows as 1/α: beyond 10⁶ weights a big-M program calls it a failure.
+#[test]
+fn a_flat_wedge_stands_however_large_its_thrust() {
+    for exponent in 2..=7 {
+        let half_angle = libm::exp10(-f64::from(exponent));
+        let d = libm::tan(half_angle);
+        let frame = first(&json!({ "drystone": 1, "friction": 0,
+            "ground": [{ "polygon": [[-3, 0], [-0.5, 0], [-0.5 - d, 1], [-3, 1]] },
+                       { "polygon": [[0.5, 0], [3, 0], [3, 1], [0.5 + d, 1]] }],
+            "blocks": [{ "id": "wedge", "polygon": [[-0.5, 0], [0.5, 0], [0.5 + d, 1], [-0.5 - d, 1]], "weight": 6 }] }));
+        assert_eq!(
+            frame.verdict, STANDS,
+            "half-angle 1e-{exponent}: {:?}",
+            frame.proof
+        );
+        let expected = 6.0 / (2.0 * libm::sin(half_angle));
+        let sum: f64 = frame
+            .contacts
+            .iter()
+            .flat_map(|c| c.normal_forces)
+            .sum::<f64>()
+            / 2.0;
+        assert!(
+            (sum / expected - 1.0).abs() < 1e-6,
+            "half-angle 1e-{exponent}: {sum} against {expected}"
+        );
+    }
+}
+
+/// A feather's balance drowns in the rounding of a mountain's, so a falling feather looks standing.
+#[test]
+fn a_feather_on_a_mountain_is_judged_by_its_own_weight() {
+    for exponent in [2, 4, 6, 8] {
+        let mountain = 6.0 * libm::exp10(f64::from(exponent));
+        let build = |x: f64| {
+            let big = block("mountain", rectangle(0.0, 0.0, 2.0, 1.0), mountain);
+            on_floor(
+                0.5,
+                vec![big, block("feather", rectangle(x, 1.0, 1.0, 0.1), 6.0)],
+            )
+        };
+        assert_eq!(verdict(&build(1.6)), FALLS, "1e{exponent}");
+        assert_eq!(verdict(&build(1.4)), STANDS, "1e{exponent}");
+        for heavy in [0, 2] {
+            let mut file = tower(3, 0.5);
+            file["blocks"][heavy]["weight"] = json!(mountain);
+            assert_eq!(verdict(&file), STANDS, "1e{exponent} at {heavy}");
+        }
+    }
+}
+
+/// Inside 1e-7 of L the forces win; outside, never a wrong word and never none.
+#[test]
+fn a_centre_of_gravity_on_the_edge() {
+    for pair in [false, true] {
+        for inside in [0.0, -1e-9, -1e-8, -1e-7, -1e-6, -1e-5] {
+            assert_eq!(
+                verdict(&overhang(inside, pair)),
+                STANDS,
+                "{inside:e}, pair: {pair}"
+            );
+        }
+        assert_eq!(
+            verdict(&overhang(1e-9, pair)),
+            STANDS,
+            "within the band the forces win"
+        );
+        for beyond in [2e-7, 1e-6, 1e-5] {
+            assert_eq!(
+                verdict(&overhang(beyond, pair)),
+                FALLS,
+                "{beyond:e}, pair: {pair}"
+            );
+        }
+    }
+}
+
+/// Columns of very different sizes: a cone of slope 1000, a cone of none.
+#[test]
+fn no_friction_and_a_thousand() {
+    for friction in [0.0, 1e3] {
+        let mut file = wall(4, 4);
+        file["friction"] = json!(friction);
+        assert_eq!(verdict(&file), STANDS, "{friction}");
+    }
+    assert_eq!(verdict(&arch(11, 0.2, 0.0)), FALLS);
+    assert_eq!(verdict(&arch(11, 0.2, 1e3)), STANDS);
+}
+
+/// With kernel 1 both application points are one and nothing can take a moment.
+#[test]
+fn kernel_none_and_whole() {
+    for kernel in [0.0, 1.0] {
+        let mut file = wall(4, 4);
+        file["kernel"] = json!(kernel);
+        assert_eq!(verdict(&file), STANDS, "{kernel}");
+    }
+    let mut file = arch(11, 0.2, 0.7);
+    file["kernel"] = json!(1.0);
+    let frame = first(&file);
+    assert_eq!(frame.verdict, FALLS);
+    assert_eq!(
+        frame.unsupported.len(),
+        11,
+        "no sticking in the middle of a joint holds a chain of hinges"
+    );
+}
+
+/// On the edge between two verdicts a status of the solver means little.
+#[test]
+fn an_arch_at_its_minimum_thickness() {
+    // The 181-voussoir arch's own limit, between the joints of the continuous one (0.1075).
+    for (thickness, expected) in [
+        (0.10743, FALLS),
+        (0.10746, FALLS),
+        (0.1075, STANDS),
+        (0.1076, STANDS),
+    ] {
+        assert_eq!(verdict(&arch(181, thickness, 0.9)), expected, "{thickness}");
+    }
+}
+
+/// tan θ rounded either way decides about the last bit: within the band the forces win.
+#[test]
+fn friction_exactly_at_the_slope() {
+    for degrees in [10.0f64, 30.0, 45.0, 60.0] {
+        let friction = libm::tan(degrees.to_radians());
+        assert_eq!(
+            verdict(&on_slope(degrees, 4.0, 0.5, friction, 0.0)),
+            STANDS,
+            "{degrees}"
+        );
+    }
+}
+
+/// More supports than needed: a face of optima, not a point. The least squares share alike.
+#[test]
+fn redundant_supports_share() {
+    let mut blocks: Vec<Value> = (0..5)
+        .map(|k| {
+            block(
+                &format!("post {k}"),
+                rectangle(2.0 * k as f64, 0.0, 1.0, 1.0),
+                1.0,
+            )
+        })
+        .collect();
+    blocks.push(block("beam", rectangle(0.0, 1.0, 9.0, 0.5), 45.0));
+    let frame = first(&on_floor(0.5, blocks));
+    assert_eq!(frame.verdict, STANDS);
+    let carried: Vec<f64> = frame
+        .contacts
+        .iter()
+        .filter(|c| c.interface.ends[0].y == 1.0)
+        .map(|c| c.resultant.force.y.abs())
+        .collect();
+    assert_eq!(carried.len(), 5);
+    for (a, b) in carried.iter().zip(carried.iter().rev()) {
+        assert!((a - b).abs() < 1e-6, "{carried:?}");
+    }
+    assert!((carried.iter().sum::<f64>() - 45.0).abs() < 1e-9);
+}
+
+/// A structure that fails nearly everywhere.
+#[test]
+fn a_wall_on_a_tilted_table_fails_in_every_course() {
+    let mut file = wall(10, 10);
+    file["gravity"] = json!([6.0, -8.0]);
+    let frame = first(&file);
+    assert_eq!(frame.verdict, FALLS);
+    assert!(
+        frame.total_sticking > 0.0 && frame.failures.len() < 60,
+        "{} points",
+        frame.failures.len()
+    );
+}
+
+/// Many small programs, none of which is another's business.
+#[test]
+fn a_thousand_towers_are_solved_apart() {
+    let blocks = (0..1000).flat_map(|k| {
+        (0..3).map(move |j| {
+            let at = rectangle(f64::from(k) * 0.15 - 90.0, f64::from(j) * 0.1, 0.1, 0.1);
+            block(&format!("{k}-{j}"), at, 1.0)
+        })
+    });
+    let frame = first(&on_floor(0.5, blocks.collect()));
+    assert_eq!((frame.verdict, frame.solve.groups), (STANDS, 1000));
+}
+
+/// A robot at its last newton.
+#[test]
+fn a_robot_with_exactly_the_limit_it_needs() {
+    let mut file = on_floor(0.5, vec![block("a", rectangle(0.0, 3.0, 1.0, 1.0), 8.0)]);
+    for (limit, expected) in [(8.0, STANDS), (8.0 - 1e-5, FALLS), (8.0 + 1e-5, STANDS)] {
+        file["robots"] = json!([{ "id": "r", "holds": "a", "limits": { "force": limit } }]);
+        assert_eq!(verdict(&file), expected, "{limit}");
+    }
+}
+
+/// Self-stress: the thrust between two walls has no upper end, and no motion strictly opens every contact.
+#[test]
+fn a_block_squeezed_between_walls_counts_as_balanced() {
+    let file = json!({ "drystone": 1, "friction": 0.01,
+        "ground": [{ "polygon": rectangle(-2.0, -1.0, 2.0, 3.0) }, { "polygon": rectangle(1.0, -1.0, 2.0, 3.0) }],
+        "blocks": [block("a", rectangle(0.0, 0.0, 1.0, 1.0), 6.0)] });
+    let frame = first(&file);
+    assert_eq!(frame.verdict, STANDS);
+    // The least force that carries: μN on either side is half the weight.
+    for contact in &frame.contacts {
+        let pressed = contact.normal_forces[0] + contact.normal_forces[1];
+        assert!((pressed - 300.0).abs() < 1e-6, "{pressed}");
+    }
+}
+
+/// A sliver 10 long and 1e-3 thick: normals from short differences, centroids from cancelling areas.
+#[test]
+fn a_needle_under_a_block() {
+    let file = json!({ "drystone": 1, "friction": 0.5, "ground": [{ "polygon": rectangle(0.0, -1.0, 10.0, 1.0) }],
+        "blocks": [{ "id": "needle", "polygon": [[0, 0], [10, 0], [10, 1e-3]], "weight": 1 },
+                   { "id": "block", "polygon": [[0, 0], [10, 1e-3], [10, 2], [0, 2]], "weight": 1 }] });
+    assert_eq!(verdict(&file), STANDS);
+}
+
+/// Effects are simulated only where called for, and a frame equal to an earlier one is not solved again.
+#[test]
+fn what_is_not_called_for_is_not_simulated() {
+    let mut file = wall(2, 2);
+    file["friction"] = json!(0.0);
+    file["steps"] = json!([
+        { "place": ["0", "1"] }, { "place": ["2", "3", "4"] }, { "remove": ["2", "3", "4"] }
+    ]);
+    let scene = scene(&file);
+    let analysis = Analysis::of(&scene);
+    let effect = |name: &str| {
+        analysis.frames[1]
+            .effects
+            .iter()
+            .find(|e| e.effect == name)
+            .unwrap_or_else(|| panic!("no effect {name}"))
+    };
+    for (name, simulated) in [
+        ("weight", true),
+        ("contact", true),
+        ("friction", false),
+        ("kernel", false),
+        ("robots", false),
+        ("sticking", false),
+    ] {
+        assert_eq!(
+            effect(name).simulated,
+            simulated,
+            "{name}: {}",
+            effect(name).why
+        );
+    }
+    let contacts = analysis.frames[1].contacts.len();
+    assert_eq!(effect("contact").unknowns, 2 * contacts);
+    assert_eq!(effect("friction").unknowns, 2 * contacts, "saved");
+    // The third frame is the first again.
+    let last = &analysis.frames[2];
+    assert_eq!(
+        (last.solve.reused, last.solve.groups, last.solve.programs),
+        (1, 1, 0)
+    );
+    let Proof::Forces {
+        worst_imbalance, ..
+    } = last.proof
+    else {
+        panic!("{:?}", last.proof)
+    };
+    assert!(worst_imbalance < 1e-9);
+}
