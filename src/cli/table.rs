@@ -140,6 +140,7 @@ fn proof(proof: Proof) -> String {
             worst_imbalance,
             worst_pull,
             worst_slip,
+            ..
         } => {
             format!(
                 "forces balance to {}",

@@ -170,6 +170,7 @@ struct Effect<'a> {
 enum ProofNumbers {
     Forces {
         worst_imbalance: Number,
+        worst_share: Number,
         worst_pull: Number,
         worst_slip: Number,
     },
@@ -377,10 +378,12 @@ impl ProofNumbers {
         match proof {
             Proof::Forces {
                 worst_imbalance,
+                worst_share,
                 worst_pull,
                 worst_slip,
             } => ProofNumbers::Forces {
                 worst_imbalance: Number(worst_imbalance),
+                worst_share: Number(worst_share),
                 worst_pull: Number(worst_pull),
                 worst_slip: Number(worst_slip),
             },

@@ -204,6 +204,7 @@ fn what_is_worth_saying_is_said() {
     frame.notices = vec!["a contact of 1e-9 m is left out".into()];
     frame.proof = Proof::Forces {
         worst_imbalance: 1e-3,
+        worst_share: 0.5,
         worst_pull: 0.0,
         worst_slip: -0.0,
     };
@@ -223,7 +224,7 @@ fn what_is_worth_saying_is_said() {
         "{json}"
     );
     assert!(
-        json.contains(r#"{"worst_imbalance": 0.001, "worst_pull": 0.0, "worst_slip": 0.0}"#),
+        json.contains(r#"{"worst_imbalance": 0.001, "worst_share": 0.5, "worst_pull": 0.0, "worst_slip": 0.0}"#),
         "{json}"
     );
 }
