@@ -17,6 +17,7 @@ mod shapes;
 mod stage;
 mod told;
 mod verdict;
+mod view;
 mod words;
 
 pub use arrow::{ArrowKind, ForceArrow, Marks, TurnArrow, TurnKind};

@@ -62,14 +62,9 @@ fn superscript(value: i32) -> String {
 
 /// A force's amount and direction: `7.1 N at 30°`, anticlockwise from the right.
 pub(crate) fn force(force: Vector) -> String {
-    let degrees = libm::atan2(force.y, force.x).to_degrees().round();
-    let degrees = if degrees < 0.0 {
-        degrees + 360.0
-    } else {
-        degrees
-    };
-    // Adding 0 turns −0 into 0.
-    format!("{} at {:.0}°", quantity(force.norm(), "N"), degrees + 0.0)
+    // Rounded before it is brought into 0 … 359, so that a hair below the right is 0° and neither −0° nor 360°.
+    let degrees = (libm::atan2(force.y, force.x).to_degrees().round() + 360.0) % 360.0;
+    format!("{} at {degrees:.0}°", quantity(force.norm(), "N"))
 }
 
 /// The largest of 1, 2 and 5 times a power of ten that is at most `value`, 0 for none.
