@@ -25,7 +25,7 @@ const MOST_REASON_LINES: usize = 4;
 /// The figure of an analysis: each frame a panel with its forces, its caption and its verdict, several frames a strip.
 ///
 /// Arrows act on a block and wear its colour; what is missing is thick and red; the colours of blocks tell amplitudes
-/// ([Vallat23] §2.0.8 and §2.0.9). All panels show the same part of the scene at the same scale.
+/// ([Vallat23](crate::doc::references) §2.0.8 and §2.0.9). All panels show the same part of the scene at the same scale.
 ///
 /// Units: the page is in pixels at natural size, some 370 to 1100 wide unless `columns` asks for more.
 ///
