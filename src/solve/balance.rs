@@ -41,7 +41,7 @@ pub fn balance(program: &Program, care: Care) -> Balance {
                     break;
                 }
             }
-            let (face, amounts) = found.unwrap_or_else(|| (columns, solved.amounts));
+            let (face, amounts) = found.unwrap_or((columns, solved.amounts));
             let amounts = match care {
                 Care::Quick => amounts,
                 Care::Full => refined(&program.need, &face, amounts, &mut effort),

@@ -12,7 +12,6 @@ mod laws;
 mod layers;
 mod pictures;
 mod problems;
-
 mod program;
 mod scenes;
 mod statics;
