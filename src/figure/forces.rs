@@ -27,7 +27,22 @@ const MOST_REASON_LINES: usize = 4;
 /// Arrows act on a block and wear its colour; what is missing is thick and red; the colours of blocks tell amplitudes
 /// ([Vallat23](crate::doc::references) §2.0.8 and §2.0.9). All panels show the same part of the scene at the same scale.
 ///
-/// Units: the page is in pixels at natural size, 300 to 1100 wide.
+/// Units: the page is in pixels at natural size, some 370 to 1100 wide unless `columns` asks for more.
+///
+/// # Example
+/// ```
+/// use drystone::{Analysis, Scene, figure, output};
+/// let scene = Scene::from_json(
+///     r#"{ "drystone": 1, "title": "A brick",
+///          "ground": [ { "polygon": [[-1, -1], [3, -1], [3, 0], [-1, 0]] } ],
+///          "blocks": [ { "id": "brick", "polygon": [[0, 0], [2, 0], [2, 1], [0, 1]], "weight": 6 } ] }"#,
+/// )?;
+/// let drawing = figure::forces(&Analysis::of(&scene), &figure::Options::default());
+/// let svg = output::svg::write(&drawing);
+/// assert!(svg.contains("Weight of block brick: 6 N at 270°"));
+/// let png = output::png::render(&svg, output::png::Size::Width(800))?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn forces(analysis: &Analysis<'_>, options: &Options) -> Drawing {
     let stage = Stage::of(analysis, options);
     let layout = Layout::of(&stage);
@@ -268,7 +283,7 @@ impl Strip<'_> {
                 .filter(|m| !m.is_empty())
             {
                 sentence.push_str("; ");
-                sentence.push_str(more);
+                sentence.push_str(&more.replace(text::NO_BREAK, " "));
             }
             sentence + "."
         };
