@@ -150,7 +150,7 @@ pub fn least_squares(need: &[f64], columns: &[Column], correction: Option<Correc
 }
 
 /// Inner product of two columns in (N1, N2, T) of one contact or in one grip component; `None` for different places.
-fn product(a: &Force, b: &Force) -> Option<f64> {
+pub(crate) fn product(a: &Force, b: &Force) -> Option<f64> {
     match (*a, *b) {
         (
             Force::Ray {
