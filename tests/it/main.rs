@@ -3,6 +3,7 @@
 mod gallery;
 mod hard;
 mod laws;
+mod oracle;
 mod pictures;
 mod problems;
 mod scenes;
