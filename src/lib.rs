@@ -1,17 +1,111 @@
-//! Does a structure of dry-laid blocks stand, how do the forces run, and a figure that shows it.
+//! Does a structure of dry-laid rigid blocks stand, how do the forces run, and a figure that shows it.
+//!
+//! Plane statics: blocks with outlines of any shape, ground, friction, robots that hold blocks, and loads go in. Out comes,
+//! for every step of a construction, a verdict with its proof, the force at every interface, what would have to stick where
+//! it falls, the motion by which it does, and a figure of all that.
+//!
+//! ```
+//! use drystone::{Analysis, Scene, analysis::Verdict, figure, output};
+//!
+//! let scene = Scene::from_json(r#"{ "drystone": 1, "title": "A lintel", "friction": 0.6,
+//!     "ground": [{ "polygon": [[-1, -1], [7, -1], [7, 0], [-1, 0]] }],
+//!     "blocks": [{ "id": "left",   "polygon": [[0, 0], [1, 0], [1, 3], [0, 3]] },
+//!                { "id": "right",  "polygon": [[5, 0], [6, 0], [6, 3], [5, 3]] },
+//!                { "id": "lintel", "polygon": [[0, 3], [6, 3], [6, 4], [0, 4]] }] }"#)?;
+//! let analysis = Analysis::of(&scene);
+//! assert_eq!(analysis.frames[0].verdict, Verdict::Stable);
+//!
+//! let drawing = figure::forces(&analysis, &figure::Options::default());
+//! let svg = output::svg::write(&drawing);
+//! let png = output::png::render(&svg, output::png::Size::Width(800))?;
+//! assert!(svg.starts_with("<svg") && png.starts_with(b"\x89PNG"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # What a verdict says, and what it does not
+//!
+//! *Stable* says that a balance of forces **exists**: some set of forces that contacts and robots can give holds every block
+//! at rest. It does not say that
+//!
+//! - this is the balance that nature finds. With friction, a structure for which a balance exists may still slide apart as
+//!   it is built ([Gilbert06](doc::references)); a balance that lives on wedging, blocks pressed against each other by nothing
+//!   but their own tightness, counts as one;
+//! - the blocks are strong enough. They are rigid and never break, and their edges bear any pressure;
+//! - it survives a knock. Nothing here moves in time: no impact, no earthquake, no settling ground.
+//!
+//! And there is no cohesion: nothing sticks, unless it is said to fail by as much.
+//!
+//! # From a scene to a picture
+//!
+//! One noun per stage, and one verb that makes it:
+//!
+//! | | makes | from |
+//! |---|---|---|
+//! | [`Scene::from_json`] | [`Scene`], checked | text |
+//! | [`interface`] | what touches what | a scene |
+//! | [`effect`] | what to simulate and what to leave out | a frame of it |
+//! | [`program`] | the balance in pure numbers | those |
+//! | [`solve`] | forces, or a motion | a program |
+//! | [`proof`] | how well that is proved | geometry and forces alone |
+//! | [`resultant`] | one force per interface | its corner forces |
+//! | [`Analysis`] | all that was found out | all of the above |
+//! | [`figure::forces`] | [`drawing::Drawing`] | an analysis |
+//! | [`output::svg::write`] | SVG text | a drawing |
+//! | [`output::png::render`] | PNG bytes | that text |
+//! | [`report::result::to_json`] | JSON for other programs | an analysis |
+//!
+//! Why it is built so stands in [`doc::design`]; axes, units and signs in [`doc::conventions`]; tolerances and traps in
+//! [`doc::numerics`].
+
+// Blank lines keep the order of reading: the formatter would sort them.
 
 pub mod geometry;
+
 pub mod scene;
+
 pub mod interface;
+
 pub mod effect;
+
 pub mod program;
+
 pub mod solve;
+
 pub mod proof;
+
 pub mod resultant;
+
 pub mod analysis;
+
 pub mod drawing;
+
 pub mod figure;
+
 pub mod output;
+
+pub mod report;
+
+pub mod cli;
 
 pub use analysis::Analysis;
 pub use scene::Scene;
+
+/// What stands between the lines of code: why, by which conventions, how precisely, and after whom.
+pub mod doc {
+    #[doc = include_str!("doc/design.md")]
+    pub mod design {}
+
+    #[doc = include_str!("doc/conventions.md")]
+    pub mod conventions {}
+
+    #[doc = include_str!("doc/numerics.md")]
+    pub mod numerics {}
+
+    #[doc = include_str!("doc/references.md")]
+    pub mod references {}
+}
+
+/// The examples of the README are tested like all others.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

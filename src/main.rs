@@ -1,1 +1,7 @@
-fn main() {}
+//! The `drystone` program: everything is in the library's `cli`.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    drystone::cli::run()
+}

@@ -94,77 +94,26 @@ pub(super) fn solved(
             return case.stands(carried, Effort::default());
         }
     }
-    // Quick first; full care only where the quick answer has no proof.
-    let mut effort = Effort::default();
-    let mut direction = None;
-    for care in [Care::Quick, Care::Full] {
-        let first = balance(&program, care);
-        effort = effort.and(first.effort);
-        let tried = first.forces.map(|amounts| case.carried(&program, &amounts));
-        if let Some(carried) = tried.filter(|c| c.proof.holds()) {
-            return case.stands(carried, effort);
-        }
-        direction = first.motion;
-        if direction
-            .as_ref()
-            .is_some_and(|y| case.mechanism(&case.moved(y)).holds())
-        {
-            break;
+    // Limits that can hardly matter are left out first; where they do matter after all, everything is done again.
+    if let Some(generous) = program.without_lavish_limits() {
+        let judged = case.judged(&generous);
+        if judged.verdict != Verdict::Undecided && program.allows(&judged.amounts.grip) {
+            return judged.findings(&case);
         }
     }
-    let mut stuck = stick(&program, Care::Quick);
-    let mut best = None;
-    for care in [Care::Quick, Care::Full] {
-        if care == Care::Full {
-            stuck = stick(&program, care);
-        }
-        effort = effort.and(stuck.effort);
-        let carried = case.carried(&program, &stuck.forces);
-        if stuck.balanced && carried.proof.holds() {
-            return case.stands(carried, effort);
-        }
-        best = [stuck.motion.as_ref(), direction.as_ref()]
-            .into_iter()
-            .flatten()
-            .map(|y| {
-                let motion = case.moved(y);
-                let proof = case.mechanism(&motion);
-                (motion, proof)
-            })
-            .reduce(|a, b| if !a.1.holds() && b.1.holds() { b } else { a });
-        if best.as_ref().is_some_and(|b| b.1.holds()) {
-            break;
-        }
-    }
-    let carried = case.carried(&program, &stuck.forces);
-    let (mechanism, proof, verdict, doubt) = match best {
-        Some((mut motion, proof)) if proof.holds() => {
-            // Proved with every block; what only trembles is left out of what is told.
-            motion.retain(|m| m.fastest(scene) > 1e-7);
-            (motion, proof, Verdict::Unstable, String::new())
-        }
-        other => {
-            let doubt = doubt(&carried.proof, other.as_ref().map(|o| &o.1));
-            (Vec::new(), carried.proof, Verdict::Undecided, doubt)
-        }
-    };
-    let failures = if verdict == Verdict::Unstable {
-        case.failures(&program, &stuck.sticking)
-    } else {
-        Vec::new()
-    };
-    Findings {
-        verdict,
-        doubt,
-        contacts: carried.contacts,
-        grips: carried.grips,
-        total_sticking: stuck.sticking.total() * scale.force,
-        unsupported: !stuck.balanced && verdict == Verdict::Unstable,
-        failures,
-        mechanism,
-        proof,
-        effort,
-    }
+    case.judged(&program).findings(&case)
+}
+
+/// A judgement in the program's pure numbers.
+struct Judged {
+    verdict: Verdict,
+    doubt: String,
+    program: Program,
+    amounts: Amounts,
+    sticking: Option<Amounts>,
+    mechanism: Vec<Motion>,
+    proof: Proof,
+    effort: Effort,
 }
 
 fn doubt(forces: &Proof, motion: Option<&Proof>) -> String {
@@ -187,7 +136,122 @@ fn doubt(forces: &Proof, motion: Option<&Proof>) -> String {
     }
 }
 
+impl Judged {
+    fn findings(self, case: &Case) -> Findings {
+        let carried = case.carried(&self.program, &self.amounts);
+        let (mut failures, mut total_sticking) = (Vec::new(), 0.0);
+        if let (Some(sticking), Verdict::Unstable) = (&self.sticking, self.verdict) {
+            failures = case.failures(&self.program, sticking);
+            total_sticking = sticking.total() * case.scale.force;
+        }
+        let mut mechanism = self.mechanism;
+        // It was proved with every block; what only trembles is left out of what is told.
+        mechanism.retain(|m| m.fastest(case.scene) > 1e-7);
+        for motion in &mut mechanism {
+            let plain = |v: f64| if v.abs() < 1e-9 { 0.0 } else { v };
+            motion.velocity = motion.velocity.map(plain);
+            motion.spin = if motion.spin.abs() * case.yardstick.length < 1e-9 {
+                0.0
+            } else {
+                motion.spin
+            };
+        }
+        Findings {
+            verdict: self.verdict,
+            doubt: self.doubt,
+            contacts: carried.contacts,
+            grips: carried.grips,
+            total_sticking,
+            unsupported: self.sticking.is_none() && self.verdict == Verdict::Unstable,
+            failures,
+            mechanism,
+            proof: self.proof,
+            effort: self.effort,
+        }
+    }
+}
+
 impl Case<'_> {
+    /// Solves a program and proves what comes out: quick first, with full care only where the quick answer has no proof.
+    fn judged(&self, program: &Program) -> Judged {
+        let mut judged = Judged {
+            verdict: Verdict::Stable,
+            doubt: String::new(),
+            program: program.clone(),
+            amounts: Amounts::none(program),
+            sticking: None,
+            mechanism: Vec::new(),
+            proof: Proof::Mechanism {
+                power: 0.0,
+                worst_violation: 0.0,
+            },
+            effort: Effort::default(),
+        };
+        let mut direction = None;
+        for care in [Care::Quick, Care::Full] {
+            let first = balance(program, care);
+            judged.effort = judged.effort.and(first.effort);
+            if let Some(amounts) = first.forces {
+                let proof = self.carried(program, &amounts).proof;
+                if proof.holds() {
+                    return Judged {
+                        amounts,
+                        proof,
+                        ..judged
+                    };
+                }
+            }
+            direction = first.motion.map(|y| self.moved(&y));
+            if direction
+                .as_ref()
+                .is_some_and(|motion| self.mechanism(motion).holds())
+            {
+                break;
+            }
+        }
+        let mut doubts = String::new();
+        for care in [Care::Quick, Care::Full] {
+            let stuck = stick(program, care);
+            judged.effort = judged.effort.and(stuck.effort);
+            let proof = self.carried(program, &stuck.forces).proof;
+            if stuck.balanced && proof.holds() {
+                return Judged {
+                    amounts: stuck.forces,
+                    proof,
+                    ..judged
+                };
+            }
+            judged.amounts = stuck.forces;
+            judged.sticking = stuck.balanced.then_some(stuck.sticking);
+            let motions = stuck
+                .motion
+                .map(|y| self.moved(&y))
+                .into_iter()
+                .chain(direction.clone());
+            let proved: Vec<(Vec<Motion>, Proof)> = motions
+                .map(|motion| {
+                    let proof = self.mechanism(&motion);
+                    (motion, proof)
+                })
+                .collect();
+            doubts = doubt(&proof, proved.first().map(|p| &p.1));
+            if let Some((mechanism, proof)) = proved.into_iter().find(|p| p.1.holds()) {
+                return Judged {
+                    verdict: Verdict::Unstable,
+                    mechanism,
+                    proof,
+                    ..judged
+                };
+            }
+            judged.proof = proof;
+        }
+        Judged {
+            verdict: Verdict::Undecided,
+            doubt: doubts,
+            ..judged
+        }
+    }
+
     fn touching(&self) -> Vec<&Interface> {
         self.group
             .interfaces

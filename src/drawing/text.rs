@@ -3,6 +3,8 @@
 //! Widths are sums of advances, without kerning: a pair moves by a few hundredths of the size, which wrapping and
 //! placing do not notice. A character that a face lacks shows as the face's box for missing characters.
 
+use std::sync::OnceLock;
+
 use skrifa::MetadataProvider;
 use skrifa::instance::{LocationRef, Size};
 use skrifa::raw::FontRef;
@@ -143,25 +145,44 @@ impl Text {
     }
 }
 
+/// The space at which no line is broken.
+pub const NO_BREAK: char = '\u{a0}';
+
 /// How wide words are, in pixels.
 pub fn width(words: &str, face: Face, size: f64) -> f64 {
-    let font = face.font();
-    let charmap = font.charmap();
-    let metrics = font.glyph_metrics(Size::new(size as f32), LocationRef::default());
-    let advance = |c: char| {
-        metrics
-            .advance_width(charmap.map(c).unwrap_or_default())
-            .unwrap_or(0.0)
+    let common = common_advances(face);
+    let advance = |c: char| match common.get(c as usize) {
+        Some(advance) => *advance,
+        None => advance(&face.font(), c),
     };
-    words.chars().map(|c| f64::from(advance(c))).sum()
+    words.chars().map(advance).sum::<f64>() * size
+}
+
+/// How far the pen moves for a character, in parts of the size.
+fn advance(font: &FontRef<'_>, c: char) -> f64 {
+    let glyph = font.charmap().map(c).unwrap_or_default();
+    let metrics = font.glyph_metrics(Size::new(1.0), LocationRef::default());
+    f64::from(metrics.advance_width(glyph).unwrap_or(0.0))
+}
+
+/// Advances of the first 128 characters, looked up once: breaking lines asks for them again and again.
+fn common_advances(face: Face) -> &'static [f64] {
+    static KNOWN: [OnceLock<Vec<f64>>; Face::ALL.len()] =
+        [const { OnceLock::new() }; Face::ALL.len()];
+    KNOWN[face as usize].get_or_init(|| {
+        let font = face.font();
+        (0..128_u8).map(|c| advance(&font, char::from(c))).collect()
+    })
 }
 
 /// Words broken into lines of at most `room` pixels. A word that is too wide for a line is broken where it must be.
-/// White space of any kind counts as one space; no words make no lines.
+/// White space of any kind counts as one space, but for [`NO_BREAK`], which holds its neighbours together; no words
+/// make no lines.
 pub fn wrap(words: &str, face: Face, size: f64, room: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     let mut line = String::new();
-    for word in words.split_whitespace() {
+    let breaks = |c: char| c.is_whitespace() && c != NO_BREAK;
+    for word in words.split(breaks).filter(|word| !word.is_empty()) {
         let longer = if line.is_empty() {
             word.to_owned()
         } else {
@@ -232,6 +253,12 @@ mod tests {
         assert!(lines.iter().all(|l| width(l, Face::Serif, 15.0) <= 120.0));
         assert_eq!(lines.concat().replace(' ', ""), words.replace(' ', ""));
         assert!(wrap(" \n\t", Face::Serif, 15.0, 120.0).is_empty());
+        assert_eq!(
+            wrap("a pull of 750\u{a0}mN", Face::Sans, 12.0, 80.0)
+                .last()
+                .map(String::as_str),
+            Some("750\u{a0}mN")
+        );
         let cut = cut(lines, 2, Face::Serif, 15.0, 120.0);
         assert_eq!(cut.len(), 2);
         assert!(cut[1].ends_with('…') && width(&cut[1], Face::Serif, 15.0) <= 120.0);

@@ -1,4 +1,5 @@
-//! Contact: two normal forces per edge interface, one per corner contact, pressing only. Source: [Vallat23] §2.0.1–2.
+//! Contact: two normal forces per edge interface, one per corner contact, pressing only. Source:
+//! [Vallat23](crate::doc::references) §2.0.1–2.
 
 use super::{EffectReport, Situation, counted};
 use crate::interface::ContactKind;

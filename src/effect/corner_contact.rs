@@ -1,4 +1,5 @@
-//! Corner contacts: tips that touch edges or tips carry force. The source leaves them out as unreliable ([Vallat23] §3).
+//! Corner contacts: tips that touch edges or tips carry force. The source leaves them out as unreliable
+//! ([Vallat23](crate::doc::references) §3).
 
 use super::{EffectReport, Situation};
 use crate::interface::ContactKind;

@@ -1,4 +1,4 @@
-//! Friction: |T| ≤ μ (N1 + N2) on each interface, two unknowns T⁺ and T⁻. Source: [Vallat23] §2.0.3.
+//! Friction: |T| ≤ μ (N1 + N2) on each interface, two unknowns T⁺ and T⁻. Source: [Vallat23](crate::doc::references) §2.0.3.
 //!
 //! Both corners' friction forces act along one line, so friction belongs to the interface; posed per interface it needs
 //! two unknowns where the source has four, with the same answers.

@@ -1,4 +1,5 @@
-//! Safety kernel: application points move inward by half the kernel of the stretch. Adds no unknown. Source: [Vallat23] §2.0.10.
+//! Safety kernel: application points move inward by half the kernel of the stretch. Adds no unknown. Source:
+//! [Vallat23](crate::doc::references) §2.0.10.
 
 use super::{EffectReport, Situation};
 

@@ -1,4 +1,5 @@
-//! Robots: a force F_x±, F_y± at the grip point of each held block, within its limits. Source: [Vallat23] §2.0.6.
+//! Robots: a force F_x±, F_y± at the grip point of each held block, within its limits. Source:
+//! [Vallat23](crate::doc::references) §2.0.6.
 
 use super::{EffectReport, Situation, counted};
 

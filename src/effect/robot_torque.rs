@@ -1,4 +1,5 @@
-//! Robot torque: M± about the grip point, where a holding robot's torque limit is above 0. Source: [Vallat23] §2.0.6;
+//! Robot torque: M± about the grip point, where a holding robot's torque limit is above 0. Source:
+//! [Vallat23](crate::doc::references) §2.0.6;
 //! its §3 sets every torque limit to 0, because real robots control torque badly.
 
 use super::{EffectReport, Situation, counted};

@@ -1,5 +1,6 @@
 //! Sticking: the forces a mortar, or a stronger robot, would have to give; they show where a structure fails.
-//! Source: [Vallat23] §2.0.8, posed lexicographically: first the least sticking, then the least force.
+//! Source: [Vallat23](crate::doc::references) §2.0.8, posed lexicographically: first the least sticking, then the
+//! least force.
 
 use super::{EffectReport, Situation, counted};
 use crate::interface::ContactKind;

@@ -1,4 +1,5 @@
-//! Weight: each block's own weight at its centroid, along gravity. Adds no unknown. Source: [Vallat23] §2.0.1.
+//! Weight: each block's own weight at its centroid, along gravity. Adds no unknown. Source:
+//! [Vallat23](crate::doc::references) §2.0.1.
 
 use super::{EffectReport, Situation, counted};
 

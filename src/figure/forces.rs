@@ -11,6 +11,7 @@ use crate::analysis::{Analysis, FrameAnalysis};
 use crate::drawing::{
     Anchor, Camera, Drawing, Face, Group, Item, Outline, PagePoint, Path, Stroke, Text, text,
 };
+use crate::geometry::Bounds;
 
 const HEADING: f64 = 22.0;
 const CAPTION: f64 = 17.0;
@@ -24,9 +25,24 @@ const MOST_REASON_LINES: usize = 4;
 /// The figure of an analysis: each frame a panel with its forces, its caption and its verdict, several frames a strip.
 ///
 /// Arrows act on a block and wear its colour; what is missing is thick and red; the colours of blocks tell amplitudes
-/// ([Vallat23] §2.0.8 and §2.0.9). All panels show the same part of the scene at the same scale.
+/// ([Vallat23](crate::doc::references) §2.0.8 and §2.0.9). All panels show the same part of the scene at the same scale.
 ///
-/// Units: the page is in pixels at natural size, 300 to 1100 wide.
+/// Units: the page is in pixels at natural size, some 370 to 1100 wide unless `columns` asks for more.
+///
+/// # Example
+/// ```
+/// use drystone::{Analysis, Scene, figure, output};
+/// let scene = Scene::from_json(
+///     r#"{ "drystone": 1, "title": "A brick",
+///          "ground": [ { "polygon": [[-1, -1], [3, -1], [3, 0], [-1, 0]] } ],
+///          "blocks": [ { "id": "brick", "polygon": [[0, 0], [2, 0], [2, 1], [0, 1]], "weight": 6 } ] }"#,
+/// )?;
+/// let drawing = figure::forces(&Analysis::of(&scene), &figure::Options::default());
+/// let svg = output::svg::write(&drawing);
+/// assert!(svg.contains("Weight of block brick: 6 N at 270°"));
+/// let png = output::png::render(&svg, output::png::Size::Width(800))?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn forces(analysis: &Analysis<'_>, options: &Options) -> Drawing {
     let stage = Stage::of(analysis, options);
     let layout = Layout::of(&stage);
@@ -83,10 +99,16 @@ impl Strip<'_> {
             if number > 0 {
                 y += 30.0;
             }
-            let mut bottom = y;
+            let (mut bottom, view) = (y, self.stage.row(row));
+            // Verdicts of a row stand side by side, below its longest caption.
+            let captions = row
+                .iter()
+                .map(|f| self.caption_lines(*f).len())
+                .max()
+                .unwrap_or(0);
             for (column, frame) in row.iter().enumerate() {
                 let x = left + column as f64 * (self.layout.panel + GAP);
-                let (panel, end) = self.panel(*frame, PagePoint::new(x, y));
+                let (panel, end) = self.panel(*frame, (view, captions), PagePoint::new(x, y));
                 items.push(panel.into());
                 bottom = f64::max(bottom, end);
             }
@@ -118,43 +140,36 @@ impl Strip<'_> {
         }
     }
 
-    /// A frame's picture, caption and verdict, with the upper left corner at `at`; and where it ends below.
-    fn panel(&self, frame: usize, at: PagePoint) -> (Group, f64) {
+    /// A frame's picture of what lies in `view`, its caption in the room of so many lines, and its verdict, with the
+    /// upper left corner at `at`; and where it ends below.
+    fn panel(
+        &self,
+        frame: usize,
+        (view, captions): (Bounds, usize),
+        at: PagePoint,
+    ) -> (Group, f64) {
         let (stage, layout) = (self.stage, self.layout);
         let (options, theme) = (stage.options, &stage.options.theme);
         let (scene, found) = (stage.analysis.scene, &stage.analysis.frames[frame]);
-        let aside = (layout.panel - stage.view.width() * layout.scale) / 2.0;
-        let camera = Camera::new(stage.view, at.moved(aside, 0.0), layout.scale);
+        let aside = (layout.panel - view.width() * layout.scale) / 2.0;
+        let camera = Camera::new(view, at.moved(aside, 0.0), layout.scale);
         let mut group = Group {
             id: Some(format!("frame-{}", frame + 1)),
             ..Group::of_class("frame")
         };
-        group.title = format!(
-            "{}: {}",
-            self.caption(frame, ": "),
-            verdict::word(found.verdict)
-        );
-        group = group.with(panel::picture(stage, frame, &camera));
+        group.title = self.said(frame, ": ", verdict::word(found.verdict));
+        group = group.with(panel::picture(stage, frame, view, &camera));
         let middle = at.x + layout.panel / 2.0;
-        let mut y = at.y + stage.view.height() * layout.scale;
-        if options.captions {
-            let caption = self.caption(frame, " ");
-            let lines = balanced(
-                &caption,
-                Face::Serif,
-                CAPTION,
-                layout.panel,
-                MOST_CAPTION_LINES,
+        let mut y = at.y + view.height() * layout.scale;
+        let lines = self.caption_lines(frame);
+        y += if captions > 0 { 10.0 } else { 0.0 };
+        for (number, line) in lines.into_iter().enumerate() {
+            let at = PagePoint::new(middle, y + (number + 1) as f64 * CAPTION_LINE - 5.0);
+            group = group.with(
+                Text::new(at, line, Face::Serif, CAPTION, theme.ink).anchored(Anchor::Middle),
             );
-            y += if lines.is_empty() { 0.0 } else { 10.0 };
-            for line in lines {
-                y += CAPTION_LINE;
-                let at = PagePoint::new(middle, y - 5.0);
-                group = group.with(
-                    Text::new(at, line, Face::Serif, CAPTION, theme.ink).anchored(Anchor::Middle),
-                );
-            }
         }
+        y += captions as f64 * CAPTION_LINE;
         if options.keys {
             y += 8.0;
             group
@@ -171,6 +186,30 @@ impl Strip<'_> {
             }
         }
         (group, y)
+    }
+
+    /// Something said of a frame, after its caption where it has one.
+    fn said(&self, frame: usize, between: &str, what: &str) -> String {
+        let caption = self.caption(frame, between);
+        if caption.is_empty() {
+            what.to_owned()
+        } else {
+            format!("{caption}: {what}")
+        }
+    }
+
+    /// The caption as it is broken into lines; none where captions are not wanted.
+    fn caption_lines(&self, frame: usize) -> Vec<String> {
+        if !self.stage.options.captions {
+            return Vec::new();
+        }
+        balanced(
+            &self.caption(frame, " "),
+            Face::Serif,
+            CAPTION,
+            self.layout.panel,
+            MOST_CAPTION_LINES,
+        )
     }
 
     /// The mark, the word and the scale of arrows in one line about `centre`.
@@ -226,30 +265,25 @@ impl Strip<'_> {
     fn told(&self) -> String {
         let scene = self.stage.analysis.scene;
         let tell = |(frame, found): (usize, &FrameAnalysis)| {
-            let caption = self.caption(frame, " ");
-            let lead = if caption.is_empty() {
-                String::new()
-            } else {
-                format!("{caption}: ")
-            };
             let count = scene.frames[frame].placed.len();
             let blocks = if count == 1 {
                 "1 block".to_owned()
             } else {
                 format!("{count} blocks")
             };
-            let mut sentence = format!(
-                "{lead}{blocks}, {} in all, {}",
-                quantity(found.weight, "N"),
+            let weight = quantity(found.weight, "N");
+            let what = format!(
+                "{blocks}, {weight} in all, {}",
                 verdict::word(found.verdict)
             );
+            let mut sentence = self.said(frame, " ", &what);
             for more in [verdict::reason(scene, found)]
                 .iter()
                 .chain(&found.notices)
                 .filter(|m| !m.is_empty())
             {
                 sentence.push_str("; ");
-                sentence.push_str(more);
+                sentence.push_str(&more.replace(text::NO_BREAK, " "));
             }
             sentence + "."
         };

@@ -3,21 +3,21 @@
 use super::arrow::{ForceArrow, Marks};
 use super::stage::{DISC, Stage};
 use crate::drawing::arrow::{HEAD_LENGTH, HEAD_WIDTH};
-use crate::geometry::{Point, Polygon};
+use crate::geometry::{Bounds, Point, Polygon, Vector};
 use crate::scene::{BlockId, Frame};
 
 /// Above so many blocks in a frame names would be soup.
 const MOST_BLOCKS: usize = 60;
 /// Places tried along each axis of a block.
-const TRIED: usize = 15;
+const TRIED: usize = 13;
 
-/// A place for the name of each placed block, in placing order: where a disc of `radius(block)` metres around it is
-/// clear; `None` where nowhere is.
+/// A place for the name of each placed block, in placing order: where a bar about it is clear whose half
+/// length between its round ends and whose radius, both in metres, `room(block)` tells; `None` where nowhere is.
 pub(crate) fn places(
     stage: &Stage<'_>,
     frame: &Frame,
     marks: &Marks,
-    radius: impl Fn(BlockId) -> f64,
+    room: impl Fn(BlockId) -> (f64, f64),
 ) -> Vec<Option<Point>> {
     if frame.placed.len() > MOST_BLOCKS {
         return vec![None; frame.placed.len()];
@@ -25,14 +25,17 @@ pub(crate) fn places(
     let discs: Vec<Point> = frame.holds.iter().map(|h| h.at).collect();
     let place = |id: &BlockId| {
         let polygon = &stage.analysis.scene.blocks[id.0].body.polygon;
-        let needed = radius(*id);
+        let (half, needed) = room(*id);
         let near = polygon.bounds().grown(2.0 * stage.unit);
         let arrows: Vec<&ForceArrow> = marks
             .arrows
             .iter()
             .filter(|a| near.meets(reach(a)))
             .collect();
-        let clear = |p: Point| {
+        let clear_at = |p: Point| {
+            if !polygon.contains(p) {
+                return f64::NEG_INFINITY;
+            }
             let from_discs = discs.iter().map(|d| (p - d).norm() - DISC * stage.unit);
             let from_turns = marks
                 .turns
@@ -43,6 +46,17 @@ pub(crate) fn places(
                 .chain(from_turns)
                 .chain(from_arrows)
                 .fold(from_edges(polygon, p), f64::min)
+        };
+        // The middle first, then outwards, and no further once it is too narrow: most places fail at once.
+        let clear = |p: Point| {
+            let mut least = f64::INFINITY;
+            for share in [0.0, -1.0, 1.0, -0.5, 0.5] {
+                least = least.min(clear_at(p + Vector::new(half * share, 0.0)));
+                if least < needed {
+                    return f64::NEG_INFINITY;
+                }
+            }
+            least
         };
         // Room beyond what is comfortable counts for nothing, so that names keep near the middle.
         let middle = stage.analysis.scene.blocks[id.0].centroid;
@@ -55,7 +69,7 @@ pub(crate) fn places(
                     Some((score, _)) if score >= next.0 => best,
                     _ => Some(next),
                 });
-        best.filter(|(_, p)| clear(*p) >= needed).map(|(_, p)| p)
+        best.filter(|(score, _)| score.is_finite()).map(|(_, p)| p)
     };
     frame.placed.iter().map(place).collect()
 }
@@ -105,9 +119,9 @@ fn from_segment(a: Point, b: Point, p: Point) -> f64 {
     (p - (a + along * share)).norm()
 }
 
-fn reach(arrow: &ForceArrow) -> crate::geometry::Bounds {
+fn reach(arrow: &ForceArrow) -> Bounds {
     let tip = arrow.at + arrow.vector;
-    crate::geometry::Bounds {
+    Bounds {
         min: arrow.at.inf(&tip),
         max: arrow.at.sup(&tip),
     }

@@ -2,7 +2,8 @@
 //!
 //! An arrow tells a force *on* a block and wears that block's colour; the ground wears none. Between two blocks each
 //! has its own arrow, opposite to the other's, both from the moment-equivalent point Σ N_k p_k / Σ N_k of their
-//! interface ([Vallat23] §2.0.9). Robots' arrows are wider, what fails is widest, red, and apart from what is carried.
+//! interface ([Vallat23](crate::doc::references) §2.0.9). Robots' arrows are wider, what fails is widest, red, and
+//! apart from what is carried.
 
 use super::arrow::{ArrowKind, ForceArrow, Marks, TurnArrow, TurnKind};
 use super::option::{ForceStyle, Normalisation, Options};

@@ -17,6 +17,7 @@ mod shapes;
 mod stage;
 mod told;
 mod verdict;
+mod view;
 mod words;
 
 pub use arrow::{ArrowKind, ForceArrow, Marks, TurnArrow, TurnKind};
@@ -24,4 +25,5 @@ pub use forces::forces;
 pub use mark::{arrows, marks};
 pub use option::{ArrowScale, ForceStyle, Normalisation, Options};
 pub use shapes::shapes;
+pub(crate) use words::letter;
 pub use words::quantity;

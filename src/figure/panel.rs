@@ -11,23 +11,25 @@ use crate::drawing::arrow::{head, straight, turning};
 use crate::drawing::{
     Anchor, Camera, Colour, Face, Group, Item, Outline, Path, Stroke, Text, text,
 };
-use crate::geometry::{Lattice, Point, Vector};
-use crate::scene::{BlockId, Body, Rgb};
+use crate::geometry::{Bounds, Lattice, Point, Vector};
+use crate::scene::{BlockId, Body, BodyId, Rgb};
 
 /// Radius of a turning arrow in unit edges: around a robot's disc.
 const TURN: f64 = 0.46;
 
 /// Where a unit edge is shorter than this, pixels, arrows are texture rather than signs.
 pub(crate) const TEXTURE: f64 = 20.0;
+/// A block whose fill is brighter than this wears dark seams and letters.
+const BRIGHT: f64 = 0.6;
 /// Least width of a shaft, pixels, where blocks are large enough to bear it.
 const LEAST_SHAFT: f64 = 2.5;
 
-/// What the camera sees of frame `number`.
-pub(crate) fn picture(stage: &Stage<'_>, number: usize, camera: &Camera) -> Group {
+/// What the camera sees of frame `number`; ground is cut at the edge of `view`.
+pub(crate) fn picture(stage: &Stage<'_>, number: usize, view: Bounds, camera: &Camera) -> Group {
     let pen = Pen::of(stage, number, camera);
     let many = stage.analysis.scene.frames[number].placed.len() > MANY;
     let mut group = Group::of_class("picture");
-    group.items.push(pen.ground().into());
+    group.items.push(pen.ground(view).into());
     group.items.push(
         if many {
             pen.blocks_by_colour()
@@ -107,6 +109,8 @@ struct Pen<'a> {
     stage: &'a Stage<'a>,
     number: usize,
     camera: &'a Camera,
+    /// Place in the placing order of each block, by its number; `None` for a block that is not placed.
+    places: Vec<Option<usize>>,
     /// Width of an outline, pixels.
     line: f64,
     /// Width of the seam around arrows, pixels.
@@ -118,7 +122,13 @@ struct Pen<'a> {
 impl<'a> Pen<'a> {
     fn of(stage: &'a Stage<'a>, number: usize, camera: &'a Camera) -> Pen<'a> {
         let unit = camera.length(stage.unit);
+        let scene = stage.analysis.scene;
+        let mut places = vec![None; scene.blocks.len()];
+        for (place, id) in scene.frames[number].placed.iter().enumerate() {
+            places[id.0] = Some(place);
+        }
         Pen {
+            places,
             stage,
             number,
             camera,
@@ -137,14 +147,14 @@ impl<'a> Pen<'a> {
         self.camera.length(self.stage.unit)
     }
 
-    fn ground(&self) -> Group {
+    fn ground(&self, view: Bounds) -> Group {
         let theme = &self.stage.options.theme;
         let scene = self.stage.analysis.scene;
         let mut group = Group::of_class("ground").titled("Ground");
         if scene.ground.is_empty() {
             return group;
         }
-        group.clip = Some(self.camera.rect(self.stage.view));
+        group.clip = Some(self.camera.rect(view));
         let mut colours = ByColour::default();
         for ground in &scene.ground {
             let fill = ground.body.fill.map_or(theme.ground, colour);
@@ -213,11 +223,16 @@ impl<'a> Pen<'a> {
         let frame = &scene.frames[self.number];
         let half = |id: BlockId| text::width(&scene.blocks[id.0].id, Face::SansBold, size) / 2.0;
         let metres = self.stage.unit / self.unit();
-        let radius = |id: BlockId| libm::hypot(half(id), 0.38 * size) * metres;
-        let places = label::places(self.stage, frame, &self.stage.marks[self.number], radius);
+        let room = |id: BlockId| {
+            (
+                (half(id) - 0.3 * size).max(0.0) * metres,
+                0.48 * size * metres,
+            )
+        };
+        let places = label::places(self.stage, frame, &self.stage.marks[self.number], room);
         let name = |(place, (id, at)): (usize, (&BlockId, Option<Point>))| {
             let fill = self.fill(place, *id);
-            let ink = if fill.brightness() < 0.55 {
+            let ink = if fill.brightness() < BRIGHT {
                 Colour::WHITE
             } else {
                 Colour::BLACK
@@ -303,7 +318,22 @@ impl<'a> Pen<'a> {
             self.camera.turn(arrow.vector),
             width,
         );
-        Path::filled(outline, arrow.colour).cased(self.stage.options.theme.casing, self.casing)
+        Path::filled(outline, arrow.colour).cased(self.seam_around(arrow), self.casing)
+    }
+
+    /// The seam that sets an arrow off from the block it acts on: dark on a bright block, where a bright one is lost.
+    fn seam_around(&self, arrow: &ForceArrow) -> Colour {
+        let theme = &self.stage.options.theme;
+        let frame = &self.stage.analysis.scene.frames[self.number];
+        let BodyId::Block(on) = arrow.on else {
+            return theme.casing;
+        };
+        match self.places.get(on.0).copied().flatten() {
+            Some(place) if self.fill(place, frame.placed[place]).brightness() > BRIGHT => {
+                arrow.colour.mixed(theme.ink, 0.8)
+            }
+            _ => theme.casing,
+        }
     }
 
     /// The heads of all arrows once more, above all shafts: along a line of thrust arrows lie on each other, and a shaft
@@ -318,10 +348,9 @@ impl<'a> Pen<'a> {
             let width = self.wider * self.camera.length(arrow.width);
             let (from, along) = (self.camera.place(arrow.at), self.camera.turn(arrow.vector));
             let head = Path::filled(head(from, along, width), arrow.colour);
-            group.items.push(
-                head.cased(self.stage.options.theme.casing, self.casing)
-                    .into(),
-            );
+            group
+                .items
+                .push(head.cased(self.seam_around(arrow), self.casing).into());
         }
         group
     }

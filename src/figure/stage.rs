@@ -4,9 +4,9 @@ use super::arrow::Marks;
 use super::fill::Fills;
 use super::mark;
 use super::option::{ArrowScale, Options};
+use super::view;
 use crate::analysis::Analysis;
-use crate::drawing::arrow::{HEAD_LENGTH, HEAD_WIDTH};
-use crate::geometry::{Bounds, Point, Vector};
+use crate::geometry::{Bounds, Point};
 use crate::scene::Scene;
 
 /// Radius of a robot's disc in unit edges.
@@ -20,7 +20,9 @@ pub(crate) struct Stage<'a> {
     pub options: &'a Options,
     /// The unit edge, metres.
     pub unit: f64,
-    /// What every panel shows of the scene.
+    /// A box around all that each frame shows.
+    pub shown: Vec<Bounds>,
+    /// A box around all of them.
     pub view: Bounds,
     pub fills: Fills,
     /// One entry per frame.
@@ -47,15 +49,38 @@ impl<'a> Stage<'a> {
             .map(|(i, own)| mark::marks(analysis, i, options, reference(*own)))
             .collect();
         let unit = unit(scene);
-        let view = view(scene, &marks, unit);
+        let shown = view::shown(scene, &marks, unit);
+        let nothing = Bounds {
+            min: Point::origin(),
+            max: Point::origin(),
+        }
+        .grown(unit);
+        let view = shown
+            .iter()
+            .copied()
+            .reduce(Bounds::union)
+            .unwrap_or(nothing);
         Stage {
             analysis,
             options,
             unit,
+            shown,
             view,
             fills: Fills::of(analysis),
             marks,
         }
+    }
+
+    /// What the panels of a row show: as wide as all frames need, so that structures stand one below the other, and as
+    /// high as the frames of the row need.
+    pub fn row(&self, frames: &[usize]) -> Bounds {
+        let rows = frames.iter().filter_map(|f| self.shown.get(*f)).copied();
+        let row = rows.reduce(Bounds::union).unwrap_or(self.view);
+        let (min, max) = (
+            Point::new(self.view.min.x, row.min.y),
+            Point::new(self.view.max.x, row.max.y),
+        );
+        Bounds { min, max }
     }
 }
 
@@ -73,81 +98,4 @@ pub(crate) fn unit(scene: &Scene) -> f64 {
         Some(lattice) if typical < 1.5 * lattice.side => lattice.side,
         _ => typical,
     }
-}
-
-/// A box around everything that any frame shows. Ground that reaches far beyond the blocks is cut.
-fn view(scene: &Scene, marks: &[Marks], unit: f64) -> Bounds {
-    let placed = scene.frames.iter().flat_map(|frame| {
-        let planned = frame.plans.iter().map(|plan| plan.block);
-        frame.placed.iter().copied().chain(planned)
-    });
-    let mut seen = vec![false; scene.blocks.len()];
-    for block in placed {
-        seen[block.0] = true;
-    }
-    let blocks = scene
-        .blocks
-        .iter()
-        .zip(&seen)
-        .filter(|(_, seen)| **seen)
-        .map(|(b, _)| b.body.polygon.bounds());
-    let blocks = blocks.reduce(Bounds::union);
-    let ground = scene.ground.iter().map(|g| g.body.polygon.bounds());
-    let Some(blocks) = blocks.or_else(|| ground.clone().reduce(Bounds::union)) else {
-        let at = Point::origin();
-        return Bounds { min: at, max: at }.grown(unit);
-    };
-    let reach = blocks.diagonal().max(unit);
-    let near = blocks.grown((0.12 * reach).max(1.0 * unit));
-    let around = blocks.grown(reach);
-    let mut view = blocks;
-    for part in ground {
-        let small = part.width() <= 3.0 * unit && part.height() <= 3.0 * unit;
-        let shown = if small && around.meets(part) {
-            Some(part)
-        } else {
-            common(near, part)
-        };
-        if let Some(shown) = shown {
-            view = view.union(shown);
-        }
-    }
-    for marks in marks {
-        for arrow in &marks.arrows {
-            let length = arrow.vector.norm();
-            if length > 0.0 {
-                let tip = arrow.at + arrow.vector * (1.0 + HEAD_LENGTH * arrow.width / length);
-                let ends = Bounds::of([arrow.at, tip]);
-                view = ends.map_or(view, |b| {
-                    view.union(b.grown(HEAD_WIDTH * arrow.width / 2.0))
-                });
-            }
-        }
-        for turn in &marks.turns {
-            view = view.union(
-                Bounds {
-                    min: turn.at,
-                    max: turn.at,
-                }
-                .grown(0.7 * unit),
-            );
-        }
-    }
-    for hold in scene.frames.iter().flat_map(|f| &f.holds) {
-        view = view.union(
-            Bounds {
-                min: hold.at,
-                max: hold.at,
-            }
-            .grown(DISC * unit),
-        );
-    }
-    view.grown(0.08 * unit)
-}
-
-/// What two boxes have in common, `None` where they are apart.
-fn common(a: Bounds, b: Bounds) -> Option<Bounds> {
-    let (min, max) = (a.min.sup(&b.min), a.max.inf(&b.max));
-    let size: Vector = max - min;
-    (size.x >= 0.0 && size.y >= 0.0).then_some(Bounds { min, max })
 }

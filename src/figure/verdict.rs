@@ -2,6 +2,7 @@
 
 use super::words::{listed, quantity};
 use crate::analysis::{Failure, FrameAnalysis, Verdict};
+use crate::drawing::text::NO_BREAK;
 use crate::drawing::{Colour, Group, Outline, PagePoint, Path, Stroke, Theme};
 use crate::scene::{BodyId, Scene};
 
@@ -113,30 +114,35 @@ pub(crate) fn missing(scene: &Scene, failure: &Failure) -> String {
         Failure::Tension { bodies, force, .. } => {
             format!(
                 "a pull of {} between {}",
-                quantity(force.norm(), "N"),
+                whole(force.norm(), "N"),
                 pair(bodies)
             )
         }
         Failure::Friction { bodies, force, .. } => {
             format!(
                 "friction of {} between {}",
-                quantity(force.norm(), "N"),
+                whole(force.norm(), "N"),
                 pair(bodies)
             )
         }
         Failure::RobotForce { robot, force, .. } => {
             format!(
-                "a force of {} from robot {}",
-                quantity(force.norm(), "N"),
+                "a force of {} from robot\u{a0}{}",
+                whole(force.norm(), "N"),
                 scene.robots[robot.0].id
             )
         }
         Failure::RobotTorque { robot, torque, .. } => {
             format!(
-                "a torque of {} from robot {}",
-                quantity(torque.abs(), "N·m"),
+                "a torque of {} from robot\u{a0}{}",
+                whole(torque.abs(), "N·m"),
                 scene.robots[robot.0].id
             )
         }
     }
+}
+
+/// An amount that stays whole where lines are broken.
+fn whole(value: f64, unit: &str) -> String {
+    quantity(value, unit).replace(' ', &NO_BREAK.to_string())
 }

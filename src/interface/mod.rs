@@ -51,7 +51,8 @@ impl Interface {
         nalgebra::center(&self.ends[0], &self.ends[1])
     }
 
-    /// The two points at which forces act: the ends, each moved inward by `kernel`/2 of the length ([Vallat23] §2.0.10).
+    /// The two points at which forces act: the ends, each moved inward by `kernel`/2 of the length
+    /// ([Vallat23](crate::doc::references) §2.0.10).
     ///
     /// ```
     /// # use drystone::{geometry::{Point, Vector}, interface::*, scene::*};

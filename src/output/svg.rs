@@ -1,4 +1,4 @@
-//! [`write`]: a drawing as SVG text, with what resvg and browsers understand alike and nothing else.
+//! [`write()`]: a drawing as SVG text, with what resvg and browsers understand alike and nothing else.
 //!
 //! Attributes stand in a fixed order and every number goes through one printer, so that the same drawing is the same
 //! bytes. Names of elements begin with a mark made from the drawing's own content: several figures can share a page.

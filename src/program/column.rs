@@ -2,7 +2,8 @@
 //!
 //! Admissible contact forces are the generators of the friction cone of each application point: the normal alone and the
 //! normal with full friction either way, (n̂ ± μ t̂)/(1 + μ), each at cost 1 a unit. Every admissible contact force is a
-//! sum of these with amounts ≥ 0, so no inequality rows remain ([Vallat23] §2.0.3 in other unknowns, the same optimum).
+//! sum of these with amounts ≥ 0, so no inequality rows remain ([Vallat23](crate::doc::references) §2.0.3 in other
+//! unknowns, the same optimum).
 
 use super::{Contact, GripTerm, Program};
 use crate::geometry::{Vector, cross, quarter_turn};
@@ -187,7 +188,8 @@ pub fn columns(program: &Program) -> Vec<Column> {
     columns
 }
 
-/// Every sticking force of a program: the opposite twin of each of the source's columns ([Vallat23] §2.0.8), unbounded.
+/// Every sticking force of a program: the opposite twin of each of the source's columns
+/// ([Vallat23](crate::doc::references) §2.0.8), unbounded.
 ///
 /// Sticking friction is one force per interface, because both corners' act along the same line.
 pub fn sticking_columns(program: &Program) -> Vec<Column> {

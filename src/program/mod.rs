@@ -12,6 +12,7 @@ mod scale;
 
 pub use column::{Column, Force, columns, sticking_columns};
 pub use group::{Group, groups};
+pub(crate) use pose::product;
 pub use pose::{Conic, Correction, kinematic, least_squares, source};
 pub use scale::Scale;
 
@@ -63,6 +64,43 @@ pub struct GripTerm {
     pub arm: Vector,
     /// Limits of force x, force y, torque/L; infinite without limit, 0 where the component is not simulated.
     pub limits: [f64; 3],
+}
+
+impl Program {
+    /// A limit beyond so many times the sum of all loads is lavish.
+    const LAVISH: f64 = 10.0;
+
+    /// The program without the limits that can hardly matter, if there are such.
+    ///
+    /// A limit costs three rows and an unknown, and one of 10⁹ loads enters the aim as a number that drowns all others.
+    /// An answer that breaks a limit left out here fails its proof and is sought again with all limits.
+    pub fn without_lavish_limits(&self) -> Option<Program> {
+        let sum: f64 = self.need.iter().map(|v| v.abs()).sum();
+        let lavish = |limit: f64| limit.is_finite() && limit > Self::LAVISH * sum;
+        let any = self.grips.iter().flat_map(|g| g.limits).any(lavish);
+        any.then(|| {
+            let mut program = self.clone();
+            for limit in program
+                .grips
+                .iter_mut()
+                .flat_map(|g| &mut g.limits)
+                .filter(|l| lavish(**l))
+            {
+                *limit = f64::INFINITY;
+            }
+            program
+        })
+    }
+
+    /// Whether some amounts keep every grip within this program's limits, up to rounding.
+    pub fn allows(&self, grips: &[[f64; 3]]) -> bool {
+        self.grips.iter().zip(grips).all(|(term, given)| {
+            term.limits
+                .iter()
+                .zip(given)
+                .all(|(limit, amount)| amount.abs() <= limit * (1.0 + 1e-9) + 1e-9)
+        })
+    }
 }
 
 /// Load on a block about its centroid, (F_x, F_y, M) in newtons and N·m: its weight and what the scene lists for it.

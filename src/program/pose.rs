@@ -150,7 +150,7 @@ pub fn least_squares(need: &[f64], columns: &[Column], correction: Option<Correc
 }
 
 /// Inner product of two columns in (N1, N2, T) of one contact or in one grip component; `None` for different places.
-fn product(a: &Force, b: &Force) -> Option<f64> {
+pub(crate) fn product(a: &Force, b: &Force) -> Option<f64> {
     match (*a, *b) {
         (
             Force::Ray {
@@ -219,7 +219,8 @@ fn product(a: &Force, b: &Force) -> Option<f64> {
     }
 }
 
-/// The source's soft program exactly as posed ([Vallat23] §2.0.7–8): six unknowns per interface and per grip, each with an
+/// The source's soft program exactly as posed ([Vallat23](crate::doc::references) §2.0.7–8): six unknowns per
+/// interface and per grip, each with an
 /// opposite twin at cost β, all ≥ 0; rows A_eq x = b_eq, f⁺ + f⁻ ≤ μN per corner, robot unknowns ≤ limit.
 ///
 /// It is kept to show what β costs in time and digits; nothing else rests on it. The unknowns stand interface by
@@ -236,8 +237,10 @@ pub fn source(program: &Program, beta: f64) -> Conic {
         contacts: smooth
             .contacts
             .iter()
-            .cloned()
-            .map(|c| super::Contact { friction: 1.0, ..c })
+            .map(|c| super::Contact {
+                friction: 1.0,
+                ..*c
+            })
             .collect(),
         ..smooth
     };
@@ -253,10 +256,9 @@ pub fn source(program: &Program, beta: f64) -> Conic {
         grips: program
             .grips
             .iter()
-            .cloned()
             .map(|g| super::GripTerm {
                 limits: [f64::INFINITY; 3],
-                ..g
+                ..*g
             })
             .collect(),
         ..program.clone()

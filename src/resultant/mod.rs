@@ -1,6 +1,7 @@
 //! [`Resultant`]: the one force that stands for both corners of an interface.
 //!
-//! Source: [Vallat23] §2.0.9 and its footnote: the moment-equivalent point is the amplitude-weighted average of the
+//! Source: [Vallat23](crate::doc::references) §2.0.9 and its footnote: the moment-equivalent point is the
+//! amplitude-weighted average of the
 //! application points.
 
 use crate::geometry::{Point, Vector};

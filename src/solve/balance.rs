@@ -20,7 +20,7 @@ pub struct Balance {
 /// are let in, until what they carry balances.
 const MARGINS: [f64; 3] = [1.0, 1e3, 1e6];
 
-/// Solves the hard program of [Vallat23] §2.0.7 through its kinematic twin.
+/// Solves the hard program of [Vallat23](crate::doc::references) §2.0.7 through its kinematic twin.
 pub fn balance(program: &Program, care: Care) -> Balance {
     let mut effort = Effort::default();
     let columns = columns(program);
@@ -41,7 +41,7 @@ pub fn balance(program: &Program, care: Care) -> Balance {
                     break;
                 }
             }
-            let (face, amounts) = found.unwrap_or_else(|| (columns, solved.amounts));
+            let (face, amounts) = found.unwrap_or((columns, solved.amounts));
             let amounts = match care {
                 Care::Quick => amounts,
                 Care::Full => refined(&program.need, &face, amounts, &mut effort),

@@ -1,6 +1,7 @@
 //! The soft program, lexicographically: least sticking, then least force, then fewest failure points.
 //!
-//! This is the limit β → ∞ of [Vallat23] §2.0.8 without a large number in it. Each stage keeps only the columns of the
+//! This is the limit β → ∞ of [Vallat23](crate::doc::references) §2.0.8 without a large number in it. Each stage keeps
+//! only the columns of the
 //! face of optima of the stage before, so nothing is traded against it.
 //!
 //! Fewest points: an interior-point answer spreads ties over all tied places. Here each round makes sticking dear where

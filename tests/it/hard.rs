@@ -324,3 +324,31 @@ fn what_is_not_called_for_is_not_simulated() {
     };
     assert!(worst_imbalance < 1e-9);
 }
+
+/// A limit of 10¹² loads is a number in the aim that drowns all others.
+#[test]
+fn lavish_limits_change_nothing() {
+    let path = format!("{}/assets/thesis/figure-4.json", env!("CARGO_MANIFEST_DIR"));
+    let mut file: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+    let totals = |file: &Value| {
+        let scene = scene(file);
+        let frames = Analysis::of(&scene).frames;
+        frames
+            .iter()
+            .map(|f| (f.verdict, f.total_force, f.total_sticking))
+            .collect::<Vec<_>>()
+    };
+    let expected = totals(&file);
+    for limit in [1e2, 1e6, 1e9, 1e12] {
+        for robot in file["robots"].as_array_mut().unwrap() {
+            robot["limits"] = json!({ "force": limit });
+        }
+        for (a, b) in totals(&file).iter().zip(&expected) {
+            assert_eq!(a.0, b.0, "{limit}");
+            assert!(
+                (a.1 - b.1).abs() < 1e-8 && (a.2 - b.2).abs() < 1e-8,
+                "{limit}: {a:?} {b:?}"
+            );
+        }
+    }
+}

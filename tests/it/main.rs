@@ -1,11 +1,19 @@
 //! All integration tests in one program: what a person or another program sees of drystone.
 
+#![allow(
+    clippy::panic,
+    clippy::unwrap_used,
+    reason = "a test that panics says what it found; helpers are no #[test]"
+)]
+
 mod gallery;
 mod hard;
 mod laws;
+mod layers;
 mod oracle;
 mod pictures;
 mod problems;
+mod program;
 mod scenes;
 mod statics;
 mod structure;

@@ -1,0 +1,55 @@
+//! A scene made in Rust: how far can n bricks be stacked over an edge?
+//!
+//! The answer is known: half a brick's length times 1 + 1/2 + … + 1/n. A stack that keeps 0.1 % inside stands, one that
+//! goes 0.1 % beyond falls.
+
+#![allow(clippy::print_stdout, reason = "an example speaks to a person")]
+
+use std::error::Error;
+
+use drystone::scene::format::{BlockEntry, GroundEntry, Pair, SceneFile};
+use drystone::{Analysis, Scene};
+
+const BRICKS: usize = 6;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    for share in [0.999, 1.001] {
+        let scene = Scene::new(stack(share))?;
+        let frame = &Analysis::of(&scene).frames[0];
+        let reach: f64 = (1..=BRICKS).map(|n| share * 0.5 / n as f64).sum();
+        println!(
+            "{BRICKS} bricks, {reach:.4} over the edge: {:?}, proved by {:?}",
+            frame.verdict, frame.proof
+        );
+    }
+    Ok(())
+}
+
+/// Bricks of 1 × 0.25, the lowest first; the k-th from the top overhangs the one below it by `share`/2k.
+fn stack(share: f64) -> SceneFile {
+    let mut right = 0.0;
+    let mut blocks = Vec::new();
+    for row in 0..BRICKS {
+        right += share * 0.5 / (BRICKS - row) as f64;
+        let bottom = 0.25 * row as f64;
+        let polygon = Some(rectangle(right - 1.0, bottom, right, bottom + 0.25));
+        blocks.push(BlockEntry {
+            id: Some(format!("brick {row}")),
+            polygon,
+            ..BlockEntry::default()
+        });
+    }
+    let table = GroundEntry {
+        polygon: Some(rectangle(-3.0, -1.0, 0.0, 0.0)),
+        ..GroundEntry::default()
+    };
+    SceneFile {
+        blocks,
+        ground: vec![table],
+        ..SceneFile::default()
+    }
+}
+
+fn rectangle(left: f64, bottom: f64, right: f64, top: f64) -> Vec<Pair> {
+    vec![[left, bottom], [right, bottom], [right, top], [left, top]]
+}

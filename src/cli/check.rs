@@ -1,0 +1,85 @@
+//! `drystone check`: does it stand, in a table for a person or as JSON for a program.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
+
+use crate::analysis::Analysis;
+use crate::cli::complaint::Complaint;
+use crate::cli::ending::Ending;
+use crate::cli::progress::{Progress, Shown};
+use crate::cli::source::{self, FrameChoice};
+use crate::cli::table;
+use crate::cli::terminal::Terminal;
+use crate::report::result::{Layout, Timing, to_json};
+
+/// Say whether scenes stand, what fails, and how that is proved
+#[derive(Debug, Args)]
+pub(crate) struct Check {
+    /// Scene files; - reads standard input
+    #[arg(required = true, value_name = "SCENE")]
+    scenes: Vec<PathBuf>,
+    /// Print JSON: one object for a scene, or a line for each of several
+    #[arg(long)]
+    json: bool,
+    /// Leave out how long it took, so that the same scene gives the same bytes
+    #[arg(long)]
+    no_timing: bool,
+    /// Examine one frame only, by number from 1 or by its letter in the strip
+    #[arg(long, value_name = "N")]
+    frame: Option<FrameChoice>,
+}
+
+impl Check {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
+        let sources = source::read(&self.scenes, self.frame)?;
+        let shown = if terminal.shows_progress() {
+            Shown::WhenLong
+        } else {
+            Shown::Never
+        };
+        let progress = Progress::begin(sources.len(), shown);
+        let analyses: Vec<Analysis> = sources
+            .par_iter()
+            .map(|source| {
+                progress.doing(&source.name());
+                let analysis = Analysis::of(&source.scene);
+                progress.step();
+                analysis
+            })
+            .collect();
+        drop(progress);
+
+        let timing = if self.no_timing {
+            Timing::LeftOut
+        } else {
+            Timing::Included
+        };
+        let layout = if sources.len() == 1 {
+            Layout::Lines
+        } else {
+            Layout::OneLine
+        };
+        let mut text = String::new();
+        if self.json {
+            text.extend(
+                analyses
+                    .iter()
+                    .map(|analysis| to_json(analysis, timing, layout)),
+            );
+        } else if !terminal.is_quiet() {
+            for (source, analysis) in sources.iter().zip(&analyses) {
+                text += &table::of(&source.name(), analysis, timing);
+                text.push('\n');
+            }
+            text += table::LIMITS;
+        }
+        terminal.print(&text).map_err(|c| vec![c])?;
+        Ok(analyses
+            .iter()
+            .map(Ending::of)
+            .max()
+            .unwrap_or(Ending::Done))
+    }
+}

@@ -1,0 +1,293 @@
+//! [`Complaint`]: everything that can go wrong with a command, and how a person is shown it.
+//!
+//! The only file that names ariadne. A problem of a scene is shown in the line of the file where it is; ariadne is handed
+//! that one line and nothing else, so that a long file costs no more than a short one.
+
+use std::fmt::Write;
+use std::ops::Range;
+
+use ariadne::{Color, Config, Label, Report, ReportKind, Source};
+
+use crate::cli::ending::Ending;
+use crate::cli::terminal::visible;
+use crate::scene::{Problem, Problems};
+
+/// So many problems of one file are shown; a file with more has one cause, and it is among the first.
+const SHOWN: usize = 30;
+/// A longer line, in characters, is shown as a window around the problem.
+const LONG_LINE: usize = 160;
+/// So many characters before the problem, and twice as many after it, are in that window.
+const WINDOW: usize = 40;
+
+/// Something that is wrong, and that ends the command.
+#[derive(Debug)]
+pub(crate) enum Complaint {
+    /// A scene is wrong.
+    Scene {
+        /// The file's name.
+        name: String,
+        /// What is wrong with it.
+        problems: Problems,
+    },
+    /// An input cannot be read.
+    NotRead {
+        /// Which.
+        what: String,
+        /// The system's reason.
+        why: String,
+    },
+    /// The command line asks for something that cannot be.
+    CommandLine(String),
+    /// An output cannot be written.
+    NotWritten {
+        /// Which.
+        what: String,
+        /// The system's reason.
+        why: String,
+    },
+}
+
+impl Complaint {
+    /// How the command ends for it.
+    pub(crate) fn ending(&self) -> Ending {
+        match self {
+            Complaint::NotWritten { .. } => Ending::NotWritten,
+            Complaint::Scene { .. } | Complaint::NotRead { .. } | Complaint::CommandLine(_) => {
+                Ending::WrongInput
+            }
+        }
+    }
+
+    /// What a person is told, in colour.
+    pub(crate) fn text(&self) -> String {
+        match self {
+            Complaint::Scene { name, problems } => {
+                all(name, problems.text.as_deref(), &problems.list)
+            }
+            Complaint::NotRead { what, why } => {
+                format!("error: cannot read {}: {why}", visible(what))
+            }
+            Complaint::CommandLine(what) => format!(
+                "error: {}\n\nFor more information, try '--help'.",
+                visible(what)
+            ),
+            Complaint::NotWritten { what, why } => {
+                format!("error: cannot write {}: {why}", visible(what))
+            }
+        }
+    }
+}
+
+fn all(name: &str, text: Option<&str>, problems: &[Problem]) -> String {
+    let name = visible(name);
+    let mut out = String::new();
+    for problem in problems.iter().take(SHOWN) {
+        let place = text
+            .zip(problem.span.clone())
+            .and_then(|(text, span)| Place::of(text, span));
+        out += &match place {
+            Some(place) if place.line.chars().count() <= LONG_LINE => {
+                pointed(&name, problem, &place)
+            }
+            Some(place) => windowed(&name, problem, &place),
+            None => plain(&name, problem),
+        };
+    }
+    let more = problems.len().saturating_sub(SHOWN);
+    if more > 0 {
+        let _ = writeln!(out, "... and {more} more in {name}");
+    }
+    out
+}
+
+/// The line a problem is in, and the range of it that is the problem, in characters.
+struct Place<'a> {
+    line: &'a str,
+    range: Range<usize>,
+}
+
+impl<'a> Place<'a> {
+    /// `None` where the span does not fit the text.
+    fn of(text: &'a str, span: Range<usize>) -> Option<Place<'a>> {
+        let before = text.get(..span.start)?;
+        let start = before.rfind('\n').map_or(0, |n| n + 1);
+        let line = text[start..].lines().next().unwrap_or("");
+        let from = text.get(start..span.start)?.chars().count();
+        let inside = text
+            .get(span.clone())?
+            .lines()
+            .next()
+            .unwrap_or("")
+            .chars()
+            .count();
+        let end = line.chars().count();
+        Some(Place {
+            line,
+            range: from.min(end)..(from + inside.max(1)).min(end.max(from + 1)),
+        })
+    }
+}
+
+fn headline(problem: &Problem) -> String {
+    let message = visible(&problem.message);
+    if problem.path.is_empty() {
+        message
+    } else {
+        format!("{}: {message}", visible(&problem.path))
+    }
+}
+
+fn plain(name: &str, problem: &Problem) -> String {
+    let at = if problem.line == 0 {
+        String::new()
+    } else {
+        format!(":{}:{}", problem.line, problem.column)
+    };
+    let mut out = format!("error: {name}{at}: {}\n", headline(problem));
+    if !problem.help.is_empty() {
+        let _ = writeln!(out, "  help: {}", visible(&problem.help));
+    }
+    out
+}
+
+/// The problem under its line. ariadne is handed empty lines in place of those before it, so that it counts right.
+fn pointed(name: &str, problem: &Problem, place: &Place) -> String {
+    let above = problem.line.saturating_sub(1);
+    // A blank behind the line gives a problem at its very end, such as a file cut short, something to point at.
+    let source = Source::from(format!("{}{} ", "\n".repeat(above), visible(place.line)));
+    let range = place.range.start + above..place.range.end + above;
+    let label = if problem.path.is_empty() {
+        "here".into()
+    } else {
+        visible(&problem.path)
+    };
+    let mut report = Report::build(ReportKind::Error, (name, range.clone()))
+        .with_config(Config::default())
+        .with_message(visible(&problem.message))
+        .with_label(
+            Label::new((name, range))
+                .with_message(label)
+                .with_color(Color::Red),
+        );
+    if !problem.help.is_empty() {
+        report = report.with_help(visible(&problem.help));
+    }
+    let mut bytes = Vec::new();
+    match report.finish().write((name, source), &mut bytes) {
+        Ok(()) => String::from_utf8_lossy(&bytes).into_owned(),
+        Err(_) => plain(name, problem),
+    }
+}
+
+/// A plain complaint with a piece of a line that is too long to be shown whole.
+fn windowed(name: &str, problem: &Problem, place: &Place) -> String {
+    let from = place.range.start.saturating_sub(WINDOW);
+    let piece: String = place.line.chars().skip(from).take(3 * WINDOW).collect();
+    let marks = place.range.len().min(2 * WINDOW);
+    let out = plain(name, problem);
+    let (first, help) = out.split_once('\n').unwrap_or((&out, ""));
+    let lead = if from > 0 { "…" } else { " " };
+    let gap = " ".repeat(place.range.start - from + 1);
+    let piece = visible(&piece).replace('\t', " ");
+    format!(
+        "{first}\n  {lead}{piece}…\n  {gap}{}\n{help}",
+        "^".repeat(marks)
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn problem(text: &str, needle: &str) -> Problem {
+        let start = text.find(needle).expect("there");
+        let line = text[..start].matches('\n').count() + 1;
+        let column = text[..start]
+            .chars()
+            .rev()
+            .take_while(|c| *c != '\n')
+            .count()
+            + 1;
+        Problem {
+            path: "blocks[1].weight".into(),
+            line,
+            column,
+            span: Some(start..start + needle.len()),
+            message: "a weight of -3 N".into(),
+            help: "give 0 or more".into(),
+        }
+    }
+
+    fn shown(text: &str, list: &[Problem]) -> String {
+        let mut plain = String::new();
+        let mut escaped = false;
+        for c in all("a.json", Some(text), list).chars() {
+            match (escaped, c) {
+                (false, '\u{1b}') => escaped = true,
+                (true, 'm') => escaped = false,
+                (true, _) => {}
+                (false, c) => plain.push(c),
+            }
+        }
+        plain
+    }
+
+    #[test]
+    fn a_problem_is_shown_in_its_line_with_its_place() {
+        let text = "{\n  \"é\": 1,\n  \"weight\": -3\n}";
+        let shown = shown(text, &[problem(text, "-3")]);
+        assert!(shown.contains("a.json:3:13"), "{shown}");
+        assert!(shown.contains("3 │   \"weight\": -3"), "{shown}");
+        assert!(
+            shown.contains("blocks[1].weight") && shown.contains("give 0 or more"),
+            "{shown}"
+        );
+    }
+
+    #[test]
+    fn a_long_line_is_shown_around_the_problem_only() {
+        let text = format!(
+            "{{ {}\"weight\": -3 {} }}",
+            "\"x\": 1, ".repeat(500),
+            ", \"y\": 2".repeat(500)
+        );
+        let shown = shown(&text, &[problem(&text, "-3")]);
+        assert!(shown.len() < 400, "{shown}");
+        let lines: Vec<&str> = shown.lines().collect();
+        let caret = lines[2].find('^').expect("marked");
+        let column = lines[1]
+            .char_indices()
+            .position(|(i, _)| i == lines[1].find("-3").expect("shown"))
+            .expect("there");
+        assert_eq!(caret, column, "{shown}");
+    }
+
+    #[test]
+    fn thirty_problems_are_shown_and_the_rest_is_counted() {
+        let text = "{ \"weight\": -3 }";
+        let list = vec![problem(text, "-3"); 42];
+        assert!(shown(text, &list).ends_with("... and 12 more in a.json\n"));
+    }
+
+    #[test]
+    fn spans_at_the_edge_of_the_text_or_beyond_it_are_no_trouble() {
+        let text = "{\n\"ä\":\n";
+        for (start, end) in [
+            (0, 0),
+            (7, 7),
+            (8, 8),
+            (9, 12),
+            (4, 5),
+            (0, 9),
+            (3, 3),
+            (100, 3),
+        ] {
+            let mut wrong = problem("-3", "-3");
+            wrong.span = Some(start..end);
+            assert!(
+                shown(text, &[wrong]).contains("a weight of -3 N"),
+                "{start}..{end}"
+            );
+        }
+    }
+}

@@ -1,0 +1,32 @@
+//! `drystone completions`: what a shell needs to complete our command line. The only file that names clap_complete.
+
+use clap::{Args, CommandFactory};
+use clap_complete::Shell;
+
+use crate::cli::CommandLine;
+use crate::cli::complaint::Complaint;
+use crate::cli::ending::Ending;
+use crate::cli::terminal::Terminal;
+
+/// Print the completions for a shell
+///
+/// For bash: drystone completions bash > ~/.local/share/bash-completion/completions/drystone
+#[derive(Debug, Args)]
+pub(crate) struct Completions {
+    /// The shell to complete in
+    shell: Shell,
+}
+
+impl Completions {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
+        let mut bytes = Vec::new();
+        clap_complete::generate(
+            self.shell,
+            &mut CommandLine::command(),
+            "drystone",
+            &mut bytes,
+        );
+        terminal.print_bytes(&bytes).map_err(|c| vec![c])?;
+        Ok(Ending::Done)
+    }
+}

@@ -1,0 +1,101 @@
+//! [`Destination`]: where pictures go.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::cli::complaint::Complaint;
+use crate::cli::picture::Format;
+use crate::output::file::{Existing, write_whole};
+
+/// Where a picture goes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Destination {
+    /// Standard output, `-`.
+    Stdout,
+    /// A file of its own.
+    File(PathBuf),
+    /// A file in a folder, named after the scene. The folder is made where there is none.
+    Folder(PathBuf),
+}
+
+impl Destination {
+    /// What `-o` means: `-`, an existing folder, a path with a slash at its end, or a file.
+    pub(crate) fn of(typed: &Path) -> Destination {
+        let text = typed.to_string_lossy();
+        if text == "-" {
+            Destination::Stdout
+        } else if text.ends_with(['/', std::path::MAIN_SEPARATOR]) || typed.is_dir() {
+            Destination::Folder(typed.to_owned())
+        } else {
+            Destination::File(typed.to_owned())
+        }
+    }
+
+    /// The format the picture has there: that of the file's ending, which must agree with the one asked for.
+    pub(crate) fn format(&self, asked: Option<Format>) -> Result<Format, Complaint> {
+        let Destination::File(path) = self else {
+            return Ok(asked.unwrap_or(Format::Svg));
+        };
+        let ending = path
+            .extension()
+            .map(|e| e.to_string_lossy().to_ascii_lowercase());
+        let by_name = match ending.as_deref() {
+            Some("svg") => Format::Svg,
+            Some("png") => Format::Png,
+            _ => {
+                let shown = path.display();
+                return Err(Complaint::CommandLine(format!(
+                    "{shown}: a picture is .svg or .png; for a folder end its name with a slash"
+                )));
+            }
+        };
+        match asked {
+            Some(format) if format != by_name => {
+                let (shown, asked) = (path.display(), format.ending());
+                Err(Complaint::CommandLine(format!(
+                    "{shown} is not what --format {asked} makes; leave one of them out"
+                )))
+            }
+            _ => Ok(by_name),
+        }
+    }
+}
+
+/// Writes all files or none.
+pub(crate) fn write(files: &[(PathBuf, Vec<u8>)], existing: Existing) -> Result<(), Complaint> {
+    write_whole(files, existing).map_err(|unwritten| Complaint::NotWritten {
+        what: unwritten.path.display().to_string(),
+        why: unwritten.why.to_string(),
+    })
+}
+
+/// Makes a folder, and those above it, where there is none.
+pub(crate) fn make_folder(folder: &Path) -> Result<(), Complaint> {
+    fs::create_dir_all(folder).map_err(|error| Complaint::NotWritten {
+        what: folder.display().to_string(),
+        why: error.to_string(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn endings_decide_the_format_and_may_not_contradict() {
+        let file = |name: &str| Destination::of(Path::new(name));
+        assert_eq!(file("a/b.PNG").format(None).ok(), Some(Format::Png));
+        assert_eq!(
+            file("b.svg").format(Some(Format::Svg)).ok(),
+            Some(Format::Svg)
+        );
+        assert!(file("b.svg").format(Some(Format::Png)).is_err());
+        assert!(file("b.jpeg").format(None).is_err());
+        assert!(file("b").format(Some(Format::Png)).is_err());
+        assert_eq!(
+            file("nowhere/").format(Some(Format::Png)).ok(),
+            Some(Format::Png)
+        );
+        assert_eq!(file("-").format(None).ok(), Some(Format::Svg));
+    }
+}

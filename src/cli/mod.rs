@@ -1,0 +1,105 @@
+//! The command line: what a person types, one file per command.
+//!
+//! Makes an exit code, by way of files, standard output and complaints. Results go to standard output, everything else
+//! to standard error. A command reads all of its input and checks it before it writes anything; output files appear
+//! whole or not at all.
+//!
+//! | code | meaning |
+//! |---|---|
+//! | 0 | done; with `check`, or `render --strict`: everything is stable |
+//! | 1 | done, and something is unstable |
+//! | 2 | the input or the command line is wrong; nothing was written |
+//! | 3 | done, nothing is unstable, and something is undecided |
+//! | 4 | the output could not be written |
+//!
+//! Where several apply, the first of 2, 4, 1, 3 that does is the code: wrong input stops everything, and a frame that is
+//! known to fall tells more than one that nobody can decide.
+
+mod check;
+mod complaint;
+mod completions;
+mod destination;
+mod ending;
+mod new;
+mod picture;
+mod progress;
+mod render;
+mod schema;
+mod shapes;
+mod source;
+mod table;
+mod terminal;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use crate::cli::complaint::Complaint;
+use crate::cli::ending::Ending;
+use crate::cli::terminal::{Terminal, Voice};
+
+const BEFORE_YOU_TRUST_IT: &str = "\
+A verdict of 'stable' says that a balance of forces exists: for rigid blocks, laid dry (no cohesion), at rest. A balance \
+that lives on wedging counts as one.
+
+Exit codes: 0 done and stable, 1 something is unstable, 2 the input or the command line is wrong, 3 something is \
+undecided, 4 the output could not be written. A picture of a falling structure is a success: render and shapes end with \
+0 once it is written, unless --strict.";
+
+/// Does a structure of dry-laid blocks stand, how do the forces run, and a figure that shows it.
+#[derive(Debug, Parser)]
+#[command(name = "drystone", version, arg_required_else_help = true, after_long_help = BEFORE_YOU_TRUST_IT)]
+struct CommandLine {
+    #[command(flatten)]
+    voice: Voice,
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Render(render::Render),
+    Check(check::Check),
+    Schema(schema::Schema),
+    New(new::New),
+    Shapes(shapes::Shapes),
+    Completions(completions::Completions),
+}
+
+/// Runs the command line of this process and tells how it ended.
+pub fn run() -> ExitCode {
+    let line = match CommandLine::try_parse() {
+        Ok(line) => line,
+        Err(error) => {
+            // Nobody is left to be told when even the help text cannot be written.
+            let _ = error.print();
+            return if error.use_stderr() {
+                Ending::WrongInput.code()
+            } else {
+                Ending::Done.code()
+            };
+        }
+    };
+    let terminal = Terminal::new(line.voice);
+    let ended = match line.command {
+        Command::Render(render) => render.run(&terminal),
+        Command::Check(check) => check.run(&terminal),
+        Command::Schema(schema) => schema.run(&terminal),
+        Command::New(new) => new.run(&terminal),
+        Command::Shapes(shapes) => shapes.run(&terminal),
+        Command::Completions(completions) => completions.run(&terminal),
+    };
+    let ending = ended.unwrap_or_else(|complaints| complain(&terminal, &complaints));
+    ending.code()
+}
+
+fn complain(terminal: &Terminal, complaints: &[Complaint]) -> Ending {
+    for complaint in complaints {
+        terminal.complain(&complaint.text());
+    }
+    complaints
+        .iter()
+        .map(Complaint::ending)
+        .max()
+        .unwrap_or(Ending::Done)
+}

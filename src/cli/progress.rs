@@ -1,0 +1,166 @@
+//! [`Progress`]: a bar on standard error for work that takes longer than half a second.
+//!
+//! The only file that names indicatif. The bar counts steps of work and is wiped off when the work is done.
+
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::thread::{self, JoinHandle};
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+/// Work shorter than this needs no bar.
+const PATIENCE: Duration = Duration::from_millis(500);
+
+/// Work that is under way.
+#[derive(Debug)]
+pub(crate) struct Progress {
+    bar: ProgressBar,
+    waiter: Option<(Sender<()>, JoinHandle<()>)>,
+}
+
+impl Progress {
+    /// Work of so many steps. Where `shown` is false nothing is ever drawn.
+    pub(crate) fn begin(steps: usize, shown: Shown) -> Progress {
+        match shown {
+            Shown::Never => Progress {
+                bar: ProgressBar::hidden(),
+                waiter: None,
+            },
+            Shown::WhenLong => Progress::on(steps, PATIENCE, ProgressDrawTarget::stderr()),
+        }
+    }
+
+    fn on(steps: usize, patience: Duration, target: ProgressDrawTarget) -> Progress {
+        let bar = ProgressBar::with_draw_target(Some(steps as u64), ProgressDrawTarget::hidden());
+        if let Ok(style) =
+            ProgressStyle::with_template("{spinner} {msg} {wide_bar} {pos}/{len} {elapsed}")
+        {
+            bar.set_style(style);
+        }
+        let (done, over) = channel();
+        let waiting = bar.clone();
+        let waiter = thread::spawn(move || {
+            if over.recv_timeout(patience) == Err(RecvTimeoutError::Timeout) {
+                waiting.set_draw_target(target);
+                // A solve of many seconds is one step: the bar must be seen to live meanwhile.
+                waiting.enable_steady_tick(Duration::from_millis(100));
+                waiting.tick();
+            }
+        });
+        Progress {
+            bar,
+            waiter: Some((done, waiter)),
+        }
+    }
+
+    /// Says what is being done.
+    pub(crate) fn doing(&self, what: &str) {
+        self.bar.set_message(what.to_owned());
+    }
+
+    /// One step is done.
+    pub(crate) fn step(&self) {
+        self.bar.inc(1);
+    }
+}
+
+/// Whether a bar may be seen at all.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Shown {
+    /// Nobody looks, or wants to.
+    Never,
+    /// When the work takes long.
+    WhenLong,
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        if let Some((done, waiter)) = self.waiter.take() {
+            drop(done);
+            // The waiter only ever waits; if it could not, there is no bar to wipe off either.
+            let _ = waiter.join();
+        }
+        self.bar.finish_and_clear();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io;
+    use std::sync::{Arc, Mutex};
+
+    use indicatif::TermLike;
+
+    use super::*;
+
+    #[derive(Clone, Debug, Default)]
+    struct Paper(Arc<Mutex<String>>);
+
+    impl Paper {
+        fn put(&self, text: &str) -> io::Result<()> {
+            self.0.lock().expect("never poisoned").push_str(text);
+            Ok(())
+        }
+
+        fn text(&self) -> String {
+            self.0.lock().expect("never poisoned").clone()
+        }
+    }
+
+    impl TermLike for Paper {
+        fn width(&self) -> u16 {
+            80
+        }
+        fn move_cursor_up(&self, _: usize) -> io::Result<()> {
+            Ok(())
+        }
+        fn move_cursor_down(&self, _: usize) -> io::Result<()> {
+            Ok(())
+        }
+        fn move_cursor_right(&self, _: usize) -> io::Result<()> {
+            Ok(())
+        }
+        fn move_cursor_left(&self, _: usize) -> io::Result<()> {
+            Ok(())
+        }
+        fn write_line(&self, text: &str) -> io::Result<()> {
+            self.put(text)
+        }
+        fn write_str(&self, text: &str) -> io::Result<()> {
+            self.put(text)
+        }
+        fn clear_line(&self) -> io::Result<()> {
+            Ok(())
+        }
+        fn flush(&self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    fn drawn(patience: Duration, work: Duration) -> String {
+        let paper = Paper::default();
+        let progress = Progress::on(
+            3,
+            patience,
+            ProgressDrawTarget::term_like(Box::new(paper.clone())),
+        );
+        progress.doing("wall.json");
+        progress.step();
+        thread::sleep(work);
+        progress.step();
+        drop(progress);
+        paper.text()
+    }
+
+    #[test]
+    fn short_work_draws_nothing() {
+        assert_eq!(drawn(Duration::from_secs(60), Duration::ZERO), "");
+    }
+
+    #[test]
+    fn long_work_draws_a_bar_with_its_name() {
+        let drawn = drawn(Duration::ZERO, Duration::from_millis(300));
+        assert!(drawn.contains("wall.json"), "{drawn:?}");
+        assert!(drawn.contains("1/3"), "{drawn:?}");
+    }
+}

@@ -1,0 +1,257 @@
+//! `drystone render`: scenes in, figures out.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
+
+use crate::analysis::{Analysis, Verdict};
+use crate::cli::complaint::Complaint;
+use crate::cli::destination::{self, Destination};
+use crate::cli::ending::Ending;
+use crate::cli::picture::{Format, Picture};
+use crate::cli::progress::{Progress, Shown};
+use crate::cli::source::{self, FrameChoice, Source};
+use crate::cli::terminal::Terminal;
+use crate::figure;
+use crate::output::file::Existing;
+use crate::report::result::word;
+
+/// Draw scenes with their forces, and what fails, as SVG or PNG
+#[derive(Debug, Args)]
+pub(crate) struct Render {
+    /// Scene files; - reads standard input
+    #[arg(required = true, value_name = "SCENE")]
+    scenes: Vec<PathBuf>,
+    /// Where to: a .svg or .png file, a folder (existing, or ending in a slash), or - for standard output
+    #[arg(short, long, value_name = "OUT")]
+    output: PathBuf,
+    #[command(flatten)]
+    picture: Picture,
+    /// One resulting arrow per interface and block, or its normal and friction apart
+    #[arg(long, value_enum, default_value = "resultant")]
+    style: Style,
+    /// What is one unit long: the largest arrow drawn, or the largest single unknown as in the source
+    #[arg(long, value_enum, default_value = "drawn")]
+    normalise: Normalise,
+    /// Arrows to one scale in each panel, or in the whole strip
+    #[arg(long, value_enum, default_value = "panel")]
+    arrow_scale: ArrowScale,
+    /// Panels per row of a strip
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    columns: Option<u16>,
+    /// Draw one frame only, by number from 1 or by its letter in the strip
+    #[arg(long, value_name = "N")]
+    frame: Option<FrameChoice>,
+    /// End with 1 or 3, as check does, where something is unstable or undecided
+    #[arg(long)]
+    strict: bool,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Style {
+    Resultant,
+    Components,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Normalise {
+    Drawn,
+    Source,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum ArrowScale {
+    Panel,
+    Strip,
+}
+
+/// A figure and what it shows.
+struct Rendered {
+    bytes: Vec<u8>,
+    ending: Ending,
+    summary: String,
+}
+
+impl Render {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
+        let destination = Destination::of(&self.output);
+        let format = destination
+            .format(self.picture.asked())
+            .map_err(|c| vec![c])?;
+        self.picture.check(format).map_err(|c| vec![c])?;
+        self.check_count(&destination, format, terminal)
+            .map_err(|c| vec![c])?;
+        let sources = source::read(&self.scenes, self.frame)?;
+        let paths = paths(&destination, &sources, format).map_err(|c| vec![c])?;
+
+        let shown = if terminal.shows_progress() {
+            Shown::WhenLong
+        } else {
+            Shown::Never
+        };
+        let progress = Progress::begin(2 * sources.len(), shown);
+        let rendered: Vec<Result<Rendered, Complaint>> = sources
+            .par_iter()
+            .map(|source| self.render(source, format, &progress))
+            .collect();
+        drop(progress);
+        let rendered = all(rendered)?;
+
+        let ending = rendered
+            .iter()
+            .map(|r| r.ending)
+            .max()
+            .unwrap_or(Ending::Done);
+        let summaries: Vec<String> = rendered.iter().map(|r| r.summary.clone()).collect();
+        let bytes = rendered.into_iter().map(|r| r.bytes);
+        if let Destination::Stdout = destination {
+            for picture in bytes {
+                terminal.print_bytes(&picture).map_err(|c| vec![c])?;
+            }
+        } else {
+            if let Destination::Folder(folder) = &destination {
+                destination::make_folder(folder).map_err(|c| vec![c])?;
+            }
+            let files: Vec<(PathBuf, Vec<u8>)> = paths.into_iter().zip(bytes).collect();
+            destination::write(&files, Existing::Replace).map_err(|c| vec![c])?;
+            for ((path, _), summary) in files.iter().zip(summaries) {
+                terminal.note(&format!("{}: {summary}", path.display()));
+            }
+        }
+        Ok(if self.strict { ending } else { Ending::Done })
+    }
+
+    /// What can be refused before any scene is read.
+    fn check_count(
+        &self,
+        destination: &Destination,
+        format: Format,
+        terminal: &Terminal,
+    ) -> Result<(), Complaint> {
+        let why = match destination {
+            Destination::File(path) if self.scenes.len() > 1 => {
+                let (count, shown) = (self.scenes.len(), path.display());
+                format!(
+                    "{count} scenes do not go into the one file {shown}; give a folder, its name ending in a slash"
+                )
+            }
+            Destination::Stdout if self.scenes.len() > 1 => {
+                "only one picture at a time goes to standard output; give a folder".into()
+            }
+            Destination::Stdout if format == Format::Png && terminal.is_watched() => {
+                "a PNG is not for reading on a terminal; send it to a file with -o".into()
+            }
+            _ => return Ok(()),
+        };
+        Err(Complaint::CommandLine(why))
+    }
+
+    fn render(
+        &self,
+        source: &Source,
+        format: Format,
+        progress: &Progress,
+    ) -> Result<Rendered, Complaint> {
+        progress.doing(&source.name());
+        let analysis = Analysis::of(&source.scene);
+        progress.step();
+        let drawing = figure::forces(&analysis, &self.options());
+        let bytes = self.picture.bytes(&drawing, format)?;
+        progress.step();
+        Ok(Rendered {
+            bytes,
+            ending: Ending::of(&analysis),
+            summary: summary(&analysis),
+        })
+    }
+
+    fn options(&self) -> figure::Options {
+        figure::Options {
+            style: match self.style {
+                Style::Resultant => figure::ForceStyle::Resultant,
+                Style::Components => figure::ForceStyle::Components,
+            },
+            normalisation: match self.normalise {
+                Normalise::Drawn => figure::Normalisation::Drawn,
+                Normalise::Source => figure::Normalisation::Source,
+            },
+            scale: match self.arrow_scale {
+                ArrowScale::Panel => figure::ArrowScale::Panel,
+                ArrowScale::Strip => figure::ArrowScale::Strip,
+            },
+            columns: self.columns.map(usize::from),
+            ..figure::Options::default()
+        }
+    }
+}
+
+/// Every result, or every complaint.
+fn all<T>(results: Vec<Result<T, Complaint>>) -> Result<Vec<T>, Vec<Complaint>> {
+    let mut good = Vec::with_capacity(results.len());
+    let mut complaints = Vec::new();
+    for result in results {
+        match result {
+            Ok(value) => good.push(value),
+            Err(complaint) => complaints.push(complaint),
+        }
+    }
+    if complaints.is_empty() {
+        Ok(good)
+    } else {
+        Err(complaints)
+    }
+}
+
+/// Where each scene's figure goes, in the scenes' order.
+fn paths(
+    destination: &Destination,
+    sources: &[Source],
+    format: Format,
+) -> Result<Vec<PathBuf>, Complaint> {
+    match destination {
+        Destination::Stdout => Ok(Vec::new()),
+        Destination::File(path) => Ok(vec![path.clone()]),
+        Destination::Folder(folder) => {
+            let mut paths: Vec<PathBuf> = Vec::new();
+            for source in sources {
+                let path = folder.join(format!("{}.{}", source.stem(), format.ending()));
+                if let Some(first) = paths.iter().position(|p| *p == path) {
+                    let (a, b, shown) = (sources[first].name(), source.name(), path.display());
+                    return Err(Complaint::CommandLine(format!(
+                        "{a} and {b} would both become {shown}; rename one"
+                    )));
+                }
+                paths.push(path);
+            }
+            Ok(paths)
+        }
+    }
+}
+
+/// `6 frames: 5 stable, 1 unstable`.
+fn summary(analysis: &Analysis) -> String {
+    let count = |verdict| {
+        analysis
+            .frames
+            .iter()
+            .filter(|f| f.verdict == verdict)
+            .count()
+    };
+    let parts: Vec<String> = [Verdict::Stable, Verdict::Unstable, Verdict::Undecided]
+        .into_iter()
+        .filter(|v| count(*v) > 0)
+        .map(|v| (count(v), word(v)))
+        .map(|(n, word)| {
+            if analysis.frames.len() == 1 {
+                word.into()
+            } else {
+                format!("{n} {word}")
+            }
+        })
+        .collect();
+    match analysis.frames.len() {
+        1 => parts.join(", "),
+        n => format!("{n} frames: {}", parts.join(", ")),
+    }
+}

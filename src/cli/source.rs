@@ -1,0 +1,168 @@
+//! Reads the scenes a command was given, all of them before anything else happens.
+
+use std::ffi::OsStr;
+use std::fs;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use crate::cli::complaint::Complaint;
+use crate::scene::Scene;
+
+/// A scene and where it came from.
+#[derive(Debug)]
+pub(crate) struct Source {
+    /// The path as typed, `-` for standard input.
+    pub(crate) path: PathBuf,
+    /// The checked scene.
+    pub(crate) scene: Scene,
+}
+
+impl Source {
+    /// The file's name without folders and ending; `scene` for standard input.
+    pub(crate) fn stem(&self) -> String {
+        if self.path == Path::new("-") {
+            return "scene".into();
+        }
+        let stem = self.path.file_stem().unwrap_or(OsStr::new("scene"));
+        stem.to_string_lossy().into_owned()
+    }
+
+    /// How a person is told which scene is meant.
+    pub(crate) fn name(&self) -> String {
+        name(&self.path)
+    }
+
+    /// The scene cut down to one of its frames.
+    fn only_frame(&mut self, choice: FrameChoice) -> Result<(), Complaint> {
+        let count = self.scene.frames.len();
+        let FrameChoice(number) = choice;
+        if number >= count {
+            let has = if count == 1 {
+                "one frame".into()
+            } else {
+                format!("{count} frames")
+            };
+            let why = format!(
+                "there is no frame {} in {}: it has {has}",
+                number + 1,
+                self.name()
+            );
+            return Err(Complaint::CommandLine(why));
+        }
+        self.scene.frames = vec![self.scene.frames[number].clone()];
+        Ok(())
+    }
+}
+
+/// A frame asked for, counted from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct FrameChoice(usize);
+
+impl FromStr for FrameChoice {
+    type Err = String;
+
+    /// `1`, `2`, … or `a`, `b`, … `z`, `aa`, …, as the strip letters its panels.
+    fn from_str(typed: &str) -> Result<FrameChoice, String> {
+        let number = match typed.parse::<usize>() {
+            Ok(number) => Some(number),
+            Err(_)
+                if typed.is_empty()
+                    || typed.len() > 4
+                    || !typed.bytes().all(|b| b.is_ascii_lowercase()) =>
+            {
+                None
+            }
+            Err(_) => Some(
+                typed
+                    .bytes()
+                    .fold(0, |sum, b| 26 * sum + usize::from(b - b'a') + 1),
+            ),
+        };
+        match number {
+            Some(number) if number > 0 => Ok(FrameChoice(number - 1)),
+            _ => Err("give a frame's number, from 1, or its letter".into()),
+        }
+    }
+}
+
+/// All the scenes, or everything that is wrong with any of them.
+pub(crate) fn read(
+    paths: &[PathBuf],
+    frame: Option<FrameChoice>,
+) -> Result<Vec<Source>, Vec<Complaint>> {
+    if paths.iter().filter(|p| *p == Path::new("-")).count() > 1 {
+        return Err(vec![Complaint::CommandLine(
+            "standard input (-) can be read only once".into(),
+        )]);
+    }
+    let mut sources = Vec::new();
+    let mut complaints = Vec::new();
+    for path in paths {
+        let source = read_one(path).and_then(|mut source| match frame {
+            Some(choice) => source.only_frame(choice).map(|()| source),
+            None => Ok(source),
+        });
+        match source {
+            Ok(source) => sources.push(source),
+            Err(complaint) => complaints.push(complaint),
+        }
+    }
+    if complaints.is_empty() {
+        Ok(sources)
+    } else {
+        Err(complaints)
+    }
+}
+
+fn read_one(path: &Path) -> Result<Source, Complaint> {
+    let bytes = if path == Path::new("-") {
+        let mut bytes = Vec::new();
+        io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes)
+    } else {
+        fs::read(path)
+    };
+    let bytes = bytes.map_err(|error| Complaint::NotRead {
+        what: name(path),
+        why: error.to_string(),
+    })?;
+    let scene = Scene::from_slice(&bytes).map_err(|problems| Complaint::Scene {
+        name: name(path),
+        problems,
+    })?;
+    Ok(Source {
+        path: path.to_owned(),
+        scene,
+    })
+}
+
+fn name(path: &Path) -> String {
+    if path == Path::new("-") {
+        "standard input".into()
+    } else {
+        path.display().to_string()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_are_chosen_by_number_or_letter() {
+        for (typed, number) in [
+            ("1", 0),
+            ("12", 11),
+            ("a", 0),
+            ("f", 5),
+            ("z", 25),
+            ("aa", 26),
+            ("ab", 27),
+        ] {
+            assert_eq!(typed.parse(), Ok(FrameChoice(number)), "{typed}");
+        }
+        for typed in ["0", "", "-1", "A", "1.5", "abcde", "é"] {
+            assert!(typed.parse::<FrameChoice>().is_err(), "{typed}");
+        }
+    }
+}

@@ -1,0 +1,326 @@
+//! A person's table of an analysis: a line per frame, and under it what fails, in words with numbers and units.
+
+use std::fmt::Write;
+
+use clap::builder::styling::{AnsiColor, Style};
+
+use crate::analysis::{Analysis, Failure, FrameAnalysis, Proof, Verdict};
+use crate::cli::terminal::visible;
+use crate::figure::letter;
+use crate::geometry::Point;
+use crate::report::result::{Timing, word};
+use crate::scene::{BlockId, RobotId, Scene};
+
+/// What a verdict says and what it does not, for under the tables.
+pub(crate) const LIMITS: &str = "\
+stable    some set of admissible forces balances every block. Rigid blocks, laid dry, at rest; a wedged balance counts.
+forces    sum of all normal, friction and robot forces; sticking: what would have to be glued to make up for the rest
+friction  most of it that is used anywhere; robots: most of a limit that is used
+proof     in parts of the largest weight; the motion's fastest point has speed 1
+";
+
+/// So many failures of a frame are told in words; the figure and the JSON have them all.
+const TOLD: usize = 12;
+/// A longer title is cut.
+const TITLE: usize = 40;
+
+/// The table of one scene.
+pub(crate) fn of(name: &str, analysis: &Analysis, timing: Timing) -> String {
+    let scene = analysis.scene;
+    let bold = Style::new().bold();
+    let mut out = format!("{bold}{}{bold:#}", visible(name));
+    if !scene.title.is_empty() {
+        let _ = write!(out, "  {}", visible(&scene.title));
+    }
+    out.push('\n');
+    let rows: Vec<[String; 7]> = scene
+        .frames
+        .iter()
+        .zip(&analysis.frames)
+        .enumerate()
+        .map(|(i, (step, f))| row(label(scene, i, &step.title), f, timing))
+        .collect();
+    let heads = [
+        "frame", "verdict", "forces", "sticking", "friction", "robots", "proof",
+    ]
+    .map(String::from);
+    let width = |column: usize| {
+        let cells = rows
+            .iter()
+            .chain([&heads])
+            .map(|row| row[column].chars().count());
+        cells.max().unwrap_or(0)
+    };
+    let widths: [usize; 7] = std::array::from_fn(width);
+    let dim = Style::new().dimmed();
+    let _ = writeln!(out, "  {dim}{}{dim:#}", line(&heads, &widths, Style::new()));
+    for (frame, cells) in analysis.frames.iter().zip(&rows) {
+        let _ = writeln!(out, "  {}", line(cells, &widths, style(frame.verdict)));
+        for remark in remarks(scene, frame) {
+            let _ = writeln!(out, "      {}", visible(&remark));
+        }
+    }
+    out
+}
+
+fn style(verdict: Verdict) -> Style {
+    let colour = match verdict {
+        Verdict::Stable => AnsiColor::Green,
+        Verdict::Unstable => AnsiColor::Red,
+        Verdict::Undecided => AnsiColor::Yellow,
+    };
+    colour.on_default().bold()
+}
+
+/// Words to the left, numbers to the right of their columns.
+fn line(cells: &[String; 7], widths: &[usize; 7], verdict: Style) -> String {
+    let mut out = String::new();
+    for (column, (cell, width)) in cells.iter().zip(widths).enumerate() {
+        let gap = " ".repeat(width - cell.chars().count());
+        let _ = match column {
+            0 => write!(out, "{cell}{gap}"),
+            1 => write!(out, "   {verdict}{cell}{verdict:#}{gap}"),
+            6 => write!(out, "   {cell}"),
+            _ => write!(out, "   {gap}{cell}"),
+        };
+    }
+    out
+}
+
+/// A frame by its letter, where it needs one, and its title.
+fn label(scene: &Scene, number: usize, title: &str) -> String {
+    let mut title: String = visible(title).replace('\n', " ");
+    if title.chars().count() > TITLE {
+        title = title.chars().take(TITLE - 1).chain(['…']).collect();
+    }
+    match (scene.frames.len(), title.is_empty()) {
+        (1, true) => "all".into(),
+        (1, false) => title,
+        _ => format!("({}) {title}", letter(number)).trim_end().into(),
+    }
+}
+
+fn row(label: String, frame: &FrameAnalysis, timing: Timing) -> [String; 7] {
+    let friction = frame
+        .contacts
+        .iter()
+        .map(|c| c.friction_used)
+        .fold(0.0, f64::max);
+    let limit = frame
+        .robots
+        .iter()
+        .map(|r| r.limit_used)
+        .fold(0.0, f64::max);
+    let mut proof = proof(frame.proof);
+    if timing == Timing::Included {
+        let _ = write!(proof, ", {}", duration(frame.solve.seconds));
+    }
+    [
+        label,
+        word(frame.verdict).into(),
+        format!("{} N", digits(frame.total_force)),
+        if frame.total_sticking == 0.0 {
+            "none".into()
+        } else {
+            format!("{} N", digits(frame.total_sticking))
+        },
+        percent(friction),
+        if frame.robots.is_empty() {
+            "no robot".into()
+        } else {
+            percent(limit)
+        },
+        proof,
+    ]
+}
+
+fn proof(proof: Proof) -> String {
+    match proof {
+        Proof::Forces {
+            worst_imbalance,
+            worst_pull,
+            worst_slip,
+            ..
+        } => {
+            format!(
+                "forces balance to {}",
+                rough(worst_imbalance.max(worst_pull).max(worst_slip))
+            )
+        }
+        Proof::Mechanism {
+            power,
+            worst_violation,
+        } => {
+            format!(
+                "motion of power {} true to {}",
+                digits(power),
+                rough(worst_violation)
+            )
+        }
+    }
+}
+
+/// One digit is enough to see how small a number is.
+fn rough(x: f64) -> String {
+    if x == 0.0 {
+        "0".into()
+    } else {
+        format!("{x:.0e}")
+    }
+}
+
+/// What a reader needs to know of a frame beyond its line, a sentence each.
+fn remarks(scene: &Scene, frame: &FrameAnalysis) -> Vec<String> {
+    let mut remarks: Vec<String> = frame
+        .failures
+        .iter()
+        .take(TOLD)
+        .map(|f| sentence(scene, f))
+        .collect();
+    if frame.failures.len() > TOLD {
+        remarks.push(format!("and {} more", frame.failures.len() - TOLD));
+    }
+    if !frame.unsupported.is_empty() {
+        let names: Vec<&str> = frame
+            .unsupported
+            .iter()
+            .take(TOLD)
+            .map(|id| scene.blocks[id.0].id.as_str())
+            .collect();
+        let more = frame.unsupported.len() - names.len();
+        let more = if more > 0 {
+            format!(" and {more} more")
+        } else {
+            String::new()
+        };
+        remarks.push(format!(
+            "nothing carries {}{more}: no way from there to the ground or to a robot",
+            names.join(", ")
+        ));
+    }
+    if !frame.doubt.is_empty() {
+        remarks.push(frame.doubt.clone());
+    }
+    remarks.extend(frame.notices.iter().map(|n| format!("note: {n}")));
+    remarks
+}
+
+/// A failure in words.
+fn sentence(scene: &Scene, failure: &Failure) -> String {
+    let robot = |id: RobotId| scene.robots[id.0].id.as_str();
+    let block = |id: BlockId| scene.blocks[id.0].id.as_str();
+    match *failure {
+        Failure::Tension {
+            bodies: [a, b],
+            at,
+            force,
+        } => {
+            let (a, b, at) = (scene.name(a), scene.name(b), place(at));
+            format!(
+                "{a} comes off {b} at {at}: holding on would take a pull of {} N",
+                digits(force.norm())
+            )
+        }
+        Failure::Friction {
+            bodies: [a, b],
+            at,
+            force,
+        } => {
+            let (a, b, at) = (scene.name(a), scene.name(b), place(at));
+            format!(
+                "{a} slides along {b} at {at}: holding on would take {} N more than friction gives",
+                digits(force.norm())
+            )
+        }
+        Failure::RobotForce {
+            robot: r,
+            block: held,
+            force,
+            ..
+        } => {
+            let (x, y) = (digits(force.x), digits(force.y));
+            format!(
+                "robot {} cannot hold {}: it would have to give ({x}, {y}) N beyond its limits",
+                robot(r),
+                block(held)
+            )
+        }
+        Failure::RobotTorque {
+            robot: r,
+            block: held,
+            torque,
+            ..
+        } => {
+            let torque = digits(torque);
+            format!(
+                "robot {} cannot hold {}: it would have to give {torque} N·m beyond its limit",
+                robot(r),
+                block(held)
+            )
+        }
+    }
+}
+
+fn place(p: Point) -> String {
+    format!("({}, {}) m", digits(p.x), digits(p.y))
+}
+
+fn percent(share: f64) -> String {
+    format!("{} %", digits((share * 1000.0).round() / 10.0))
+}
+
+fn duration(seconds: f64) -> String {
+    if seconds < 1.0 {
+        format!("{} ms", digits(seconds * 1e3))
+    } else {
+        format!("{} s", digits(seconds))
+    }
+}
+
+/// Four significant digits, without zeros that say nothing.
+fn digits(x: f64) -> String {
+    let size = x.abs();
+    if x == 0.0 {
+        return "0".into();
+    }
+    if !(1e-3..1e6).contains(&size) {
+        return format!("{x:.3e}");
+    }
+    let before = if size >= 1.0 {
+        libm::log10(size).floor() as usize + 1
+    } else {
+        0
+    };
+    let text = format!("{x:.*}", 4usize.saturating_sub(before));
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').into()
+    } else {
+        text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short_and_keep_four_digits() {
+        let cases = [
+            (0.0, "0"),
+            (-0.0, "0"),
+            (43.371_94, "43.37"),
+            (24.0, "24"),
+            (1234.56, "1235"),
+            (-0.5, "-0.5"),
+            (0.054_12, "0.0541"),
+            (9.999_99, "10"),
+            (123_456.0, "123456"),
+            (1e9, "1.000e9"),
+            (1e-6, "1.000e-6"),
+            (f64::INFINITY, "inf"),
+        ];
+        for (x, text) in cases {
+            assert_eq!(digits(x), text, "{x}");
+        }
+    }
+}

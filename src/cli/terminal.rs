@@ -1,0 +1,132 @@
+//! [`Terminal`]: the two streams, who may be quiet on them, and whether they carry colour.
+//!
+//! The only file that names anstream. Escape codes are written everywhere and taken out here, where a stream does not want
+//! them: because it is no terminal, because `NO_COLOR` is set, or because `--color` says so, which beats both.
+
+use std::io::{self, IsTerminal, Write};
+
+use anstream::ColorChoice;
+use clap::{Args, ValueEnum};
+
+use crate::cli::complaint::Complaint;
+
+/// How loud and how colourful the program is.
+#[derive(Clone, Copy, Debug, Args)]
+pub(crate) struct Voice {
+    /// Say nothing but errors; check then answers by its exit code alone
+    #[arg(long, short, global = true)]
+    quiet: bool,
+    /// Colour the text: auto looks at the terminal and at NO_COLOR
+    #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
+    color: Colour,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Colour {
+    Auto,
+    Always,
+    Never,
+}
+
+/// Standard output and standard error.
+#[derive(Debug)]
+pub(crate) struct Terminal {
+    quiet: bool,
+}
+
+impl Terminal {
+    /// The process's streams, set to a voice.
+    pub(crate) fn new(voice: Voice) -> Terminal {
+        let choice = match voice.color {
+            Colour::Auto => ColorChoice::Auto,
+            Colour::Always => ColorChoice::Always,
+            Colour::Never => ColorChoice::Never,
+        };
+        choice.write_global();
+        Terminal { quiet: voice.quiet }
+    }
+
+    /// Whether only errors are wanted.
+    pub(crate) fn is_quiet(&self) -> bool {
+        self.quiet
+    }
+
+    /// Whether a progress bar would be seen and is wanted.
+    pub(crate) fn shows_progress(&self) -> bool {
+        !self.quiet && io::stderr().is_terminal()
+    }
+
+    /// Whether somebody looks at standard output, who would rather not look at the bytes of a PNG.
+    pub(crate) fn is_watched(&self) -> bool {
+        io::stdout().is_terminal()
+    }
+
+    /// Writes a result as text.
+    pub(crate) fn print(&self, text: &str) -> Result<(), Complaint> {
+        let mut stream = anstream::stdout().lock();
+        told(
+            stream
+                .write_all(text.as_bytes())
+                .and_then(|()| stream.flush()),
+        )
+    }
+
+    /// Writes a result as it is.
+    pub(crate) fn print_bytes(&self, bytes: &[u8]) -> Result<(), Complaint> {
+        let mut stream = io::stdout().lock();
+        told(stream.write_all(bytes).and_then(|()| stream.flush()))
+    }
+
+    /// Says something useful that is no result, unless asked to be quiet.
+    pub(crate) fn note(&self, text: &str) {
+        if !self.quiet {
+            self.complain(text);
+        }
+    }
+
+    /// Says what is wrong.
+    pub(crate) fn complain(&self, text: &str) {
+        let mut stream = anstream::stderr().lock();
+        // With standard error gone, only the exit code is left to tell.
+        let _ = writeln!(stream, "{}", text.trim_end()).and_then(|()| stream.flush());
+    }
+}
+
+/// A reader that closes the pipe has read enough: that is no failure of ours.
+fn told(written: io::Result<()>) -> Result<(), Complaint> {
+    match written {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Complaint::NotWritten {
+            what: "standard output".into(),
+            why: error.to_string(),
+        }),
+        _ => Ok(()),
+    }
+}
+
+/// Text from a file, made harmless for a terminal: control characters become marks that can be seen.
+///
+/// Every mark is as many bytes long as what it stands for, so that byte ranges stay where they are.
+pub(crate) fn visible(text: &str) -> String {
+    text.chars()
+        .map(|c| match c {
+            '\n' | '\t' => c,
+            c if c.is_control() && c.len_utf8() == 1 => '?',
+            c if c.is_control() => '¿',
+            // Two that break lines, and are no control characters by name.
+            '\u{2028}' | '\u{2029}' => '␤',
+            c => c,
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn control_characters_become_visible_and_keep_their_length() {
+        let text = "a\u{1b}[31m\tb\n\u{9b}c\r\u{2028}";
+        assert_eq!(visible(text), "a?[31m\tb\n¿c?␤");
+        assert_eq!(visible(text).len(), text.len());
+    }
+}

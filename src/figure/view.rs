@@ -1,0 +1,85 @@
+//! [`shown`]: what each frame shows of the scene. Ground that reaches far beyond the blocks is cut.
+
+use super::arrow::Marks;
+use super::stage::DISC;
+use crate::drawing::arrow::{HEAD_LENGTH, HEAD_WIDTH};
+use crate::geometry::{Bounds, Point, Vector};
+use crate::scene::{BlockId, Frame, Scene};
+
+/// Ground is shown this far beyond the blocks, as a share of the structure's diagonal, and at least one unit edge.
+const BEYOND: f64 = 0.12;
+/// A piece of ground of at most so many unit edges each way, near the structure, is shown whole.
+const PIECE: f64 = 3.0;
+/// Room around all that is shown, in unit edges.
+const ROOM: f64 = 0.08;
+
+/// For each frame that has `marks` a box around its blocks, plans, arrows, robots, and the ground near any frame's blocks.
+pub(crate) fn shown(scene: &Scene, marks: &[Marks], unit: f64) -> Vec<Bounds> {
+    let ground = ground(scene, unit);
+    let frame = |(frame, marks): (&Frame, &Marks)| {
+        let blocks = blocks(scene, frame).map(|id| scene.blocks[id.0].body.polygon.bounds());
+        let arrows = marks.arrows.iter().filter_map(|arrow| {
+            let length = arrow.vector.norm();
+            let tip = arrow.at + arrow.vector * (1.0 + HEAD_LENGTH * arrow.width / length);
+            let ends = Bounds::of([arrow.at, tip]).filter(|_| length > 0.0);
+            ends.map(|b| b.grown(HEAD_WIDTH * arrow.width / 2.0))
+        });
+        let turns = marks.turns.iter().map(|turn| around(turn.at, 0.7 * unit));
+        let robots = frame.holds.iter().map(|hold| around(hold.at, DISC * unit));
+        let all = blocks
+            .chain(arrows)
+            .chain(turns)
+            .chain(robots)
+            .chain(ground);
+        all.reduce(Bounds::union)
+            .unwrap_or(around(Point::origin(), unit))
+            .grown(ROOM * unit)
+    };
+    scene.frames.iter().zip(marks).map(frame).collect()
+}
+
+/// The blocks that a frame shows, placed and planned.
+fn blocks<'a>(scene: &'a Scene, frame: &'a Frame) -> impl Iterator<Item = BlockId> + 'a {
+    let planned = frame.plans.iter().map(|plan| plan.block);
+    frame
+        .placed
+        .iter()
+        .copied()
+        .chain(planned)
+        .filter(|id| id.0 < scene.blocks.len())
+}
+
+/// A box around the ground that is shown, `None` for no ground near.
+fn ground(scene: &Scene, unit: f64) -> Option<Bounds> {
+    let ground = || scene.ground.iter().map(|g| g.body.polygon.bounds());
+    let seen = scene.frames.iter().flat_map(|frame| blocks(scene, frame));
+    let structure = seen
+        .map(|id| scene.blocks[id.0].body.polygon.bounds())
+        .reduce(Bounds::union);
+    let Some(structure) = structure else {
+        return ground().reduce(Bounds::union);
+    };
+    let reach = structure.diagonal().max(unit);
+    let near = structure.grown((BEYOND * reach).max(unit));
+    let far = structure.grown(reach);
+    let shown = |part: Bounds| {
+        let small = part.width() <= PIECE * unit && part.height() <= PIECE * unit;
+        if small && far.meets(part) {
+            Some(part)
+        } else {
+            common(near, part)
+        }
+    };
+    ground().filter_map(shown).reduce(Bounds::union)
+}
+
+fn around(p: Point, radius: f64) -> Bounds {
+    Bounds { min: p, max: p }.grown(radius)
+}
+
+/// What two boxes have in common, `None` where they are apart.
+fn common(a: Bounds, b: Bounds) -> Option<Bounds> {
+    let (min, max) = (a.min.sup(&b.min), a.max.inf(&b.max));
+    let size: Vector = max - min;
+    (size.x >= 0.0 && size.y >= 0.0).then_some(Bounds { min, max })
+}

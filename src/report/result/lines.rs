@@ -1,0 +1,72 @@
+//! [`Lines`]: how a result is broken into lines, so that a person can look through it too.
+
+use std::io;
+
+use serde_json::ser::Formatter;
+
+/// The result and its frames have a line per property; what lies deeper has one line each.
+#[derive(Default)]
+pub(super) struct Lines {
+    /// For every open bracket: whether it is an array, and whether it has broken into lines.
+    open: Vec<(bool, bool)>,
+    objects: usize,
+}
+
+impl Lines {
+    fn line<W: ?Sized + io::Write>(&self, writer: &mut W) -> io::Result<()> {
+        writer.write_all(b"\n")?;
+        (0..self.open.iter().filter(|o| o.1).count()).try_for_each(|_| writer.write_all(b"  "))
+    }
+
+    fn close<W: ?Sized + io::Write>(&mut self, writer: &mut W, bracket: &[u8]) -> io::Result<()> {
+        if let Some((_, true)) = self.open.pop() {
+            self.line(writer)?;
+        }
+        writer.write_all(bracket)
+    }
+}
+
+impl Formatter for Lines {
+    fn begin_array<W: ?Sized + io::Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.open.push((true, false));
+        writer.write_all(b"[")
+    }
+
+    fn end_array<W: ?Sized + io::Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.close(writer, b"]")
+    }
+
+    fn begin_object<W: ?Sized + io::Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        if let Some(array) = self.open.last_mut().filter(|o| o.0) {
+            array.1 = true;
+            self.line(writer)?;
+        }
+        self.open.push((false, self.objects < 2));
+        self.objects += 1;
+        writer.write_all(b"{")
+    }
+
+    fn end_object<W: ?Sized + io::Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.objects -= 1;
+        self.close(writer, b"}")
+    }
+
+    fn begin_object_key<W: ?Sized + io::Write>(
+        &mut self,
+        writer: &mut W,
+        first: bool,
+    ) -> io::Result<()> {
+        if !first {
+            writer.write_all(b",")?;
+        }
+        match self.open.last() {
+            Some((_, true)) => self.line(writer),
+            _ if first => Ok(()),
+            _ => writer.write_all(b" "),
+        }
+    }
+
+    fn begin_object_value<W: ?Sized + io::Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        writer.write_all(b": ")
+    }
+}

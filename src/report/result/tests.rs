@@ -1,0 +1,230 @@
+//! The contract, letter by letter.
+
+use super::*;
+use crate::analysis::{EffectReport, Motion as Moved, Resultant as Sum, SolveReport};
+use crate::geometry::{Polygon, Tolerance};
+use crate::scene::{Block, Body, Frame as Step, Limits, Robot as Arm};
+
+fn scene() -> Scene {
+    let corners = vec![
+        Point::new(0.0, 0.0),
+        Point::new(3.0, 0.0),
+        Point::new(0.0, 2.0),
+    ];
+    let body = Body {
+        polygon: Polygon::new(corners, vec![]).expect("sound"),
+        cells: None,
+        material: None,
+        friction: 0.5,
+        fill: None,
+    };
+    let block = |id: &str| Block {
+        id: id.into(),
+        body: body.clone(),
+        centroid: Point::new(1.0, 0.7),
+        weight: 5.0,
+    };
+    Scene {
+        title: "A \"wedge\"".into(),
+        gravity: Vector::new(0.0, -9.81),
+        kernel: 0.0,
+        lattice: None,
+        exact: false,
+        tolerance: Tolerance::of(3.0, 3.0),
+        ground: vec![],
+        blocks: vec![block("a"), block("b")],
+        robots: vec![Arm {
+            id: "r0".into(),
+            limits: Limits::default(),
+            holds: None,
+        }],
+        loads: vec![],
+        materials: vec![],
+        friction_pairs: vec![],
+        corner_contacts: false,
+        frames: vec![Step {
+            title: "Only".into(),
+            placed: vec![BlockId(0)],
+            holds: vec![],
+            plans: vec![],
+        }],
+    }
+}
+
+fn frame() -> FrameAnalysis {
+    let (a, b, ground) = (
+        BodyId::Block(BlockId(0)),
+        BodyId::Block(BlockId(1)),
+        BodyId::Ground(4),
+    );
+    let (robot, block, at) = (RobotId(0), BlockId(1), Point::new(2.0, 1.5));
+    let force = Vector::new(3.0, -4.0);
+    FrameAnalysis {
+        verdict: Verdict::Unstable,
+        doubt: String::new(),
+        total_force: 43.372,
+        total_sticking: 4.125,
+        weight: 24.0,
+        contacts: vec![Contact {
+            interface: crate::interface::Interface {
+                bodies: [a, ground],
+                kind: ContactKind::Edge,
+                ends: [Point::new(0.0, 0.0), Point::new(3.0, -0.0)],
+                normal: Vector::new(0.0, 1.0),
+                friction: 0.5,
+            },
+            application_points: [Point::new(0.3, 0.0), Point::new(2.7, 0.0)],
+            normal_forces: [4.5, 1.5],
+            friction_force: -0.75,
+            resultant: Sum {
+                on: a,
+                at: Point::new(0.9, 0.0),
+                force: Vector::new(0.75, 6.0),
+            },
+            friction_used: 0.25,
+        }],
+        robots: vec![RobotForce {
+            robot,
+            block,
+            at,
+            force,
+            torque: 0.1,
+            limit_used: 1.0,
+        }],
+        failures: vec![
+            Failure::Tension {
+                bodies: [b, a],
+                at,
+                force,
+            },
+            Failure::Friction {
+                bodies: [b, ground],
+                at,
+                force,
+            },
+            Failure::RobotForce {
+                robot,
+                block,
+                at,
+                force,
+            },
+            Failure::RobotTorque {
+                robot,
+                block,
+                at,
+                torque: -2.0,
+            },
+        ],
+        unsupported: vec![],
+        mechanism: vec![Moved {
+            block,
+            velocity: Vector::new(0.5, -0.0),
+            spin: f64::NAN,
+        }],
+        effects: vec![EffectReport {
+            effect: "friction",
+            simulated: true,
+            why: "two".into(),
+            unknowns: 8,
+        }],
+        proof: Proof::Mechanism {
+            power: 0.25,
+            worst_violation: 1e-12,
+        },
+        solve: SolveReport {
+            method: "kinematic",
+            iterations: 9,
+            programs: 2,
+            groups: 1,
+            reused: 0,
+            seconds: 0.0004,
+        },
+        notices: vec![],
+    }
+}
+
+const LINES: &str = r#"{
+  "drystone": "VERSION",
+  "scene": "A \"wedge\"",
+  "frames": [
+    {
+      "title": "Only",
+      "verdict": "unstable",
+      "total_force": 43.372,
+      "total_sticking": 4.125,
+      "weight": 24.0,
+      "interfaces": [
+        {"bodies": ["a","ground"], "ends": [[0.0,0.0],[3.0,0.0]], "application_points": [[0.3,0.0],[2.7,0.0]], "normal": [0.0,1.0], "mu": 0.5, "normal_forces": [4.5,1.5], "friction_force": -0.75, "resultant": {"at": [0.9,0.0], "force": [0.75,6.0]}, "friction_used": 0.25}
+      ],
+      "robots": [
+        {"id": "r0", "holds": "b", "at": [2.0,1.5], "force": [3.0,-4.0], "torque": 0.1, "limit_used": 1.0}
+      ],
+      "failures": [
+        {"kind": "tension", "bodies": ["b","a"], "at": [2.0,1.5], "force": [3.0,-4.0], "amount": 5.0},
+        {"kind": "friction", "bodies": ["b","ground"], "at": [2.0,1.5], "force": [3.0,-4.0], "amount": 5.0},
+        {"kind": "robot_force", "robot": "r0", "holds": "b", "at": [2.0,1.5], "force": [3.0,-4.0], "amount": 7.0},
+        {"kind": "robot_torque", "robot": "r0", "holds": "b", "at": [2.0,1.5], "torque": -2.0, "amount": 2.0}
+      ],
+      "mechanism": [
+        {"block": "b", "velocity": [0.5,0.0], "spin": null}
+      ],
+      "effects": [
+        {"effect": "friction", "simulated": true, "why": "two", "unknowns": 8}
+      ],
+      "proof": {"power": 0.25, "worst_violation": 1e-12},
+      "solve": {"method": "kinematic", "iterations": 9, "programs": 2, "groups": 1, "reused": 0}
+    }
+  ]
+}
+"#;
+
+#[test]
+fn the_names_are_the_contract_and_stay() {
+    let scene = scene();
+    let analysis = Analysis {
+        scene: &scene,
+        length: 1.0,
+        frames: vec![frame()],
+    };
+    let expected = LINES.replace("VERSION", env!("CARGO_PKG_VERSION"));
+    assert_eq!(to_json(&analysis, Timing::LeftOut, Layout::Lines), expected);
+    let line = to_json(&analysis, Timing::Included, Layout::OneLine);
+    assert_eq!(line.matches('\n').count(), 1);
+    assert!(line.contains(r#""seconds":0.0004"#));
+    let value: serde_json::Value = serde_json::from_str(&expected).expect("sound JSON");
+    assert_eq!(value["frames"][0]["failures"][2]["amount"], 7.0);
+}
+
+#[test]
+fn what_is_worth_saying_is_said() {
+    let scene = scene();
+    let mut frame = frame();
+    frame.doubt = "both proofs fail".into();
+    frame.unsupported = vec![BlockId(1)];
+    frame.notices = vec!["a contact of 1e-9 m is left out".into()];
+    frame.proof = Proof::Forces {
+        worst_imbalance: 1e-3,
+        worst_share: 0.5,
+        worst_pull: 0.0,
+        worst_slip: -0.0,
+    };
+    let json = to_json(
+        &Analysis {
+            scene: &scene,
+            length: 1.0,
+            frames: vec![frame],
+        },
+        Timing::LeftOut,
+        Layout::Lines,
+    );
+    assert!(json.contains(r#""doubt": "both proofs fail""#), "{json}");
+    assert!(json.contains(r#""unsupported": ["b"]"#), "{json}");
+    assert!(
+        json.contains(r#""notices": ["a contact of 1e-9 m is left out"]"#),
+        "{json}"
+    );
+    assert!(
+        json.contains(r#"{"worst_imbalance": 0.001, "worst_share": 0.5, "worst_pull": 0.0, "worst_slip": 0.0}"#),
+        "{json}"
+    );
+}

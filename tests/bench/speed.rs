@@ -1,0 +1,156 @@
+//! How fast: reading, checking and drawing, and our program beside the source's, posed to the same solver in one run.
+//!
+//! `cargo bench` prints the least, the median and the mean time of each. The walls are running bonds of bricks under
+//! their own weight, half bricks at the ends of every other row.
+
+use std::fs;
+use std::process::Command;
+
+use divan::{Bencher, black_box};
+use drystone::effect::{Situation, plan};
+use drystone::interface::Interfaces;
+use drystone::program::{Program, Scale, assemble, groups, source};
+use drystone::scene::format::{BlockEntry, GroundEntry, Pair, SceneFile};
+use drystone::solve::{Care, TOLERANCE, balance, solve};
+use drystone::{Analysis, Scene, figure, output};
+
+const FIGURE_4: &str = include_str!("../../assets/thesis/figure-4.json");
+
+/// What one newton of sticking costs in the source's soft program.
+const BETA: f64 = 1e6;
+
+/// Walls by their number of blocks.
+const WALLS: [usize; 3] = [10, 100, 1000];
+
+fn main() {
+    divan::main();
+}
+
+#[divan::bench(args = WALLS)]
+fn check(bencher: Bencher, blocks: usize) {
+    let scene = wall(blocks);
+    bencher.bench_local(|| Analysis::of(black_box(&scene)));
+}
+
+#[divan::bench(args = WALLS)]
+fn our_program(bencher: Bencher, blocks: usize) {
+    let program = program(&wall(blocks));
+    bencher.bench_local(|| balance(black_box(&program), Care::Quick));
+}
+
+/// With the solver's own settings.
+#[divan::bench(args = WALLS)]
+fn the_sources_soft_program(bencher: Bencher, blocks: usize) {
+    let program = program(&wall(blocks));
+    bencher.bench_local(|| solve(&source(black_box(&program), BETA), TOLERANCE, Care::Full));
+}
+
+#[divan::bench(args = WALLS)]
+fn read_and_check_a_file(bencher: Bencher, blocks: usize) {
+    let text = serde_json::to_string(&wall_file(blocks)).expect("a scene is plain data");
+    bencher.bench_local(|| Scene::from_json(black_box(&text)).map(|scene| scene.blocks.len()));
+}
+
+#[divan::bench]
+fn figure_4_as_svg(bencher: Bencher) {
+    let scene = Scene::from_json(FIGURE_4).expect("sound");
+    let analysis = Analysis::of(&scene);
+    bencher.bench_local(|| {
+        output::svg::write(&figure::forces(
+            black_box(&analysis),
+            &figure::Options::default(),
+        ))
+    });
+}
+
+#[divan::bench]
+fn figure_4_from_json_to_png(bencher: Bencher) {
+    bencher.bench_local(|| {
+        let scene = Scene::from_json(black_box(FIGURE_4)).expect("sound");
+        let drawing = figure::forces(&Analysis::of(&scene), &figure::Options::default());
+        output::png::render(&output::svg::write(&drawing), output::png::Size::Scale(2.0))
+    });
+}
+
+#[divan::bench]
+fn figure_4_as_a_process(bencher: Bencher) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scene = folder.path().join("figure-4.json");
+    let picture = folder.path().join("figure-4.png");
+    fs::write(&scene, FIGURE_4).expect("writable");
+    bencher.bench_local(|| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_drystone"));
+        command
+            .arg("--quiet")
+            .arg("render")
+            .arg(&scene)
+            .arg("-o")
+            .arg(&picture);
+        assert!(command.status().expect("starts").success());
+    });
+}
+
+/// The whole wall hangs together, so it is one group and one program.
+fn program(scene: &Scene) -> Program {
+    let found = Interfaces::of(scene);
+    let frame = &scene.frames[0];
+    let interfaces = found.in_frame(scene, frame);
+    let plan = plan(&Situation {
+        scene,
+        frame,
+        interfaces: &interfaces,
+    });
+    let groups = groups(scene.blocks.len(), frame, &interfaces);
+    assert_eq!(groups.len(), 1, "a wall is one group");
+    let heaviest = scene
+        .blocks
+        .iter()
+        .map(|block| block.weight)
+        .fold(0.0, f64::max);
+    let scale = Scale::of(found.typical_length().expect("bricks touch"), heaviest);
+    assemble(scene, frame, &interfaces, &plan, &groups[0], scale)
+}
+
+fn wall(blocks: usize) -> Scene {
+    let scene = Scene::new(wall_file(blocks)).expect("sound");
+    assert_eq!(scene.blocks.len(), blocks);
+    scene
+}
+
+/// Rows and bricks per row such that `rows · bricks + rows / 2` blocks come out.
+fn wall_file(blocks: usize) -> SceneFile {
+    let (rows, bricks) = match blocks {
+        10 => (3, 3),
+        100 => (8, 12),
+        _ => (16, 62),
+    };
+    let mut entries = Vec::new();
+    for row in 0..rows {
+        let bottom = row as f64;
+        let mut left = 0.0;
+        while left < 2.0 * bricks as f64 {
+            let half = row % 2 == 1 && (left == 0.0 || left > 2.0 * bricks as f64 - 1.5);
+            let right = left + if half { 1.0 } else { 2.0 };
+            let polygon = Some(rectangle(left, bottom, right, bottom + 1.0));
+            entries.push(BlockEntry {
+                polygon,
+                ..BlockEntry::default()
+            });
+            left = right;
+        }
+    }
+    let floor = rectangle(-1.0, -1.0, 2.0 * bricks as f64 + 1.0, 0.0);
+    let ground = vec![GroundEntry {
+        polygon: Some(floor),
+        ..GroundEntry::default()
+    }];
+    SceneFile {
+        blocks: entries,
+        ground,
+        ..SceneFile::default()
+    }
+}
+
+fn rectangle(left: f64, bottom: f64, right: f64, top: f64) -> Vec<Pair> {
+    vec![[left, bottom], [right, bottom], [right, top], [left, top]]
+}

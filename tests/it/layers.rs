@@ -1,0 +1,443 @@
+//! The house keeps its order: every `crate::` path points to a room that the room may use, and every foreign crate comes
+//! in through its one door.
+//!
+//! Read from the source as text, comments and strings taken out, tests included: a test that reaches across the house
+//! is as bad a neighbour as any other code.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// What each room may use, itself apart. A room that is not listed here has no place in the house.
+const ROOMS: &[(&str, &[&str])] = &[
+    ("geometry", &[]),
+    ("scene", &["geometry"]),
+    ("interface", &["geometry", "scene"]),
+    ("effect", &["geometry", "scene", "interface"]),
+    ("program", &["geometry", "scene", "interface", "effect"]),
+    (
+        "solve",
+        &["geometry", "scene", "interface", "effect", "program"],
+    ),
+    ("proof", &["geometry", "scene", "interface"]),
+    ("resultant", &["geometry", "scene", "interface", "solve"]),
+    (
+        "analysis",
+        &[
+            "geometry",
+            "scene",
+            "interface",
+            "effect",
+            "program",
+            "solve",
+            "proof",
+            "resultant",
+        ],
+    ),
+    ("drawing", &["geometry"]),
+    (
+        "figure",
+        &["geometry", "scene", "interface", "analysis", "drawing"],
+    ),
+    ("output", &["drawing"]),
+    (
+        "report",
+        &[
+            "geometry",
+            "scene",
+            "interface",
+            "analysis",
+            "figure",
+            "drawing",
+            "output",
+        ],
+    ),
+    (
+        "cli",
+        &[
+            "geometry",
+            "scene",
+            "interface",
+            "analysis",
+            "figure",
+            "drawing",
+            "output",
+            "report",
+        ],
+    ),
+    ("doc", &[]),
+];
+
+/// Where a foreign crate may be named: files, or a whole room where the path ends in a slash.
+const DOORS: &[(&str, &[&str])] = &[
+    (
+        "serde",
+        &[
+            "scene/format.rs",
+            "scene/format/",
+            "report/result.rs",
+            "report/result/",
+        ],
+    ),
+    (
+        "serde_json",
+        &[
+            "scene/format.rs",
+            "scene/format/",
+            "report/result.rs",
+            "report/result/",
+        ],
+    ),
+    ("schemars", &["scene/format.rs", "scene/format/"]),
+    ("jsonc_parser", &["scene/"]),
+    ("clarabel", &["solve/"]),
+    ("resvg", &["output/png.rs"]),
+    ("png", &["output/png.rs"]),
+    ("earcut", &["geometry/overlap.rs"]),
+    ("robust", &["geometry/"]),
+    ("skrifa", &["drawing/text.rs"]),
+    ("ariadne", &["cli/complaint.rs"]),
+    ("indicatif", &["cli/progress.rs"]),
+    ("anstream", &["cli/terminal.rs"]),
+    ("clap_complete", &["cli/completions.rs"]),
+    ("clap", &["cli/"]),
+    ("tempfile", &["output/file.rs"]),
+];
+
+/// Doors that are one file, but whose file is the owning room's to choose.
+const SINGLE: &[&str] = &["jsonc_parser", "clarabel", "tempfile", "skrifa"];
+
+/// Names that say nothing about what a file is.
+const EMPTY_NAMES: &[&str] = &[
+    "utils", "util", "common", "helpers", "helper", "core", "misc",
+];
+
+#[test]
+fn every_arrow_points_the_right_way_and_every_crate_has_one_door() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut files = Vec::new();
+    collect(&root, &mut files);
+    assert!(
+        files.len() > 20,
+        "the walk found only {} files",
+        files.len()
+    );
+    let mut faults = Vec::new();
+    let mut sources = Vec::new();
+    for file in files {
+        let path = file
+            .strip_prefix(&root)
+            .expect("below src")
+            .to_string_lossy()
+            .replace('\\', "/");
+        let text = fs::read_to_string(&file).expect("source is UTF-8");
+        faults.extend(faults_of(&path, &text));
+        sources.push((path, bare(&text)));
+    }
+    for name in SINGLE {
+        let doors: Vec<&str> = sources
+            .iter()
+            .filter(|s| names_crate(&s.1, name))
+            .map(|s| s.0.as_str())
+            .collect();
+        if doors.len() > 1 {
+            faults.push(format!(
+                "{name} has {} doors: {}",
+                doors.len(),
+                doors.join(", ")
+            ));
+        }
+    }
+    assert!(
+        faults.is_empty(),
+        "{} faults:\n{}",
+        faults.len(),
+        faults.join("\n")
+    );
+}
+
+fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
+    let mut entries: Vec<PathBuf> = fs::read_dir(folder)
+        .expect("readable")
+        .map(|e| e.expect("readable").path())
+        .collect();
+    entries.sort();
+    for entry in entries {
+        if entry.is_dir() {
+            collect(&entry, files);
+        } else if entry.extension().is_some_and(|e| e == "rs") {
+            files.push(entry);
+        }
+    }
+}
+
+/// Everything that is wrong with one source file, `path` given below `src`.
+fn faults_of(path: &str, text: &str) -> Vec<String> {
+    let mut faults = Vec::new();
+    let code = bare(text);
+    let own = path.split(['/', '.']).next().unwrap_or_default();
+    let stem = path
+        .rsplit('/')
+        .next()
+        .unwrap_or_default()
+        .trim_end_matches(".rs");
+    if EMPTY_NAMES.contains(&stem) || EMPTY_NAMES.contains(&own) {
+        faults.push(format!("{path}: the name says nothing about what it makes"));
+    }
+    if own != "lib" && own != "main" {
+        match ROOMS.iter().find(|r| r.0 == own) {
+            None => faults.push(format!("{path}: {own} is no room of the house")),
+            Some((_, allowed)) => {
+                for used in rooms_used(&code) {
+                    if used != own && !allowed.contains(&used.as_str()) {
+                        faults.push(format!("{path}: {own} may not use {used}"));
+                    }
+                }
+            }
+        }
+    }
+    // `super` in a room's mod.rs is the crate itself, and two of them leave any room of ours.
+    let climbs = code.matches("super::super::").count();
+    let depth = path.matches('/').count() + usize::from(!path.ends_with("mod.rs"))
+        - 1.min(path.matches('/').count());
+    if climbs > 0 && depth < 2 {
+        faults.push(format!("{path}: super::super:: leaves the room"));
+    }
+    let (outside_tests, _) = code.split_once("#[cfg(test)]").unwrap_or((&code, ""));
+    if path.ends_with("/mod.rs")
+        && path.matches('/').count() == 1
+        && outside_tests.contains("super::")
+    {
+        faults.push(format!("{path}: super:: leaves the room"));
+    }
+    for (at, _) in code.match_indices("::*") {
+        let path_of = &code[..at];
+        let used = path_of.rfind("use ").map_or("", |u| &path_of[u + 4..]);
+        if used != "super" && !used.ends_with("prelude") {
+            faults.push(format!(
+                "{path}: a glob hides where names come from: {used}::*"
+            ));
+        }
+    }
+    if outside_tests.contains("use super::*;") && stem != "tests" {
+        faults.push(format!("{path}: use super::* outside tests"));
+    }
+    for (name, doors) in DOORS {
+        let open = doors
+            .iter()
+            .any(|d| *d == path || (d.ends_with('/') && path.starts_with(d)));
+        if !open && names_crate(&code, name) {
+            faults.push(format!(
+                "{path}: {name} comes in through {} only",
+                doors.join(" and ")
+            ));
+        }
+    }
+    faults
+}
+
+/// The rooms named in `crate::room` and `crate::{room::…, room::…}`.
+fn rooms_used(code: &str) -> Vec<String> {
+    let mut rooms = Vec::new();
+    for (at, _) in code.match_indices("crate::") {
+        let rest = &code[at + "crate::".len()..];
+        match rest.strip_prefix('{') {
+            None => rooms.extend(word_at(rest)),
+            Some(group) => {
+                let mut depth = 0;
+                let mut begin = true;
+                for (i, c) in group.char_indices() {
+                    match c {
+                        '{' => depth += 1,
+                        '}' if depth == 0 => break,
+                        '}' => depth -= 1,
+                        ',' if depth == 0 => begin = true,
+                        c if begin && c.is_alphabetic() => {
+                            rooms.extend(word_at(&group[i..]));
+                            begin = false;
+                        }
+                        _ => {}
+                    }
+                }
+            }
+        }
+    }
+    rooms.sort();
+    rooms.dedup();
+    rooms
+}
+
+fn word_at(text: &str) -> Option<String> {
+    let word: String = text
+        .chars()
+        .take_while(|c| c.is_alphanumeric() || *c == '_')
+        .collect();
+    (!word.is_empty()).then_some(word)
+}
+
+/// Whether the code names a foreign crate: as the head of a path, or in a `use` of the bare name.
+///
+/// A module of ours may have the crate's name, as `output::png` has; a file that imports it means that one.
+fn names_crate(code: &str, name: &str) -> bool {
+    let ours = [";", "::{self", ",", "}"].map(|end| format!("::{name}{end}"));
+    if ours.iter().any(|import| code.contains(import)) {
+        return false;
+    }
+    code.match_indices(name).any(|(at, _)| {
+        let before = code[..at].chars().next_back().unwrap_or(' ');
+        let before_is_head = !(before.is_alphanumeric() || before == '_')
+            && (before != ':' || code[..at].ends_with(" ::") || code[..at].ends_with("(::"));
+        let after = &code[at + name.len()..];
+        let used = code[..at].trim_end().ends_with("use") && after.starts_with([';', ' ']);
+        before_is_head && (after.starts_with("::") || used)
+    })
+}
+
+/// The code without comments, strings and character literals.
+fn bare(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    let bytes: Vec<char> = text.chars().collect();
+    let mut i = 0;
+    let at = |i: usize| bytes.get(i).copied().unwrap_or('\0');
+    while i < bytes.len() {
+        let c = bytes[i];
+        if c == '/' && at(i + 1) == '/' {
+            while i < bytes.len() && bytes[i] != '\n' {
+                i += 1;
+            }
+        } else if c == '/' && at(i + 1) == '*' {
+            let mut depth = 0;
+            loop {
+                if at(i) == '/' && at(i + 1) == '*' {
+                    depth += 1;
+                    i += 2;
+                } else if at(i) == '*' && at(i + 1) == '/' {
+                    depth -= 1;
+                    i += 2;
+                } else {
+                    i += 1;
+                }
+                if depth == 0 || i >= bytes.len() {
+                    break;
+                }
+            }
+        } else if c == 'r' && (at(i + 1) == '"' || at(i + 1) == '#') && !ends_in_word(&out) {
+            let hashes = bytes[i + 1..].iter().take_while(|c| **c == '#').count();
+            if at(i + 1 + hashes) != '"' {
+                out.push(c);
+                i += 1;
+                continue;
+            }
+            let close: Vec<char> = std::iter::once('"')
+                .chain(std::iter::repeat_n('#', hashes))
+                .collect();
+            i += 2 + hashes;
+            while i < bytes.len() && !bytes[i..].starts_with(&close) {
+                i += 1;
+            }
+            i += close.len();
+        } else if c == '"' {
+            i += 1;
+            while i < bytes.len() && bytes[i] != '"' {
+                i += if bytes[i] == '\\' { 2 } else { 1 };
+            }
+            i += 1;
+        } else if c == '\'' && (at(i + 2) == '\'' || at(i + 1) == '\\') {
+            // A character; a lifetime has no quote behind its one letter.
+            i += if at(i + 1) == '\\' { 3 } else { 2 };
+            while i < bytes.len() && bytes[i] != '\'' {
+                i += 1;
+            }
+            i += 1;
+        } else {
+            out.push(c);
+            i += 1;
+        }
+    }
+    out
+}
+
+fn ends_in_word(text: &str) -> bool {
+    text.chars()
+        .next_back()
+        .is_some_and(|c| c.is_alphanumeric() || c == '_')
+}
+
+#[test]
+fn a_picture_that_asks_the_mechanics_is_caught() {
+    let bad = "use crate::analysis::Analysis;\nfn f() {}\n";
+    assert_eq!(
+        faults_of("drawing/arrow.rs", bad),
+        ["drawing/arrow.rs: drawing may not use analysis"]
+    );
+    assert_eq!(faults_of("figure/forces.rs", bad), Vec::<String>::new());
+}
+
+#[test]
+fn an_arrow_hidden_in_a_group_or_in_code_is_caught() {
+    let group = "use crate::{geometry::{Point, Vector}, program::Columns};";
+    assert_eq!(rooms_used(group), ["geometry", "program"]);
+    assert_eq!(
+        faults_of("proof.rs", group),
+        ["proof.rs: proof may not use program"]
+    );
+    let call = "fn f() { let x = crate::solve::solve(1); }";
+    assert_eq!(
+        faults_of("scene/frame.rs", call),
+        ["scene/frame.rs: scene may not use solve"]
+    );
+}
+
+#[test]
+fn a_second_door_is_caught() {
+    let sources = [
+        "use serde::Serialize;",
+        "#[derive(serde::Serialize)] struct A;",
+        "use resvg::usvg;",
+        "fn f() { ariadne::Report::build(); }",
+        "use clarabel;",
+    ];
+    for source in sources {
+        assert_eq!(faults_of("analysis/mod.rs", source).len(), 1, "{source}");
+    }
+    assert!(faults_of("output/png.rs", "use resvg::usvg;").is_empty());
+}
+
+#[test]
+fn words_that_only_look_like_arrows_are_let_pass() {
+    let fine = r##"
+        //! Made by crate::analysis, unlike serde::Serialize.
+        /* crate::cli /* crate::figure */ clarabel::solve */
+        const A: &str = "crate::cli";
+        const B: &str = r#"use "resvg::x""#;
+        const C: char = '"';
+        fn g<'a>(x: &'a str) -> &'a str { my_serde::f(x) }
+        use crate::scene::png::Thing;
+    "##;
+    assert_eq!(faults_of("interface/mod.rs", fine), Vec::<String>::new());
+}
+
+#[test]
+fn globs_climbing_and_empty_names_are_caught() {
+    assert_eq!(
+        faults_of("scene/shape.rs", "use crate::geometry::*;").len(),
+        1
+    );
+    assert_eq!(faults_of("scene/shape.rs", "use super::*;").len(), 1);
+    assert_eq!(
+        faults_of(
+            "scene/shape.rs",
+            "#[cfg(test)]\nmod tests { use super::*; }"
+        ),
+        Vec::<String>::new()
+    );
+    assert_eq!(
+        faults_of("scene/mod.rs", "use super::geometry::Point;").len(),
+        1
+    );
+    assert_eq!(
+        faults_of("scene/shape.rs", "use super::super::geometry::Point;").len(),
+        1
+    );
+    assert_eq!(faults_of("scene/utils.rs", "").len(), 1);
+    assert_eq!(faults_of("cellar/wine.rs", "").len(), 1);
+}

@@ -1,0 +1,131 @@
+//! The command line as a person runs it: exit codes, streams, files, and what is said.
+
+mod check;
+mod render;
+mod words;
+
+use std::fs;
+use std::io::Write;
+use std::path::PathBuf;
+use std::process::{Command, Stdio};
+
+use tempfile::TempDir;
+
+const STANDS: &str = r#"{ "drystone": 1, "title": "A lintel", "friction": 0.6,
+  "ground": [{ "polygon": [[-1, -1], [7, -1], [7, 0], [-1, 0]] }],
+  "blocks": [
+    { "id": "left",   "polygon": [[0, 0], [1, 0], [1, 3], [0, 3]], "weight": 6 },
+    { "id": "right",  "polygon": [[5, 0], [6, 0], [6, 3], [5, 3]], "weight": 7 },
+    { "id": "lintel", "polygon": [[0, 3], [6, 3], [6, 4], [0, 4]], "weight": 11 } ] }"#;
+
+/// The lintel rests on one post; in the second frame a robot holds its free end.
+const FALLS: &str = r#"{ "drystone": 1, "title": "Half a lintel", "friction": 0.6,
+  "ground": [{ "polygon": [[-1, -1], [7, -1], [7, 0], [-1, 0]] }],
+  "blocks": [
+    { "id": "left",   "polygon": [[0, 0], [1, 0], [1, 3], [0, 3]], "weight": 6 },
+    { "id": "lintel", "polygon": [[0, 3], [6, 3], [6, 4], [0, 4]], "weight": 11 } ],
+  "robots": [{ "id": "crane" }],
+  "steps": [ { "title": "Alone", "place": ["left", "lintel"] },
+             { "title": "Held", "hold": { "crane": { "block": "lintel", "at": [5, 3.5] } } } ] }"#;
+
+const WRONG: &str = r#"{ "drystone": 1,
+  "blocks": [
+    { "id": "a", "polygon": [[0, 0], [1, 0], [1, 1], [0, 1]], "frction": 0.5 },
+    { "id": "b", "polygon": [[0, 0], [1, 0], [1, 1], [0, 1]], "weight": -3 } ] }"#;
+
+/// How a run ended, and what it said.
+struct Ran {
+    code: i32,
+    out: String,
+    err: String,
+}
+
+/// A folder of scenes, gone with the test.
+struct Bench {
+    folder: TempDir,
+}
+
+impl Bench {
+    fn new() -> Bench {
+        let bench = Bench {
+            folder: tempfile::tempdir().expect("a folder"),
+        };
+        for (name, text) in [
+            ("stands.json", STANDS),
+            ("falls.json", FALLS),
+            ("wrong.json", WRONG),
+        ] {
+            fs::write(bench.path(name), text).expect("writable");
+        }
+        bench
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn command(&self, line: &str) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_drystone"));
+        command
+            .args(line.split_whitespace())
+            .current_dir(self.folder.path());
+        command
+            .env_remove("NO_COLOR")
+            .env_remove("CLICOLOR_FORCE")
+            .env_remove("CLICOLOR")
+            .env("TERM", "xterm");
+        command.stdin(Stdio::null());
+        command
+    }
+
+    fn run(&self, line: &str) -> Ran {
+        ran(self.command(line))
+    }
+
+    fn run_with(&self, line: &str, input: &[u8]) -> Ran {
+        let mut command = self.command(line);
+        let mut child = command
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("starts");
+        let mut pipe = child.stdin.take().expect("piped");
+        // A command line that is refused ends before it reads: that is no failure of the test.
+        let _ = pipe.write_all(input);
+        drop(pipe);
+        of(child.wait_with_output().expect("ends"))
+    }
+
+    /// Everything in the folder beside the three scenes.
+    fn made(&self) -> Vec<String> {
+        let mut names: Vec<String> = fs::read_dir(self.folder.path())
+            .expect("readable")
+            .map(|entry| {
+                entry
+                    .expect("readable")
+                    .file_name()
+                    .to_string_lossy()
+                    .into_owned()
+            })
+            .filter(|name| !["stands.json", "falls.json", "wrong.json"].contains(&name.as_str()))
+            .collect();
+        names.sort();
+        names
+    }
+}
+
+fn ran(mut command: Command) -> Ran {
+    of(command.output().expect("starts"))
+}
+
+fn of(output: std::process::Output) -> Ran {
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    let ran = Ran {
+        code: output.status.code().expect("no signal ended it"),
+        out: text(&output.stdout),
+        err: text(&output.stderr),
+    };
+    assert!(!ran.err.contains("panicked"), "{}", ran.err);
+    ran
+}

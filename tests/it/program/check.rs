@@ -1,0 +1,143 @@
+//! `check`: verdicts, tables, JSON and problems.
+
+use serde_json::Value;
+
+use super::Bench;
+
+#[test]
+fn check_ends_with_the_worst_verdict() {
+    let bench = Bench::new();
+    for (line, code) in [
+        ("check stands.json", 0),
+        ("check falls.json", 1),
+        ("check stands.json falls.json", 1),
+        ("check falls.json stands.json", 1),
+        ("check falls.json --frame 2", 0),
+        ("check falls.json --frame b", 0),
+        ("check falls.json --frame a", 1),
+        ("check wrong.json", 2),
+        ("check falls.json wrong.json", 2),
+        ("check missing.json", 2),
+        ("check .", 2),
+        ("check falls.json --frame 3", 2),
+        ("check falls.json --frame 0", 2),
+        ("check", 2),
+        ("check stands.json --jsn", 2),
+        ("", 2),
+        ("--version", 0),
+    ] {
+        let ran = bench.run(line);
+        assert_eq!(ran.code, code, "{line}: {}{}", ran.out, ran.err);
+        assert_eq!(ran.err.is_empty(), code != 2, "{line}: {}", ran.err);
+        if code == 2 {
+            assert_eq!(ran.out, "", "{line}");
+        }
+    }
+}
+
+#[test]
+fn a_person_reads_verdict_numbers_and_what_fails() {
+    let bench = Bench::new();
+    let ran = bench.run("check falls.json");
+    let lines: Vec<&str> = ran.out.lines().collect();
+    assert!(
+        lines[0].contains("falls.json") && lines[0].contains("Half a lintel"),
+        "{}",
+        ran.out
+    );
+    assert!(
+        lines[2].contains("(a) Alone") && lines[2].contains("unstable"),
+        "{}",
+        ran.out
+    );
+    assert!(ran.out.contains("(b) Held"), "{}", ran.out);
+    assert!(
+        ran.out.contains("Rigid blocks, laid dry"),
+        "the limits are told: {}",
+        ran.out
+    );
+    // The lintel's 11 N lie 2 m beyond the post's edge; the pull at the far corner has an arm of 1 m.
+    let words = "lintel comes off left at (0, 3) m: holding on would take a pull of 22 N";
+    assert!(ran.out.contains(words), "{}", ran.out);
+    // The post's own 6 N, half a metre inside, do a share of that at its foot.
+    assert!(
+        ran.out
+            .contains("left comes off ground at (0, 0) m: holding on would take a pull of 19 N"),
+        "{}",
+        ran.out
+    );
+}
+
+#[test]
+fn programs_read_one_object_a_scene() {
+    let bench = Bench::new();
+    let ran = bench.run("check --json falls.json");
+    let result: Value = serde_json::from_str(&ran.out).expect("JSON");
+    assert_eq!(result["scene"], "Half a lintel");
+    let frames = result["frames"].as_array().expect("frames");
+    assert_eq!(frames.len(), 2);
+    assert_eq!(
+        (&frames[0]["verdict"], &frames[1]["verdict"]),
+        (&"unstable".into(), &"stable".into())
+    );
+    assert_eq!(frames[0]["failures"][0]["kind"], "tension");
+    assert!(frames[0]["proof"]["power"].as_f64().expect("number") > 0.0);
+    assert!(
+        frames[1]["proof"]["worst_imbalance"]
+            .as_f64()
+            .expect("number")
+            < 1e-7
+    );
+    assert!(frames[1]["solve"]["seconds"].as_f64().expect("number") >= 0.0);
+    assert_eq!(frames[1]["robots"][0]["id"], "crane");
+    assert!((frames[0]["weight"].as_f64().expect("number") - 17.0).abs() < 1e-12);
+
+    let ran = bench.run("check --json --no-timing stands.json falls.json");
+    let lines: Vec<Value> = ran
+        .out
+        .lines()
+        .map(|line| serde_json::from_str(line).expect("JSON"))
+        .collect();
+    assert_eq!(lines.len(), 2);
+    assert_eq!(
+        (&lines[0]["scene"], &lines[1]["scene"]),
+        (&"A lintel".into(), &"Half a lintel".into())
+    );
+    assert!(lines[1]["frames"][0]["solve"]["seconds"].is_null());
+}
+
+#[test]
+fn without_timing_the_same_scene_gives_the_same_bytes() {
+    let bench = Bench::new();
+    for line in [
+        "check --json --no-timing falls.json",
+        "check --no-timing falls.json",
+        "render falls.json -o -",
+    ] {
+        let (once, again) = (bench.run(line), bench.run(line));
+        assert_eq!(once.out, again.out, "{line}");
+        assert!(once.out.len() > 100, "{line}");
+    }
+}
+
+#[test]
+fn all_problems_of_a_scene_are_shown_where_they_are() {
+    let bench = Bench::new();
+    let ran = bench.run("check wrong.json");
+    assert_eq!(ran.code, 2);
+    for words in [
+        "wrong.json:3:",
+        "frction",
+        "friction",
+        "wrong.json:4:",
+        "-3",
+    ] {
+        assert!(ran.err.contains(words), "{words} is not in\n{}", ran.err);
+    }
+    let both = bench.run("check wrong.json missing.json stands.json");
+    assert!(
+        both.err.contains("wrong.json:3:") && both.err.contains("missing.json"),
+        "{}",
+        both.err
+    );
+}

@@ -1,0 +1,189 @@
+//! `render`: files, streams and what becomes of them when something is wrong.
+
+use std::fs;
+use std::process::Stdio;
+
+use super::{Bench, FALLS, STANDS, of, ran};
+
+#[test]
+fn render_ends_well_once_the_picture_is_written_unless_strict() {
+    let bench = Bench::new();
+    let ran = bench.run("render falls.json -o falls.svg");
+    assert_eq!((ran.code, ran.out.as_str()), (0, ""), "{}", ran.err);
+    assert!(
+        ran.err
+            .contains("falls.svg: 2 frames: 1 stable, 1 unstable"),
+        "{}",
+        ran.err
+    );
+    assert!(
+        fs::read_to_string(bench.path("falls.svg"))
+            .expect("written")
+            .starts_with("<svg")
+    );
+    assert_eq!(
+        bench.run("render falls.json -o strict.svg --strict").code,
+        1
+    );
+    assert!(
+        bench.path("strict.svg").exists(),
+        "strict tells, and still draws"
+    );
+    assert_eq!(
+        bench.run("render stands.json -o strict.svg --strict").code,
+        0
+    );
+    assert_eq!(
+        bench.made(),
+        ["falls.svg", "strict.svg"],
+        "nothing else is left lying about"
+    );
+}
+
+#[test]
+fn scenes_come_from_standard_input_and_pictures_go_to_standard_output() {
+    let bench = Bench::new();
+    let ran = bench.run_with("render - -o -", STANDS.as_bytes());
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    assert!(ran.out.starts_with("<svg") && ran.out.trim_end().ends_with("</svg>"));
+    let mut png = bench.command("render stands.json -o - --format png --width 321");
+    let bytes = png.output().expect("starts").stdout;
+    assert_eq!(bytes[..8], *b"\x89PNG\r\n\x1a\n");
+    assert_eq!(bytes[16..20], 321u32.to_be_bytes());
+    assert_eq!(bench.run_with("check -", FALLS.as_bytes()).code, 1);
+    assert_eq!(bench.run_with("check - -", FALLS.as_bytes()).code, 2);
+    let ran = bench.run_with("check -", b"\xff\xfe");
+    assert_eq!(ran.code, 2);
+    assert!(ran.err.contains("standard input"), "{}", ran.err);
+    assert_eq!(bench.made(), Vec::<String>::new());
+}
+
+#[test]
+fn several_scenes_fill_a_folder() {
+    let bench = Bench::new();
+    let ran = bench.run("render stands.json falls.json -o new/deep/ --format png --scale 0.5");
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    for name in ["new/deep/stands.png", "new/deep/falls.png"] {
+        assert_eq!(fs::read(bench.path(name)).expect(name)[1..4], *b"PNG");
+    }
+    // An existing folder needs no slash, and SVG is what comes unasked.
+    assert_eq!(bench.run("render stands.json -o new").code, 0);
+    assert!(bench.path("new/stands.svg").exists());
+    fs::create_dir(bench.path("other")).expect("made");
+    fs::copy(bench.path("falls.json"), bench.path("other/stands.json")).expect("copied");
+    let ran = bench.run("render stands.json other/stands.json -o twice/");
+    assert_eq!(ran.code, 2);
+    assert!(ran.err.contains("would both become"), "{}", ran.err);
+    assert!(!bench.path("twice").exists());
+}
+
+#[test]
+fn one_wrong_scene_leaves_everything_unwritten() {
+    let bench = Bench::new();
+    let ran = bench.run("render stands.json wrong.json falls.json -o out/");
+    assert_eq!(ran.code, 2);
+    fs::write(bench.path("old.svg"), "old").expect("writable");
+    assert_eq!(bench.run("render wrong.json -o old.svg").code, 2);
+    assert_eq!(fs::read(bench.path("old.svg")).expect("there"), b"old");
+    assert_eq!(bench.made(), ["old.svg"]);
+}
+
+#[test]
+fn what_cannot_be_written_ends_with_four() {
+    let bench = Bench::new();
+    for line in [
+        "render stands.json -o no/such/folder.svg",
+        "render stands.json -o stands.json/",
+        "shapes -o no/such/folder.svg",
+        "new -o no/such/folder.json",
+        "new -o stands.json",
+    ] {
+        let ran = bench.run(line);
+        assert_eq!(ran.code, 4, "{line}: {}", ran.err);
+        assert!(
+            ran.err.starts_with("error: cannot write"),
+            "{line}: {}",
+            ran.err
+        );
+    }
+    assert_eq!(
+        fs::read_to_string(bench.path("stands.json")).expect("there"),
+        STANDS
+    );
+    assert_eq!(bench.made(), Vec::<String>::new());
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_behind_standard_output_ends_with_four_and_a_closed_pipe_does_not() {
+    let bench = Bench::new();
+    for line in [
+        "check --json stands.json",
+        "schema",
+        "render stands.json -o -",
+        "completions bash",
+    ] {
+        let mut command = bench.command(line);
+        command.stdout(
+            fs::OpenOptions::new()
+                .write(true)
+                .open("/dev/full")
+                .expect("Linux has one"),
+        );
+        assert_eq!(ran(command).code, 4, "{line}");
+
+        let mut command = bench.command(line);
+        let mut child = command
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("starts");
+        drop(child.stdout.take());
+        let ran = of(child.wait_with_output().expect("ends"));
+        assert_eq!((ran.code, ran.err.as_str()), (0, ""), "{line}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_picture_has_the_rights_of_any_new_file() {
+    use std::os::unix::fs::PermissionsExt;
+    let bench = Bench::new();
+    assert_eq!(bench.run("render stands.json -o a.svg").code, 0);
+    fs::write(bench.path("plain"), "").expect("writable");
+    let mode = |name: &str| {
+        fs::metadata(bench.path(name))
+            .expect("there")
+            .permissions()
+            .mode()
+    };
+    assert_eq!(mode("a.svg"), mode("plain"));
+}
+
+#[test]
+fn command_lines_that_make_no_sense_are_refused_with_a_way_out() {
+    let bench = Bench::new();
+    for (line, words) in [
+        ("render stands.json -o a.jpeg", ".svg or .png"),
+        ("render stands.json -o a", "slash"),
+        ("render stands.json falls.json -o a.svg", "folder"),
+        ("render stands.json falls.json -o -", "folder"),
+        ("render stands.json -o a.svg --width 300", "pixels"),
+        (
+            "render stands.json -o a.png --width 300 --scale 2",
+            "--scale",
+        ),
+        ("render stands.json -o a.png --width 1000000", "pixels"),
+        ("render stands.json -o a.png --scale nan", "pixels"),
+        ("render stands.json -o a.svg --format png", "--format png"),
+        ("render stands.json -o a.svg --columns 0", "--columns"),
+        ("render stands.json", "--output"),
+        ("new --force", "--output"),
+        ("completions fsh", "fish"),
+    ] {
+        let ran = bench.run(line);
+        assert_eq!(ran.code, 2, "{line}: {}", ran.err);
+        assert!(ran.err.contains(words), "{line}: {}", ran.err);
+    }
+    assert_eq!(bench.made(), Vec::<String>::new());
+}

@@ -1,0 +1,181 @@
+//! What is said and how: colour, quiet, help, starter, schema, shapes, and the README's word.
+
+use std::fs;
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::{Bench, Ran, STANDS, ran};
+
+#[test]
+fn colour_is_for_terminals_and_for_those_who_ask() {
+    let bench = Bench::new();
+    let plain = |ran: &Ran| !ran.out.contains('\u{1b}') && !ran.err.contains('\u{1b}');
+    for line in [
+        "check falls.json",
+        "check wrong.json",
+        "check --help",
+        "render falls.json -o a.svg",
+        "check --nothing",
+    ] {
+        assert!(plain(&bench.run(line)), "{line} is piped");
+        let mut command = bench.command(line);
+        command.env("NO_COLOR", "1").env("CLICOLOR_FORCE", "0");
+        assert!(plain(&ran(command)), "{line} with NO_COLOR");
+    }
+    assert!(
+        bench
+            .run("check falls.json --color always")
+            .out
+            .contains("\u{1b}[")
+    );
+    assert!(
+        bench
+            .run("check wrong.json --color always")
+            .err
+            .contains("\u{1b}[")
+    );
+    let mut command = bench.command("check falls.json --color never");
+    command.env("CLICOLOR_FORCE", "1");
+    assert!(plain(&ran(command)));
+}
+
+#[test]
+fn quiet_leaves_the_exit_code_and_errors() {
+    let bench = Bench::new();
+    let ran = bench.run("check --quiet falls.json");
+    assert_eq!((ran.code, ran.out.as_str(), ran.err.as_str()), (1, "", ""));
+    let ran = bench.run("--quiet render falls.json -o a.svg");
+    assert_eq!((ran.code, ran.out.as_str(), ran.err.as_str()), (0, "", ""));
+    assert!(
+        bench.run("-q check --json falls.json").out.starts_with('{'),
+        "JSON was asked for"
+    );
+    assert!(
+        bench.run("-q check wrong.json").err.contains("wrong.json"),
+        "errors are told"
+    );
+}
+
+#[test]
+fn a_title_cannot_play_with_the_terminal() {
+    let bench = Bench::new();
+    let text = STANDS.replace("A lintel", "\\u001b[31mred\\u0007");
+    fs::write(bench.path("red.json"), text).expect("writable");
+    let ran = bench.run("check red.json --color always");
+    assert_eq!(ran.code, 0);
+    assert!(
+        !ran.out.contains("\u{1b}[31mred") && !ran.out.contains('\u{7}'),
+        "{:?}",
+        ran.out
+    );
+    assert!(ran.out.contains("?[31mred?"), "{:?}", ran.out);
+}
+
+#[test]
+fn a_new_scene_can_be_checked_and_is_not_overwritten() {
+    let bench = Bench::new();
+    assert_eq!(bench.run("new -o mine.json").code, 0);
+    let ran = bench.run("check mine.json");
+    assert!(ran.code < 2, "{}", ran.err);
+    fs::write(bench.path("mine.json"), "mine").expect("writable");
+    assert_eq!(bench.run("new -o mine.json").code, 4);
+    assert_eq!(fs::read(bench.path("mine.json")).expect("there"), b"mine");
+    assert_eq!(bench.run("new -o mine.json --force").code, 0);
+    let (printed, written) = (
+        bench.run("new").out,
+        fs::read_to_string(bench.path("mine.json")).expect("there"),
+    );
+    assert_eq!(printed, written);
+}
+
+#[test]
+fn the_schema_names_every_key_of_the_starter() {
+    let bench = Bench::new();
+    let ran = bench.run("schema");
+    assert_eq!(ran.code, 0);
+    let schema: Value = serde_json::from_str(&ran.out).expect("JSON");
+    let starter: Value = serde_json::from_str(&bench.run("new").out).expect("JSON");
+    for key in starter.as_object().expect("an object").keys() {
+        assert!(
+            schema["properties"][key]["description"].is_string(),
+            "{key} is described"
+        );
+    }
+}
+
+#[test]
+fn shapes_are_drawn_and_shells_are_helped() {
+    let bench = Bench::new();
+    assert_eq!(bench.run("shapes -o shapes.svg").code, 0);
+    let sheet = fs::read_to_string(bench.path("shapes.svg")).expect("written");
+    for name in ["up", "down", "hexagon", "linkh", "linkr", "linkl"] {
+        assert!(sheet.contains(&format!(">{name}<")), "{name}");
+    }
+    assert_eq!(bench.run("shapes -o shapes.png").code, 0);
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let ran = bench.run(&format!("completions {shell}"));
+        assert!(
+            ran.code == 0 && ran.out.contains("render") && ran.out.contains("no-timing"),
+            "{shell}"
+        );
+    }
+}
+
+#[test]
+fn help_tells_commands_limits_and_exit_codes() {
+    let bench = Bench::new();
+    let help = bench.run("--help");
+    assert_eq!(help.code, 0);
+    for words in [
+        "render",
+        "check",
+        "schema",
+        "new",
+        "shapes",
+        "completions",
+        "balance of forces exists",
+        "Exit codes",
+    ] {
+        assert!(help.out.contains(words), "{words} is not in\n{}", help.out);
+    }
+    for command in ["render", "check", "schema", "new", "shapes", "completions"] {
+        let ran = bench.run(&format!("{command} --help"));
+        assert!(
+            ran.code == 0 && ran.out.contains("Usage: drystone"),
+            "{command}"
+        );
+    }
+}
+
+#[test]
+fn the_readmes_figure_is_what_the_program_draws() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let bench = Bench::new();
+    let mut command = bench.command("render --width 1200 -o figure.png");
+    command.arg(root.join("assets/thesis/figure-4.json"));
+    assert_eq!(ran(command).code, 0);
+    let drawn = fs::read(bench.path("figure.png")).expect("written");
+    let shown = root.join("assets/figure-4.png");
+    if std::env::var_os("UPDATE_SNAPSHOTS").is_some() && std::env::var_os("CI").is_none() {
+        fs::write(&shown, &drawn).expect("writable");
+    }
+    assert!(
+        fs::read(&shown).expect("in the repository") == drawn,
+        "look at it, and run once with UPDATE_SNAPSHOTS=1"
+    );
+}
+
+#[test]
+fn the_readmes_scene_stands_as_it_says() {
+    let readme = include_str!("../../../README.md");
+    let bench = Bench::new();
+    let scene = readme
+        .split("```json")
+        .nth(1)
+        .and_then(|rest| rest.split("```").next())
+        .expect("a scene");
+    fs::write(bench.path("readme.json"), scene).expect("writable");
+    let ran = bench.run("check readme.json");
+    assert_eq!(ran.code, 0, "{}{}", ran.out, ran.err);
+}
