@@ -11,12 +11,14 @@ mod shape;
 mod simplex;
 mod touch;
 
+use dashu_ratio::RBig;
 use drystone::analysis::Verdict;
 use drystone::{Analysis, Scene};
 use rayon::prelude::*;
 use serde_json::Value;
 
 use balance::Balance;
+use simplex::{LinearProgram, Row};
 
 /// How one scene's verdict compares.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -137,6 +139,10 @@ fn number_of(variable: &str, otherwise: u64) -> u64 {
 
 /// Thousands of small scenes, and not one wrong verdict.
 #[test]
+#[expect(
+    clippy::print_stdout,
+    reason = "the counts are the result of a long run"
+)]
 fn verdicts_are_those_of_an_exact_program() {
     let first = number_of("DRYSTONE_ORACLE_FIRST", 0);
     let wanted = number_of("DRYSTONE_ORACLE_SCENES", 300);
@@ -176,4 +182,68 @@ fn verdicts_are_those_of_an_exact_program() {
         .map(|f| format!("{} {:?} {:?}\n{}", f.number, f.standing, f.error, f.file))
         .collect();
     assert!(bad.is_empty(), "{} scenes:\n{}", bad.len(), bad.join("\n"));
+}
+
+/// What the cross-check rests on: optima of random programs equal those of their duals, to the last bit.
+#[test]
+fn the_exact_simplex_meets_its_dual() {
+    for seed in 0..200 {
+        let mut chance = random::Chance::new(seed);
+        let (n, m) = (chance.whole(1, 6) as usize, chance.whole(1, 5) as usize);
+        let costs: Vec<i64> = (0..n).map(|_| chance.whole(0, 9)).collect();
+        let bounds: Vec<i64> = (0..m).map(|_| chance.whole(-4, 9)).collect();
+        let matrix: Vec<Vec<i64>> = bounds
+            .iter()
+            .map(|_| (0..n).map(|_| chance.whole(-3, 3)).collect())
+            .collect();
+        // min c·x, Ax = b, x ≥ 0 against max b·y, Aᵀy + s = c, s ≥ 0: at the optima both are the same, so one program
+        // that asks for both balances and for c·x ≤ b·y has a solution exactly where the first has one.
+        let mut primal = LinearProgram {
+            costs: costs.iter().map(|c| RBig::from(*c)).collect(),
+            rows: Vec::new(),
+        };
+        let row = |entries: Vec<(usize, i64)>, bound: i64, equality: bool| Row {
+            entries: entries
+                .into_iter()
+                .map(|(k, v)| (k, RBig::from(v)))
+                .collect(),
+            bound: RBig::from(bound),
+            equality,
+        };
+        for (line, bound) in matrix.iter().zip(&bounds) {
+            primal.rows.push(row(
+                line.iter().copied().enumerate().collect(),
+                *bound,
+                true,
+            ));
+        }
+        let mut both = primal.clone();
+        let free: Vec<usize> = (0..2 * m).map(|_| both.unknown(RBig::ZERO)).collect();
+        for (j, cost) in costs.iter().enumerate() {
+            let up = (0..m).map(|i| (free[i], matrix[i][j]));
+            let down = (0..m).map(|i| (free[m + i], -matrix[i][j]));
+            both.rows.push(row(up.chain(down).collect(), *cost, false));
+        }
+        let up = (0..m).map(|i| (free[i], -bounds[i]));
+        let down = (0..m).map(|i| (free[m + i], bounds[i]));
+        let spent = costs.iter().copied().enumerate();
+        both.rows
+            .push(row(spent.chain(up).chain(down).collect(), 0, false));
+        let least = primal.least();
+        assert_eq!(least.is_some(), both.is_feasible(), "program {seed}");
+        if let Some(least) = least {
+            // A hair below the optimum nothing fits any more.
+            let mut better = primal.clone();
+            let entries = primal.costs.iter().cloned().enumerate().collect();
+            let below = &least - RBig::from_parts(1.into(), 1_000_000_007u64.into());
+            if below >= RBig::ZERO {
+                better.rows.push(Row {
+                    entries,
+                    bound: below,
+                    equality: false,
+                });
+                assert!(!better.is_feasible(), "program {seed}");
+            }
+        }
+    }
 }

@@ -181,13 +181,11 @@ impl Table {
         while self.step() {}
         let mut x = vec![RBig::ZERO; costs.len()];
         for (row, basic) in self.rows.iter().zip(&self.basis) {
-            if let Basic::Unknown(k) = basic {
-                if *k < x.len() {
-                    x[*k] = RBig::from_parts_signed(
-                        row[self.width - 1].clone(),
-                        self.denominator.clone(),
-                    );
-                }
+            if let Basic::Unknown(k) = basic
+                && *k < x.len()
+            {
+                let amount = row[self.width - 1].clone();
+                x[*k] = RBig::from_parts_signed(amount, self.denominator.clone());
             }
         }
         x
@@ -257,11 +255,8 @@ impl Table {
     fn pivot(&mut self, r: usize, k: usize) {
         let line = std::mem::take(&mut self.rows[r]);
         let pivot = line[k].clone();
-        let others = self
-            .rows
-            .iter_mut()
-            .filter(|row| !row.is_empty())
-            .chain([&mut self.aim]);
+        // The pivot's own row was taken out and is empty.
+        let others = self.rows.iter_mut().chain([&mut self.aim]);
         for row in others.filter(|row| !row.is_empty()) {
             let factor = std::mem::take(&mut row[k]);
             for (j, value) in row.iter_mut().enumerate() {
