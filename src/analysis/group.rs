@@ -111,6 +111,8 @@ struct Judged {
     program: Program,
     amounts: Amounts,
     sticking: Option<Amounts>,
+    /// No sticking could hold it.
+    hopeless: bool,
     mechanism: Vec<Motion>,
     proof: Proof,
     effort: Effort,
@@ -162,7 +164,7 @@ impl Judged {
             contacts: carried.contacts,
             grips: carried.grips,
             total_sticking,
-            unsupported: self.sticking.is_none() && self.verdict == Verdict::Unstable,
+            unsupported: self.hopeless && self.verdict == Verdict::Unstable,
             failures,
             mechanism,
             proof: self.proof,
@@ -180,6 +182,7 @@ impl Case<'_> {
             program: program.clone(),
             amounts: Amounts::none(program),
             sticking: None,
+            hopeless: false,
             mechanism: Vec::new(),
             proof: Proof::Mechanism {
                 power: 0.0,
@@ -214,7 +217,7 @@ impl Case<'_> {
             let stuck = stick(program, care);
             judged.effort = judged.effort.and(stuck.effort);
             let proof = self.carried(program, &stuck.forces).proof;
-            if stuck.balanced && proof.holds() {
+            if stuck.balanced == Some(true) && proof.holds() {
                 return Judged {
                     amounts: stuck.forces,
                     proof,
@@ -222,13 +225,17 @@ impl Case<'_> {
                 };
             }
             judged.amounts = stuck.forces;
-            judged.sticking = stuck.balanced.then_some(stuck.sticking);
-            let motions = stuck
-                .motion
-                .map(|y| self.moved(&y))
-                .into_iter()
-                .chain(direction.clone());
+            judged.sticking = (stuck.balanced == Some(true)).then_some(stuck.sticking);
+            judged.hopeless = stuck.balanced == Some(false);
+            let own = stuck.motion.map(|y| self.moved(&y));
+            let motions = if stuck.priced {
+                [direction.clone(), own]
+            } else {
+                [own, direction.clone()]
+            };
             let proved: Vec<(Vec<Motion>, Proof)> = motions
+                .into_iter()
+                .flatten()
                 .map(|motion| {
                     let proof = self.mechanism(&motion);
                     (motion, proof)
@@ -272,8 +279,9 @@ impl Case<'_> {
 
     /// Newtons from pure numbers, made admissible to the last bit, with their proof.
     ///
-    /// Noise below 1e-13 of the heaviest load (of friction: 1e-10 of μN) becomes 0 and friction is cut to μN, so that what is left of the solver's
-    /// error shows as imbalance alone, where the proof measures it.
+    /// Noise below 1e-13 of the heaviest load (of friction: 1e-10 of N or μN, and never more than a tenth of the band)
+    /// becomes 0 and friction is cut to μN, so that what is left of the solver's error shows as imbalance alone, where
+    /// the proof measures it.
     fn carried(&self, program: &Program, amounts: &Amounts) -> Carried {
         let unit = self.scale.force;
         let noise = 1e-13 * self.yardstick.force;
@@ -283,9 +291,11 @@ impl Case<'_> {
             let normal = amounts.normal[k].map(|v| clean(v * unit).max(0.0));
             let most = contact.friction * (normal[0] + normal[1]);
             let friction = (amounts.friction[k] * unit).clamp(-most, most);
+            let still = (1e-10 * most.min(normal[0] + normal[1]))
+                .min(0.1 * Proof::BAND * self.yardstick.force);
             contacts.push((
                 normal,
-                if friction.abs() <= 1e-10 * most {
+                if friction.abs() <= still {
                     0.0
                 } else {
                     friction

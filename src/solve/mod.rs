@@ -110,6 +110,9 @@ struct Twin {
     amounts: Vec<f64>,
     /// Slack of each column: by how much it is too dear to be used.
     slack: Vec<f64>,
+    /// What one more unit of each column's limit would save.
+    worth: Vec<f64>,
+    /// The least cost, as the twin knows it.
     aim: f64,
 }
 
@@ -121,6 +124,100 @@ impl Twin {
             .zip(&self.slack)
             .map(|(amount, slack)| margin * amount > *slack)
             .collect()
+    }
+}
+
+/// A face of optima: the columns that may still be chosen, and those that every optimum uses to their limit.
+#[derive(Clone)]
+struct Face {
+    /// What the columns must give, beside what the full ones do.
+    need: Vec<f64>,
+    columns: Vec<Column>,
+    amounts: Vec<f64>,
+    full: Vec<Column>,
+}
+
+impl Face {
+    fn whole(need: &[f64], columns: Vec<Column>) -> Face {
+        let amounts = vec![0.0; columns.len()];
+        Face {
+            need: need.to_vec(),
+            columns,
+            amounts,
+            full: Vec::new(),
+        }
+    }
+
+    /// The same columns with other amounts.
+    fn with(self, amounts: Vec<f64>) -> Face {
+        Face { amounts, ..self }
+    }
+
+    /// The face's part on which the optima of a solved twin of it lie.
+    ///
+    /// A limited column whose limit is worth more than it leaves unused is full; only then is every balance on the face
+    /// an optimum.
+    fn narrowed(&self, solved: &Twin, margin: f64) -> Face {
+        let mut face = Face {
+            columns: Vec::new(),
+            amounts: Vec::new(),
+            ..self.clone()
+        };
+        let active = solved.active(margin);
+        for (k, column) in self.columns.iter().enumerate() {
+            let amount = solved.amounts[k];
+            if column.limit.is_finite() && solved.worth[k] > column.limit - amount {
+                column.add_to(&mut face.need, -column.limit);
+                face.full.push(*column);
+            } else if active[k] {
+                face.columns.push(*column);
+                face.amounts.push(amount);
+            }
+        }
+        face
+    }
+
+    /// The face with the columns of which `keep` holds.
+    fn only(&self, keep: impl Fn(&Column, f64) -> bool) -> Face {
+        let mut face = Face {
+            columns: Vec::new(),
+            amounts: Vec::new(),
+            ..self.clone()
+        };
+        for (column, amount) in self.columns.iter().zip(&self.amounts) {
+            if keep(column, *amount) {
+                face.columns.push(*column);
+                face.amounts.push(*amount);
+            }
+        }
+        face
+    }
+
+    /// What the amounts cost, those of the full columns included.
+    fn cost(&self, amounts: &[f64]) -> f64 {
+        let chosen: f64 = self
+            .columns
+            .iter()
+            .zip(amounts)
+            .map(|(c, a)| c.cost * a)
+            .sum();
+        chosen + self.full.iter().map(|c| c.cost * c.limit).sum::<f64>()
+    }
+
+    /// The admissible and the sticking forces.
+    fn gathered(&self, program: &Program) -> (Amounts, Amounts) {
+        let (mut admissible, mut sticking) = (Amounts::none(program), Amounts::none(program));
+        let chosen = self.columns.iter().zip(self.amounts.iter().copied());
+        let full = self.full.iter().map(|c| (c, c.limit));
+        for (column, amount) in chosen.chain(full) {
+            let to = if column.force.sticks() {
+                &mut sticking
+            } else {
+                &mut admissible
+            };
+            to.add(column.force, amount);
+        }
+        (admissible, sticking)
     }
 }
 
@@ -140,6 +237,7 @@ fn twin(
         y: vec![0.0; need.len()],
         amounts: vec![0.0; n],
         slack: vec![0.0; n],
+        worth: vec![0.0; n],
         aim: 0.0,
     };
     if answer.x.is_empty() {
@@ -157,7 +255,17 @@ fn twin(
         }
     }
     solved.y.copy_from_slice(&answer.x[..need.len()]);
-    solved.aim = need.iter().zip(&solved.y).map(|(b, y)| b * y).sum();
+    // Limited columns own the unknowns after the velocities, in their order.
+    let limited = (0..n).filter(|k| columns[*k].limit.is_finite());
+    for (k, worth) in limited.zip(&answer.x[need.len()..]) {
+        solved.worth[k] = worth.max(0.0);
+    }
+    solved.aim = -conic
+        .linear
+        .iter()
+        .zip(&answer.x)
+        .map(|(q, x)| q * x)
+        .sum::<f64>();
     solved
 }
 
@@ -190,11 +298,6 @@ fn tidy(need: &[f64], columns: &[Column], care: Care, effort: &mut Effort) -> Op
     }
     let answer = careful(&least_squares(need, columns, None), care, effort);
     (answer.status == Status::Solved).then(|| answer.x.iter().map(|v| v.max(0.0)).collect())
-}
-
-/// What the amounts leave unbalanced, relative to the largest need.
-fn rest(need: &[f64], columns: &[Column], amounts: &[f64]) -> f64 {
-    largest(&remainder(need, columns, amounts)) / largest(need)
 }
 
 fn remainder(need: &[f64], columns: &[Column], amounts: &[f64]) -> Vec<f64> {
@@ -249,24 +352,4 @@ fn refined(
         amounts = better;
     }
     amounts
-}
-
-/// Columns that are active, with their amounts.
-fn kept(columns: &[Column], amounts: &[f64], active: &[bool]) -> (Vec<Column>, Vec<f64>) {
-    let pick = columns.iter().zip(amounts).zip(active).filter(|(_, a)| **a);
-    pick.map(|((column, amount), _)| (*column, *amount)).unzip()
-}
-
-/// The forces of some columns' amounts.
-fn gathered(program: &Program, columns: &[Column], amounts: &[f64]) -> (Amounts, Amounts) {
-    let (mut admissible, mut sticking) = (Amounts::none(program), Amounts::none(program));
-    for (column, amount) in columns.iter().zip(amounts) {
-        let to = if column.force.sticks() {
-            &mut sticking
-        } else {
-            &mut admissible
-        };
-        to.add(column.force, *amount);
-    }
-    (admissible, sticking)
 }
