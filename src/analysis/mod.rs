@@ -5,6 +5,7 @@
 //! been solved in an earlier frame is not solved again; `group` does one group, this file puts frames together.
 
 mod group;
+mod margin;
 
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -22,6 +23,7 @@ use crate::resultant::{friction_used, of as resultant_of};
 use crate::scene::{BlockId, BodyId, Frame, RobotId, Scene};
 use crate::solve::Effort;
 use group::{Findings, solved};
+pub use margin::{Margin, Margins, RobotMargins, Sides};
 
 /// Whether a frame stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -68,6 +70,8 @@ pub struct FrameAnalysis {
     pub unsupported: Vec<BlockId>,
     /// How the blocks move where the frame falls, the fastest point with speed 1.
     pub mechanism: Vec<Motion>,
+    /// How far it is from the edge of standing, where that was asked for.
+    pub margins: Option<Margins>,
     /// Every effect, simulated or skipped.
     pub effects: Vec<EffectReport>,
     /// How well the verdict is proved.
@@ -174,6 +178,23 @@ pub struct SolveReport {
     pub seconds: f64,
 }
 
+/// What an analysis is asked beside the verdict; by default nothing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Options {
+    /// How far each frame is from the edge of standing.
+    pub margins: Ask,
+}
+
+/// Whether something is asked for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Ask {
+    /// It is left out, and costs nothing.
+    #[default]
+    No,
+    /// It is found out.
+    Yes,
+}
+
 /// What makes one group the same as one of an earlier frame: its blocks and who holds them where.
 type Key = (Vec<BlockId>, Vec<(RobotId, BlockId, [u64; 2])>);
 
@@ -194,6 +215,11 @@ impl<'s> Analysis<'s> {
     /// # Ok::<(), drystone::scene::Problems>(())
     /// ```
     pub fn of(scene: &'s Scene) -> Analysis<'s> {
+        Analysis::with(scene, &Options::default())
+    }
+
+    /// Examines every frame of a scene, and what else is asked for.
+    pub fn with(scene: &'s Scene, options: &Options) -> Analysis<'s> {
         let found = Interfaces::of(scene);
         let length = found
             .typical_length()
@@ -204,7 +230,7 @@ impl<'s> Analysis<'s> {
             .iter()
             .map(|frame| {
                 let interfaces = found.in_frame(scene, frame);
-                let mut analysis = examined(scene, frame, &interfaces, length, &mut known);
+                let mut analysis = examined(scene, frame, &interfaces, length, options, &mut known);
                 analysis.notices.extend(found.notices.iter().cloned());
                 analysis
             })
@@ -246,6 +272,7 @@ fn examined(
     frame: &Frame,
     interfaces: &[&Interface],
     length: f64,
+    options: &Options,
     known: &mut BTreeMap<Key, Findings>,
 ) -> FrameAnalysis {
     let start = Instant::now();
@@ -280,6 +307,13 @@ fn examined(
         }
     }
     settle(&mut analysis, &situation);
+    let mut judged = None;
+    if options.margins == Ask::Yes {
+        let (margins, tries) = margin::of(scene, frame, interfaces, &groups, known, length);
+        analysis.margins = Some(margins);
+        judged = Some(tries);
+    }
+    analysis.effects.push(effect::margin::report(judged));
     analysis.solve = SolveReport {
         method: if effort.programs == 0 && fresh.len() == groups.len() {
             "closed form"
@@ -349,6 +383,7 @@ fn gathered(
         failures: Vec::new(),
         unsupported: Vec::new(),
         mechanism: Vec::new(),
+        margins: None,
         effects: plan.reports.clone(),
         proof: Proof::Forces {
             worst_imbalance: 0.0,

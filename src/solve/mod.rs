@@ -9,11 +9,13 @@
 mod balance;
 mod conic;
 mod exact;
+mod limit;
 mod single;
 mod stick;
 
 pub use balance::{Balance, balance};
 pub use conic::{Answer, Care, Status, TOLERANCE, solve};
+pub use limit::{Limit, least, most};
 pub use single::single;
 pub use stick::{Stuck, stick};
 

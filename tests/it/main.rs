@@ -10,6 +10,7 @@ mod gallery;
 mod hard;
 mod laws;
 mod layers;
+mod margins;
 mod pictures;
 mod problems;
 mod program;
