@@ -100,7 +100,7 @@ impl Edge {
             }
         }
         // What is left of the band around 0 is 0.
-        let at = if inside < 1e-7 * self.natural {
+        let at = if inside < 1e-6 * self.natural {
             0.0
         } else {
             inside

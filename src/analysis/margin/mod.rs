@@ -67,7 +67,7 @@ pub struct Sides {
 /// # Example
 /// ```
 /// use drystone::{Analysis, Scene, analysis::{Ask, Margin, Options}};
-/// // A block 3 m wide and 2 m high topples over its right edge at a turn of atan(1.5 / 1), if it does not slide first.
+/// // A block 3 m wide and 2 m high would topple at a horizontal share of 1.5, but slides at its friction of 0.5.
 /// let scene = Scene::from_json(r#"{ "drystone": 1, "friction": 0.5,
 ///     "ground": [{ "polygon": [[0, 0], [9, 0], [9, -1], [0, -1]] }],
 ///     "blocks": [{ "id": "a", "polygon": [[1, 0], [4, 0], [4, 2], [1, 2]], "weight": 6 }] }"#)?;
