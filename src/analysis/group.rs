@@ -13,7 +13,7 @@ use crate::interface::Interface;
 use crate::program::{Group, Program, Scale, assemble, load_on};
 use crate::proof::{self, Held, Motion, Pressed, Proof, Yardstick};
 use crate::scene::{BodyId, Frame, Scene};
-use crate::solve::{Amounts, Care, Effort, balance, single, stick};
+use crate::solve::{Amounts, Care, Effort, Reach, balance, reach, single, stick};
 
 /// What was found out about one group, forces in the order of its interfaces and holds.
 #[derive(Clone, Debug)]
@@ -104,6 +104,28 @@ pub(super) fn judged(
     }
     let found = solved(scene, frame, interfaces, plan, group, length);
     (found.verdict, found.mechanism)
+}
+
+/// Whether some group stands only by wedging; `None` where no group surely does and some group's springs do not settle.
+pub(super) fn only_by_wedging(
+    scene: &Scene,
+    frame: &Frame,
+    interfaces: &[&Interface],
+    plan: &Plan,
+    groups: &[Group],
+    length: f64,
+) -> Option<bool> {
+    let mut only = Some(false);
+    for group in groups {
+        let case = Case::of(scene, frame, interfaces, plan, group, length);
+        let program = assemble(scene, frame, interfaces, plan, group, case.scale);
+        match reach(&program) {
+            Reach::FromRest => {}
+            Reach::OnlyWedged => return Some(true),
+            Reach::Unclear => only = None,
+        }
+    }
+    only
 }
 
 /// A judgement in the program's pure numbers.

@@ -13,6 +13,7 @@ use std::time::Instant;
 use rayon::prelude::*;
 
 pub use crate::effect::EffectReport;
+use crate::effect::wedging::{self, Wedging};
 use crate::effect::{self, Plan, Situation, mechanism, sticking};
 use crate::geometry::{Point, Vector};
 use crate::interface::{Interface, Interfaces};
@@ -72,6 +73,9 @@ pub struct FrameAnalysis {
     pub mechanism: Vec<Motion>,
     /// How far it is from the edge of standing, where that was asked for.
     pub margins: Option<Margins>,
+    /// Whether it stands only by a self-stress that its loads do not build up from rest, where that was asked for, it
+    /// stands, and an answer was found.
+    pub only_by_wedging: Option<bool>,
     /// Every effect, simulated or skipped.
     pub effects: Vec<EffectReport>,
     /// How well the verdict is proved.
@@ -183,6 +187,8 @@ pub struct SolveReport {
 pub struct Options {
     /// How far each frame is from the edge of standing.
     pub margins: Ask,
+    /// Whether each standing frame stands only by wedging.
+    pub wedging: Ask,
 }
 
 /// Whether something is asked for.
@@ -314,6 +320,19 @@ fn examined(
         judged = Some(tries);
     }
     analysis.effects.push(effect::margin::report(judged));
+    let wedging = match (options.wedging, analysis.verdict) {
+        (Ask::No, _) => Wedging::NotAsked,
+        (Ask::Yes, Verdict::Stable) => {
+            analysis.only_by_wedging =
+                group::only_by_wedging(scene, frame, interfaces, &plan, &groups, length);
+            match analysis.only_by_wedging {
+                Some(_) => Wedging::Found,
+                None => Wedging::Unclear,
+            }
+        }
+        (Ask::Yes, _) => Wedging::Falls,
+    };
+    analysis.effects.push(wedging::report(wedging));
     analysis.solve = SolveReport {
         method: if effort.programs == 0 && fresh.len() == groups.len() {
             "closed form"
@@ -384,6 +403,7 @@ fn gathered(
         unsupported: Vec::new(),
         mechanism: Vec::new(),
         margins: None,
+        only_by_wedging: None,
         effects: plan.reports.clone(),
         proof: Proof::Forces {
             worst_imbalance: 0.0,

@@ -201,6 +201,9 @@ fn remarks(scene: &Scene, frame: &FrameAnalysis) -> Vec<String> {
     if !frame.doubt.is_empty() {
         remarks.push(frame.doubt.clone());
     }
+    if frame.only_by_wedging == Some(true) {
+        remarks.push("stands only by wedging: nothing that acts on it builds up the forces that would hold it".into());
+    }
     if let Some(margins) = &frame.margins {
         remarks.extend(edges(scene, margins));
     }

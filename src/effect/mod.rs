@@ -14,6 +14,7 @@ pub mod mechanism;
 pub mod robot;
 pub mod robot_torque;
 pub mod sticking;
+pub mod wedging;
 pub mod weight;
 
 use crate::interface::Interface;

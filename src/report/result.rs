@@ -3,7 +3,8 @@
 //! Invariant: the same analysis gives the same bytes, apart from `seconds`, which [`Timing::LeftOut`] leaves out. Every
 //! number is plain: no −0, and the shortest decimal that reads back as the same f64. A number that could not be computed,
 //! which happens in frames that are `undecided` only, is `null`. Lists that say nothing are absent where the contract
-//! does not name them: `unsupported`, `notices`, `doubt`. What was not asked for is absent: `margins`.
+//! does not name them: `unsupported`, `notices`, `doubt`. What was not asked for is absent: `margins`,
+//! `only_by_wedging`.
 //!
 //! This file is serde's second door, beside `scene::format`: that one reads a person's file, this one writes for programs,
 //! and the two change for different reasons.
@@ -100,6 +101,8 @@ struct Frame<'a> {
     mechanism: Vec<Motion<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     margins: Option<Margins<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    only_by_wedging: Option<bool>,
     effects: Vec<Effect<'a>>,
     proof: ProofNumbers,
     solve: Solve,
@@ -260,6 +263,7 @@ impl<'a> Frame<'a> {
                 .map(|m| Motion::of(scene, m))
                 .collect(),
             margins: frame.margins.as_ref().map(|m| Margins::of(scene, m)),
+            only_by_wedging: frame.only_by_wedging,
             effects: frame
                 .effects
                 .iter()

@@ -17,3 +17,4 @@ mod program;
 mod scenes;
 mod statics;
 mod structure;
+mod wedging;

@@ -122,6 +122,7 @@ fn frame() -> FrameAnalysis {
             spin: f64::NAN,
         }],
         margins: None,
+        only_by_wedging: None,
         effects: vec![EffectReport {
             effect: "friction",
             simulated: true,
