@@ -5,6 +5,9 @@
 //! with its proof. Where both proofs hold, the forces win.
 
 mod failure;
+mod question;
+
+pub(super) use question::{judged, only_by_wedging};
 
 use super::{Failure, Verdict};
 use crate::effect::Plan;
@@ -13,7 +16,7 @@ use crate::interface::Interface;
 use crate::program::{Group, Program, Scale, assemble, load_on};
 use crate::proof::{self, Held, Motion, Pressed, Proof, Yardstick};
 use crate::scene::{BodyId, Frame, Scene};
-use crate::solve::{Amounts, Care, Effort, Reach, balance, reach, single, stick};
+use crate::solve::{Amounts, Care, Effort, balance, single, stick};
 
 /// What was found out about one group, forces in the order of its interfaces and holds.
 #[derive(Clone, Debug)]
@@ -71,61 +74,6 @@ pub(super) fn solved(
         }
     }
     case.judged(&program).findings(&case)
-}
-
-/// Whether one group stands, and how it begins to move where it falls: the verdict of [`solved`] without the rest.
-///
-/// What must stick is not sought, unless a mechanism is so weak that forces within their band might balance after all.
-pub(super) fn judged(
-    scene: &Scene,
-    frame: &Frame,
-    interfaces: &[&Interface],
-    plan: &Plan,
-    group: &Group,
-    length: f64,
-) -> (Verdict, Vec<Motion>) {
-    let case = Case::of(scene, frame, interfaces, plan, group, length);
-    let program = assemble(scene, frame, interfaces, plan, group, case.scale);
-    if let Some(found) = case.at_once(&program, plan) {
-        return (found.verdict, found.mechanism);
-    }
-    let generous = program.without_lavish_limits();
-    let first = balance(generous.as_ref().unwrap_or(&program), Care::Quick);
-    if let Some(amounts) = &first.forces {
-        let proof = case.carried(&program, amounts).proof;
-        if proof.holds() && program.allows(&amounts.grip) {
-            return (Verdict::Stable, Vec::new());
-        }
-    }
-    if let Some(motion) = first.motion.map(|y| case.moved(&y))
-        && case.outweighs_the_band(&motion)
-    {
-        return (Verdict::Unstable, motion);
-    }
-    let found = solved(scene, frame, interfaces, plan, group, length);
-    (found.verdict, found.mechanism)
-}
-
-/// Whether some group stands only by wedging; `None` where no group surely does and some group's springs do not settle.
-pub(super) fn only_by_wedging(
-    scene: &Scene,
-    frame: &Frame,
-    interfaces: &[&Interface],
-    plan: &Plan,
-    groups: &[Group],
-    length: f64,
-) -> Option<bool> {
-    let mut only = Some(false);
-    for group in groups {
-        let case = Case::of(scene, frame, interfaces, plan, group, length);
-        let program = assemble(scene, frame, interfaces, plan, group, case.scale);
-        match reach(&program) {
-            Reach::FromRest => {}
-            Reach::OnlyWedged => return Some(true),
-            Reach::Unclear => only = None,
-        }
-    }
-    only
 }
 
 /// A judgement in the program's pure numbers.

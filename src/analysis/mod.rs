@@ -323,8 +323,12 @@ fn examined(
     let wedging = match (options.wedging, analysis.verdict) {
         (Ask::No, _) => Wedging::NotAsked,
         (Ask::Yes, Verdict::Stable) => {
+            let found = groups
+                .iter()
+                .zip(&keys)
+                .filter_map(|(group, key)| Some((group, known.get(key)?)));
             analysis.only_by_wedging =
-                group::only_by_wedging(scene, frame, interfaces, &plan, &groups, length);
+                group::only_by_wedging(scene, frame, interfaces, &plan, found, length);
             match analysis.only_by_wedging {
                 Some(_) => Wedging::Found,
                 None => Wedging::Unclear,

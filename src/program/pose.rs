@@ -167,24 +167,13 @@ pub fn least_squares(need: &[f64], columns: &[Column], correction: Option<Correc
 /// The friction force of a contact is T + E, with E from a soft spring that goes on beyond `most`. Unknowns stand contact
 /// by contact as N1, N2, T, E/√hardening, then grip by grip as force x, force y, torque/L.
 pub fn elastic(program: &Program, most: &[f64], hardening: f64) -> Conic {
-    let smooth = Program {
-        contacts: program
-            .contacts
-            .iter()
-            .cloned()
-            .map(|c| super::Contact { friction: 0.0, ..c })
-            .collect(),
-        grips: program
-            .grips
-            .iter()
-            .cloned()
-            .map(|g| super::GripTerm {
-                limits: [f64::INFINITY; 3],
-                ..g
-            })
-            .collect(),
-        ..program.clone()
-    };
+    let mut smooth = program.clone();
+    for contact in &mut smooth.contacts {
+        contact.friction = 0.0;
+    }
+    for grip in &mut smooth.grips {
+        grip.limits = [f64::INFINITY; 3];
+    }
     let contacts = program.contacts.len();
     let mut conic = Conic {
         unknowns: 4 * contacts + 3 * program.grips.len(),

@@ -47,6 +47,7 @@ pub fn reach(program: &Program) -> Reach {
     let Some(soft) = settled(program, HARDENING[1]) else {
         return Reach::Unclear;
     };
+    // What acts on a block apart from contacts: its load, and what a robot gives it.
     let own = |block: usize| {
         let rows = &program.need[3 * block..3 * block + 3];
         rows.iter().fold(0.0, |m: f64, v| m.max(v.abs()))
