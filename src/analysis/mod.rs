@@ -4,6 +4,7 @@
 //! this and nothing deeper. Groups of blocks that cannot influence each other are solved apart, and a group that has
 //! been solved in an earlier frame is not solved again; `group` does one group, this file puts frames together.
 
+mod frame;
 mod group;
 mod margin;
 
@@ -14,7 +15,7 @@ use rayon::prelude::*;
 
 pub use crate::effect::EffectReport;
 use crate::effect::wedging::{self, Wedging};
-use crate::effect::{self, Plan, Situation, mechanism, sticking};
+use crate::effect::{self, Plan, Situation};
 use crate::geometry::{Point, Vector};
 use crate::interface::{Interface, Interfaces};
 use crate::program::{Group, groups};
@@ -23,6 +24,7 @@ pub use crate::resultant::Resultant;
 use crate::resultant::{friction_used, of as resultant_of};
 use crate::scene::{BlockId, BodyId, Frame, RobotId, Scene};
 use crate::solve::Effort;
+use frame::{settle, worst};
 use group::{Findings, solved};
 pub use margin::{Margin, Margins, RobotMargins, Sides};
 
@@ -478,71 +480,4 @@ fn add(
         _ => analysis.proof,
     };
     analysis.verdict = analysis.verdict.max(found.verdict);
-}
-
-fn worst(a: Proof, b: Proof) -> Proof {
-    match (a, b) {
-        (
-            Proof::Forces {
-                worst_imbalance: i,
-                worst_share: r,
-                worst_pull: p,
-                worst_slip: s,
-            },
-            Proof::Forces {
-                worst_imbalance: j,
-                worst_share: q,
-                worst_pull: t,
-                worst_slip: u,
-            },
-        ) => Proof::Forces {
-            worst_imbalance: i.max(j),
-            worst_share: r.max(q),
-            worst_pull: p.max(t),
-            worst_slip: s.max(u),
-        },
-        (
-            Proof::Mechanism {
-                power: p,
-                worst_violation: v,
-            },
-            Proof::Mechanism {
-                power: q,
-                worst_violation: w,
-            },
-        ) => Proof::Mechanism {
-            power: p.min(q),
-            worst_violation: v.max(w),
-        },
-        (Proof::Mechanism { .. }, _) => a,
-        _ => b,
-    }
-}
-
-/// Writes what only the outcome tells.
-fn settle(analysis: &mut FrameAnalysis, situation: &Situation) {
-    let unstable = analysis.verdict == Verdict::Unstable;
-    if analysis.verdict != Verdict::Undecided {
-        analysis.doubt.clear();
-    }
-    analysis
-        .effects
-        .push(sticking::report(situation, !analysis.failures.is_empty()));
-    analysis.effects.push(mechanism::report(unstable));
-    if !analysis.unsupported.is_empty() {
-        let names: Vec<&str> = analysis
-            .unsupported
-            .iter()
-            .take(10)
-            .map(|b| situation.scene.blocks[b.0].id.as_str())
-            .collect();
-        let more = match analysis.unsupported.len() - names.len() {
-            0 => String::new(),
-            n => format!(" and {n} more"),
-        };
-        analysis.notices.push(format!(
-            "no sticking at the points where forces act could hold {}{more}",
-            names.join(", ")
-        ));
-    }
 }

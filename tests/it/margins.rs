@@ -235,3 +235,61 @@ fn margins_are_an_effect_on_request() {
     assert!(told(&asked).0 && told(&asked).1.starts_with("asked for"));
     assert_eq!(asked.verdict, plain.verdict);
 }
+
+/// Every margin of the source's scenes, asked of changed scene files through the front door.
+#[test]
+fn just_inside_it_stands_and_just_beyond_it_falls() {
+    let folder = format!("{}/assets/thesis", env!("CARGO_MANIFEST_DIR"));
+    let mut asked = 0;
+    for name in [
+        "figure-3b",
+        "figure-5",
+        "figure-6-kernel-02",
+        "figure-8-left",
+    ] {
+        let text = std::fs::read_to_string(format!("{folder}/{name}.json")).expect("a scene");
+        let file: Value = serde_json::from_str(&text).expect("JSON");
+        for (number, frame) in thesis(name).iter().enumerate() {
+            let found = frame.margins.as_ref().expect("asked for");
+            let mut agrees = |margin: &Margin,
+                              more_is_worse: bool,
+                              change: &dyn Fn(f64) -> Value| {
+                let Some(at) = margin.at().filter(|at| *at > 0.0) else {
+                    return;
+                };
+                for (share, inside) in [(1.0 - 1e-4, more_is_worse), (1.0 + 1e-4, !more_is_worse)] {
+                    let scene = scene(&change(at * share));
+                    let verdict = Analysis::of(&scene).frames[number].verdict;
+                    let expected = if inside {
+                        Verdict::Stable
+                    } else {
+                        Verdict::Unstable
+                    };
+                    assert_eq!(
+                        verdict, expected,
+                        "{name}, frame {number}: {at} times {share}"
+                    );
+                    asked += 1;
+                }
+            };
+            let with = |key: &str, value: Value| {
+                let mut changed = file.clone();
+                changed[key] = value;
+                changed
+            };
+            // The source's scenes know one friction coefficient and a gravity of (0, −1).
+            agrees(&found.friction, false, &|mu| with("friction", json!(mu)));
+            agrees(&found.kernel, true, &|kernel| with("kernel", json!(kernel)));
+            for (margin, side) in [(&found.tilt.left, -1.0), (&found.tilt.right, 1.0)] {
+                agrees(margin, true, &|degrees| {
+                    let angle = degrees.to_radians();
+                    with(
+                        "gravity",
+                        json!([side * libm::sin(angle), -libm::cos(angle)]),
+                    )
+                });
+            }
+        }
+    }
+    assert_eq!(asked, 30);
+}
