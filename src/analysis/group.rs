@@ -4,14 +4,14 @@
 //! the least-sticking program, whose optimum is the physical residual and decides near the edge. Each is believed only
 //! with its proof. Where both proofs hold, the forces win.
 
-use super::{Failure, Verdict};
-use crate::effect::Plan;
+use super::{Failure, Options, Verdict};
+use crate::effect::{Plan, Situation};
 use crate::geometry::Vector;
 use crate::interface::Interface;
 use crate::program::{Group, Program, Scale, assemble, load_on};
-use crate::proof::{self, Held, Motion, Pressed, Proof, Yardstick};
+use crate::proof::{self, Demand, Held, Motion, Pressed, Proof, Yardstick};
 use crate::scene::{BodyId, Frame, Scene};
-use crate::solve::{Amounts, Care, Effort, balance, single, stick};
+use crate::solve::{Amounts, Effort, Manner, balance_in, single, stick_in};
 
 /// What was found out about one group, forces in the order of its interfaces and holds.
 #[derive(Clone, Debug)]
@@ -38,6 +38,8 @@ struct Case<'a> {
     group: &'a Group,
     yardstick: Yardstick,
     scale: Scale,
+    manners: Vec<Manner>,
+    demand: Demand,
 }
 
 /// Forces in newtons with their proof.
@@ -49,13 +51,13 @@ struct Carried {
 
 /// Solves one group and proves its verdict.
 pub(super) fn solved(
-    scene: &Scene,
-    frame: &Frame,
-    interfaces: &[&Interface],
+    situation: &Situation,
     plan: &Plan,
     group: &Group,
     length: f64,
+    options: Options,
 ) -> Findings {
+    let (scene, frame, interfaces) = (situation.scene, situation.frame, situation.interfaces);
     let heaviest = group
         .blocks
         .iter()
@@ -79,6 +81,8 @@ pub(super) fn solved(
         group,
         yardstick,
         scale,
+        manners: options.manners(),
+        demand: options.accuracy.demand(),
     };
     let program = assemble(scene, frame, interfaces, plan, group, scale);
     if heaviest == 0.0 {
@@ -90,7 +94,7 @@ pub(super) fn solved(
     }
     if let Some(amounts) = single(&program) {
         let carried = case.carried(&program, &amounts);
-        if carried.proof.holds() {
+        if case.believes(&carried.proof) {
             return case.stands(carried, Effort::default());
         }
     }
@@ -188,12 +192,12 @@ impl Case<'_> {
             effort: Effort::default(),
         };
         let mut direction = None;
-        for care in [Care::Quick, Care::Full] {
-            let first = balance(program, care);
+        for manner in &self.manners {
+            let first = balance_in(program, *manner);
             judged.effort = judged.effort.and(first.effort);
             if let Some(amounts) = first.forces {
                 let proof = self.carried(program, &amounts).proof;
-                if proof.holds() {
+                if self.believes(&proof) {
                     return Judged {
                         amounts,
                         proof,
@@ -204,17 +208,17 @@ impl Case<'_> {
             direction = first.motion.map(|y| self.moved(&y));
             if direction
                 .as_ref()
-                .is_some_and(|motion| self.mechanism(motion).holds())
+                .is_some_and(|motion| self.believes(&self.mechanism(motion)))
             {
                 break;
             }
         }
         let mut doubts = String::new();
-        for care in [Care::Quick, Care::Full] {
-            let stuck = stick(program, care);
+        for manner in &self.manners {
+            let stuck = stick_in(program, *manner);
             judged.effort = judged.effort.and(stuck.effort);
             let proof = self.carried(program, &stuck.forces).proof;
-            if stuck.balanced && proof.holds() {
+            if stuck.balanced && self.believes(&proof) {
                 return Judged {
                     amounts: stuck.forces,
                     proof,
@@ -235,7 +239,7 @@ impl Case<'_> {
                 })
                 .collect();
             doubts = doubt(&proof, proved.first().map(|p| &p.1));
-            if let Some((mechanism, proof)) = proved.into_iter().find(|p| p.1.holds()) {
+            if let Some((mechanism, proof)) = proved.into_iter().find(|p| self.believes(&p.1)) {
                 return Judged {
                     verdict: Verdict::Unstable,
                     mechanism,
@@ -250,6 +254,10 @@ impl Case<'_> {
             doubt: doubts,
             ..judged
         }
+    }
+
+    fn believes(&self, proof: &Proof) -> bool {
+        proof.meets(self.demand)
     }
 
     fn touching(&self) -> Vec<&Interface> {
@@ -340,7 +348,7 @@ impl Case<'_> {
     }
 
     fn stands(&self, carried: Carried, effort: Effort) -> Findings {
-        let holds = carried.proof.holds();
+        let holds = self.believes(&carried.proof);
         Findings {
             verdict: if holds {
                 Verdict::Stable

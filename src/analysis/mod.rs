@@ -5,6 +5,7 @@
 //! been solved in an earlier frame is not solved again; `group` does one group, this file puts frames together.
 
 mod group;
+mod option;
 
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -16,12 +17,13 @@ use crate::effect::{self, Plan, Situation, mechanism, sticking};
 use crate::geometry::{Point, Vector};
 use crate::interface::{Interface, Interfaces};
 use crate::program::{Group, groups};
-pub use crate::proof::{Motion, Proof};
+pub use crate::proof::{Demand, Motion, Proof};
 pub use crate::resultant::Resultant;
 use crate::resultant::{friction_used, of as resultant_of};
 use crate::scene::{BlockId, BodyId, Frame, RobotId, Scene};
 use crate::solve::Effort;
 use group::{Findings, solved};
+pub use option::{Accuracy, Options};
 
 /// Whether a frame stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -194,17 +196,21 @@ impl<'s> Analysis<'s> {
     /// # Ok::<(), drystone::scene::Problems>(())
     /// ```
     pub fn of(scene: &'s Scene) -> Analysis<'s> {
+        Analysis::with(scene, &Options::default())
+    }
+
+    /// Examines every frame of a scene as the options say.
+    pub fn with(scene: &'s Scene, options: &Options) -> Analysis<'s> {
         let found = Interfaces::of(scene);
-        let length = found
-            .typical_length()
-            .unwrap_or_else(|| typical_block(scene));
+        let length = Analysis::length_of(scene, &found);
         let mut known: BTreeMap<Key, Findings> = BTreeMap::new();
         let frames = scene
             .frames
             .iter()
             .map(|frame| {
                 let interfaces = found.in_frame(scene, frame);
-                let mut analysis = examined(scene, frame, &interfaces, length, &mut known);
+                let mut analysis =
+                    examined(scene, frame, &interfaces, length, *options, &mut known);
                 analysis.notices.extend(found.notices.iter().cloned());
                 analysis
             })
@@ -214,6 +220,13 @@ impl<'s> Analysis<'s> {
             length,
             frames,
         }
+    }
+
+    /// L: the median interface length, or the typical block's where nothing touches; metres.
+    pub fn length_of(scene: &Scene, found: &Interfaces) -> f64 {
+        found
+            .typical_length()
+            .unwrap_or_else(|| typical_block(scene))
     }
 
     /// The worst verdict of all frames.
@@ -246,6 +259,7 @@ fn examined(
     frame: &Frame,
     interfaces: &[&Interface],
     length: f64,
+    options: Options,
     known: &mut BTreeMap<Key, Findings>,
 ) -> FrameAnalysis {
     let start = Instant::now();
@@ -260,7 +274,7 @@ fn examined(
     let fresh: Vec<usize> = (0..groups.len())
         .filter(|k| !known.contains_key(&keys[*k]))
         .collect();
-    let one = |k: &usize| solved(scene, frame, interfaces, &plan, &groups[*k], length);
+    let one = |k: &usize| solved(&situation, &plan, &groups[*k], length, options);
     // Many small groups are worth the threads; the order of the results is that of the groups either way.
     let findings: Vec<Findings> = if fresh.len() > 16 {
         fresh.par_iter().map(one).collect()

@@ -8,6 +8,7 @@ use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 use crate::analysis::Analysis;
 use crate::cli::complaint::Complaint;
 use crate::cli::ending::Ending;
+use crate::cli::level::Level;
 use crate::cli::progress::{Progress, Shown};
 use crate::cli::source::{self, FrameChoice};
 use crate::cli::table;
@@ -29,6 +30,8 @@ pub(crate) struct Check {
     /// Examine one frame only, by number from 1 or by its letter in the strip
     #[arg(long, value_name = "N")]
     frame: Option<FrameChoice>,
+    #[command(flatten)]
+    level: Level,
 }
 
 impl Check {
@@ -44,7 +47,7 @@ impl Check {
             .par_iter()
             .map(|source| {
                 progress.doing(&source.name());
-                let analysis = Analysis::of(&source.scene);
+                let analysis = Analysis::with(&source.scene, &self.level.options());
                 progress.step();
                 analysis
             })

@@ -1,6 +1,8 @@
 //! The hard program: admissible forces of least sum that balance every block, or a motion that none can stop.
 
-use super::{Amounts, Care, Effort, Status, gathered, kept, refined, rest, tidy, twin};
+use super::{
+    Amounts, Care, Choice, Effort, Manner, Status, gathered, kept, refined, rest, tidy, twin,
+};
 use crate::program::{Program, columns};
 
 /// What the hard program gave.
@@ -22,15 +24,24 @@ const MARGINS: [f64; 3] = [1.0, 1e3, 1e6];
 
 /// Solves the hard program of [Vallat23](crate::doc::references) §2.0.7 through its kinematic twin.
 pub fn balance(program: &Program, care: Care) -> Balance {
+    balance_in(program, care.into())
+}
+
+/// Solves it in a manner of one's own.
+pub fn balance_in(program: &Program, manner: Manner) -> Balance {
     let mut effort = Effort::default();
     let columns = columns(program);
-    let solved = twin(&program.need, &columns, care, &mut effort, |c| c.cost);
+    let solved = twin(&program.need, &columns, manner, &mut effort, |c| c.cost);
     match solved.status {
         Status::Solved => {
             let mut found = None;
-            for margin in MARGINS {
-                let (face, _) = kept(&columns, &solved.amounts, &solved.active(margin));
-                let Some(amounts) = tidy(&program.need, &face, care, &mut effort) else {
+            let margins = match manner.choice {
+                Choice::Any => &[][..],
+                Choice::Unique => &MARGINS[..],
+            };
+            for margin in margins {
+                let (face, _) = kept(&columns, &solved.amounts, &solved.active(*margin));
+                let Some(amounts) = tidy(&program.need, &face, manner, &mut effort) else {
                     continue;
                 };
                 let cost: f64 = face.iter().zip(&amounts).map(|(c, a)| c.cost * a).sum();
@@ -42,7 +53,7 @@ pub fn balance(program: &Program, care: Care) -> Balance {
                 }
             }
             let (face, amounts) = found.unwrap_or((columns, solved.amounts));
-            let amounts = match care {
+            let amounts = match manner.care {
                 Care::Quick => amounts,
                 Care::Full => refined(&program.need, &face, amounts, &mut effort),
             };

@@ -9,7 +9,9 @@
 //! the order of the file; a tie between mirror images stays a tie, and the figure of a mirrored scene is the mirrored
 //! figure.
 
-use super::{Amounts, Care, Effort, Status, Twin, gathered, kept, largest, refined, tidy, twin};
+use super::{
+    Amounts, Care, Effort, Manner, Status, Twin, gathered, kept, largest, refined, tidy, twin,
+};
 use crate::program::{Column, Program, columns, sticking_columns};
 
 /// Rounds of concentrating; the count of points rarely falls after the third.
@@ -32,10 +34,15 @@ pub struct Stuck {
 
 /// Solves the soft program.
 pub fn stick(program: &Program, care: Care) -> Stuck {
+    stick_in(program, care.into())
+}
+
+/// Solves it in a manner of one's own.
+pub fn stick_in(program: &Program, manner: Manner) -> Stuck {
     let mut effort = Effort::default();
     let mut all = columns(program);
     all.extend(sticking_columns(program));
-    let first = twin(&program.need, &all, care, &mut effort, |c| {
+    let first = twin(&program.need, &all, manner, &mut effort, |c| {
         if c.force.sticks() { 1.0 } else { 0.0 }
     });
     let motion = || Some(first.y.iter().map(|v| -v).collect());
@@ -60,7 +67,7 @@ pub fn stick(program: &Program, care: Care) -> Stuck {
         (sticking_sum(columns, amounts) - least).abs()
             <= 1e-6 * least + 1e-9 * largest(&program.need)
     };
-    let second = twin(&program.need, &face, care, &mut effort, |c| c.cost);
+    let second = twin(&program.need, &face, manner, &mut effort, |c| c.cost);
     if let Some(next) = narrowed(&face, &second, &unchanged) {
         (face, amounts) = next;
     }
@@ -77,7 +84,7 @@ pub fn stick(program: &Program, care: Care) -> Stuck {
         {
             column.cost = 1e-2 * most / (amount + 1e-3 * most);
         }
-        let concentrated = twin(&program.need, &face, care, &mut effort, |c| {
+        let concentrated = twin(&program.need, &face, manner, &mut effort, |c| {
             if c.force.sticks() { c.cost } else { 0.0 }
         });
         if concentrated.status != Status::Solved || !unchanged(&face, &concentrated.amounts) {
@@ -96,10 +103,10 @@ pub fn stick(program: &Program, care: Care) -> Stuck {
             break;
         }
     }
-    let chosen = tidy(&program.need, &face, care, &mut effort)
+    let chosen = tidy(&program.need, &face, manner, &mut effort)
         .filter(|t| unchanged(&face, t))
         .unwrap_or(amounts);
-    let chosen = match care {
+    let chosen = match manner.care {
         Care::Quick => chosen,
         Care::Full => refined(&program.need, &face, chosen, &mut effort),
     };
