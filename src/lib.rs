@@ -83,6 +83,10 @@ pub mod figure;
 
 pub mod output;
 
+pub mod chart;
+
+pub mod study;
+
 pub mod report;
 
 pub mod cli;
@@ -100,6 +104,9 @@ pub mod doc {
 
     #[doc = include_str!("doc/numerics.md")]
     pub mod numerics {}
+
+    #[doc = include_str!("doc/accuracy.md")]
+    pub mod accuracy {}
 
     #[doc = include_str!("doc/references.md")]
     pub mod references {}

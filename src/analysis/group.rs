@@ -9,14 +9,14 @@ mod question;
 
 pub(super) use question::{judged, only_by_wedging};
 
-use super::{Failure, Verdict};
-use crate::effect::Plan;
+use super::{Failure, Options, Verdict};
+use crate::effect::{Plan, Situation};
 use crate::geometry::Vector;
 use crate::interface::Interface;
 use crate::program::{Group, Program, Scale, assemble, load_on};
-use crate::proof::{self, Held, Motion, Pressed, Proof, Yardstick};
+use crate::proof::{self, Demand, Held, Motion, Pressed, Proof, Yardstick};
 use crate::scene::{BodyId, Frame, Scene};
-use crate::solve::{Amounts, Care, Effort, balance, single, stick};
+use crate::solve::{Amounts, Effort, Manner, balance_in, single, stick_in};
 
 /// What was found out about one group, forces in the order of its interfaces and holds.
 #[derive(Clone, Debug)]
@@ -43,6 +43,8 @@ struct Case<'a> {
     group: &'a Group,
     yardstick: Yardstick,
     scale: Scale,
+    manners: Vec<Manner>,
+    demand: Demand,
 }
 
 /// Forces in newtons with their proof.
@@ -54,14 +56,14 @@ struct Carried {
 
 /// Solves one group and proves its verdict.
 pub(super) fn solved(
-    scene: &Scene,
-    frame: &Frame,
-    interfaces: &[&Interface],
+    situation: &Situation,
     plan: &Plan,
     group: &Group,
     length: f64,
+    options: Options,
 ) -> Findings {
-    let case = Case::of(scene, frame, interfaces, plan, group, length);
+    let (scene, frame, interfaces) = (situation.scene, situation.frame, situation.interfaces);
+    let case = Case::of(scene, frame, interfaces, plan, group, length, options);
     let program = assemble(scene, frame, interfaces, plan, group, case.scale);
     if let Some(found) = case.at_once(&program, plan) {
         return found;
@@ -166,6 +168,7 @@ impl<'a> Case<'a> {
         plan: &Plan,
         group: &'a Group,
         length: f64,
+        options: Options,
     ) -> Case<'a> {
         let heaviest = heaviest(scene, plan, group, length);
         Case {
@@ -178,6 +181,8 @@ impl<'a> Case<'a> {
                 length,
             },
             scale: Scale::of(length, heaviest),
+            manners: options.manners(),
+            demand: options.accuracy.demand(),
         }
     }
 
@@ -191,9 +196,7 @@ impl<'a> Case<'a> {
             return Some(falls);
         }
         let carried = self.carried(program, &single(program)?);
-        carried
-            .proof
-            .holds()
+        self.believes(&carried.proof)
             .then(|| self.stands(carried, Effort::default()))
     }
 
@@ -224,12 +227,12 @@ impl<'a> Case<'a> {
             effort: Effort::default(),
         };
         let mut direction = None;
-        for care in [Care::Quick, Care::Full] {
-            let first = balance(program, care);
+        for manner in &self.manners {
+            let first = balance_in(program, *manner);
             judged.effort = judged.effort.and(first.effort);
             if let Some(amounts) = first.forces {
                 let proof = self.carried(program, &amounts).proof;
-                if proof.holds() {
+                if self.believes(&proof) {
                     return Judged {
                         amounts,
                         proof,
@@ -240,17 +243,17 @@ impl<'a> Case<'a> {
             direction = first.motion.map(|y| self.moved(&y));
             if direction
                 .as_ref()
-                .is_some_and(|motion| self.mechanism(motion).holds())
+                .is_some_and(|motion| self.believes(&self.mechanism(motion)))
             {
                 break;
             }
         }
         let mut doubts = String::new();
-        for care in [Care::Quick, Care::Full] {
-            let stuck = stick(program, care);
+        for manner in &self.manners {
+            let stuck = stick_in(program, *manner);
             judged.effort = judged.effort.and(stuck.effort);
             let proof = self.carried(program, &stuck.forces).proof;
-            if stuck.balanced == Some(true) && proof.holds() {
+            if stuck.balanced == Some(true) && self.believes(&proof) {
                 return Judged {
                     amounts: stuck.forces,
                     proof,
@@ -275,7 +278,7 @@ impl<'a> Case<'a> {
                 })
                 .collect();
             doubts = doubt(&proof, proved.first().map(|p| &p.1));
-            if let Some((mechanism, proof)) = proved.into_iter().find(|p| p.1.holds()) {
+            if let Some((mechanism, proof)) = proved.into_iter().find(|p| self.believes(&p.1)) {
                 return Judged {
                     verdict: Verdict::Unstable,
                     mechanism,
@@ -290,6 +293,10 @@ impl<'a> Case<'a> {
             doubt: doubts,
             ..judged
         }
+    }
+
+    fn believes(&self, proof: &Proof) -> bool {
+        proof.meets(self.demand)
     }
 
     fn touching(&self) -> Vec<&Interface> {
@@ -383,7 +390,7 @@ impl<'a> Case<'a> {
     }
 
     fn stands(&self, carried: Carried, effort: Effort) -> Findings {
-        let holds = carried.proof.holds();
+        let holds = self.believes(&carried.proof);
         Findings {
             verdict: if holds {
                 Verdict::Stable

@@ -1,6 +1,8 @@
 //! The hard program: admissible forces of least sum that balance every block, or a motion that none can stop.
 
-use super::{Amounts, Care, Effort, Face, Status, largest, refined, remainder, tidy, twin};
+use super::{
+    Amounts, Care, Choice, Effort, Face, Manner, Status, largest, refined, remainder, tidy, twin,
+};
 use crate::program::{Program, columns};
 
 /// What the hard program gave.
@@ -25,16 +27,25 @@ const SAME_COST: f64 = 2e-8;
 
 /// Solves the hard program of [Vallat23](crate::doc::references) §2.0.7 through its kinematic twin.
 pub fn balance(program: &Program, care: Care) -> Balance {
+    balance_in(program, care.into())
+}
+
+/// Solves it in a manner of one's own.
+pub fn balance_in(program: &Program, manner: Manner) -> Balance {
     let mut effort = Effort::default();
     let whole = Face::whole(&program.need, columns(program));
-    let solved = twin(&whole.need, &whole.columns, care, &mut effort, |c| c.cost);
+    let solved = twin(&whole.need, &whole.columns, manner, &mut effort, |c| c.cost);
     match solved.status {
         Status::Solved => {
             let size = largest(&program.need);
             let mut found = None;
-            for margin in MARGINS {
-                let face = whole.narrowed(&solved, margin);
-                let Some(amounts) = tidy(&face.need, &face.columns, care, &mut effort) else {
+            let margins = match manner.choice {
+                Choice::Any => &[][..],
+                Choice::Unique => &MARGINS[..],
+            };
+            for margin in margins {
+                let face = whole.narrowed(&solved, *margin);
+                let Some(amounts) = tidy(&face.need, &face.columns, manner, &mut effort) else {
                     continue;
                 };
                 let cheap =
@@ -46,7 +57,7 @@ pub fn balance(program: &Program, care: Care) -> Balance {
                 }
             }
             let mut face = found.unwrap_or_else(|| whole.with(solved.amounts));
-            if care == Care::Full {
+            if manner.care == Care::Full {
                 face.amounts = refined(&face.need, &face.columns, face.amounts, &mut effort);
             }
             let (forces, _) = face.gathered(program);

@@ -40,6 +40,37 @@ pub struct Answer {
 /// The tolerance of feasibility and gap the solver is asked for.
 pub const TOLERANCE: f64 = 1e-9;
 
+/// How a program is solved: how precisely, how carefully, and whether the one picture is sought.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Manner {
+    /// The tolerance of feasibility and gap the solver is asked for.
+    pub tolerance: f64,
+    /// How much it takes care.
+    pub care: Care,
+    /// Which of several balances is wanted.
+    pub choice: Choice,
+}
+
+/// Which of several balances of the same cost is wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Choice {
+    /// Any: what the interior-point method ends in. Good enough for a verdict.
+    Any,
+    /// The one of least Σ force², which does not depend on the order of the file.
+    Unique,
+}
+
+impl From<Care> for Manner {
+    /// The default tolerance, and the unique balance.
+    fn from(care: Care) -> Manner {
+        Manner {
+            tolerance: TOLERANCE,
+            care,
+            choice: Choice::Unique,
+        }
+    }
+}
+
 /// How much the solver takes care.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Care {

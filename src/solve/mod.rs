@@ -14,13 +14,14 @@ mod single;
 mod stick;
 mod wedge;
 
-pub use balance::{Balance, balance};
-pub use conic::{Answer, Care, Status, TOLERANCE, solve};
+pub use balance::{Balance, balance, balance_in};
+pub use conic::{Answer, Care, Choice, Manner, Status, TOLERANCE, solve};
 pub use limit::{Limit, least, most};
 pub use single::single;
-pub use stick::{Stuck, stick};
+pub use stick::{Stuck, stick, stick_in};
 pub use wedge::{Reach, reach};
 
+use crate::geometry::{Vector, cross, quarter_turn};
 use crate::program::{Column, Conic, Correction, Force, Program, kinematic, least_squares};
 
 /// Amounts of the forces of a program, pure numbers.
@@ -56,8 +57,33 @@ impl Amounts {
         contacts + self.grip.iter().flatten().map(|v| v.abs()).sum::<f64>()
     }
 
+    /// Worst of what the forces leave unbalanced of a program's need, pure numbers.
+    pub fn unbalanced(&self, program: &Program) -> f64 {
+        let mut rest = program.need.clone();
+        let mut act = |block: usize, force: Vector, moment: f64| {
+            for (row, value) in [force.x, force.y, moment].into_iter().enumerate() {
+                rest[3 * block + row] -= value;
+            }
+        };
+        for (k, contact) in program.contacts.iter().enumerate() {
+            let (normal, tangent) = (contact.normal, quarter_turn(contact.normal));
+            let [first, second] = self.normal[k].map(|amount| normal * amount);
+            let first = first + tangent * self.friction[k];
+            let both = [(contact.on, 1.0)].into_iter();
+            for ((block, arms), sign) in both.chain(contact.from.map(|from| (from, -1.0))) {
+                let moment = cross(arms[0], first) + cross(arms[1], second);
+                act(block, (first + second) * sign, moment * sign);
+            }
+        }
+        for (grip, [x, y, moment]) in program.grips.iter().zip(&self.grip) {
+            let force = Vector::new(*x, *y);
+            act(grip.block, force, cross(grip.arm, force) + moment);
+        }
+        largest(&rest)
+    }
+
     /// Adds `amount` of a force.
-    fn add(&mut self, force: Force, amount: f64) {
+    pub fn add(&mut self, force: Force, amount: f64) {
         match force {
             Force::Ray {
                 contact,
@@ -106,23 +132,25 @@ impl Effort {
 }
 
 /// A solved kinematic twin.
-struct Twin {
-    status: Status,
+#[derive(Clone, Debug)]
+pub struct Twin {
+    /// How it ended; `Unbounded` means that `y` is a motion nothing stops.
+    pub status: Status,
     /// The virtual velocities against which loads work.
-    y: Vec<f64>,
+    pub y: Vec<f64>,
     /// Amount of each column.
-    amounts: Vec<f64>,
+    pub amounts: Vec<f64>,
     /// Slack of each column: by how much it is too dear to be used.
-    slack: Vec<f64>,
+    pub slack: Vec<f64>,
     /// What one more unit of each column's limit would save.
-    worth: Vec<f64>,
+    pub worth: Vec<f64>,
     /// The least cost, as the twin knows it.
-    aim: f64,
+    pub aim: f64,
 }
 
 impl Twin {
     /// Whether each column belongs to the face of optima: its slack is at most `margin` times its amount.
-    fn active(&self, margin: f64) -> Vec<bool> {
+    pub fn active(&self, margin: f64) -> Vec<bool> {
         self.amounts
             .iter()
             .zip(&self.slack)
@@ -226,15 +254,15 @@ impl Face {
 }
 
 /// Solves the kinematic twin of some columns, again with full care where the quick way ends nowhere.
-fn twin(
+pub fn twin(
     need: &[f64],
     columns: &[Column],
-    care: Care,
+    manner: impl Into<Manner>,
     effort: &mut Effort,
     cost: impl Fn(&Column) -> f64,
 ) -> Twin {
     let (conic, row_of) = kinematic(need, columns, cost);
-    let answer = careful(&conic, care, effort);
+    let answer = careful(&conic, manner, effort);
     let n = columns.len();
     let mut solved = Twin {
         status: answer.status,
@@ -274,14 +302,15 @@ fn twin(
 }
 
 /// Solves, and solves again with full care where the quick way ends nowhere.
-fn careful(conic: &Conic, care: Care, effort: &mut Effort) -> Answer {
-    let mut answer = solve(conic, TOLERANCE, care);
+fn careful(conic: &Conic, manner: impl Into<Manner>, effort: &mut Effort) -> Answer {
+    let manner = manner.into();
+    let mut answer = solve(conic, manner.tolerance, manner.care);
     *effort = effort.and(Effort {
         iterations: answer.iterations,
         programs: 1,
     });
-    if answer.status == Status::Unclear && care == Care::Quick {
-        answer = solve(conic, TOLERANCE, Care::Full);
+    if answer.status == Status::Unclear && manner.care == Care::Quick {
+        answer = solve(conic, manner.tolerance, Care::Full);
         *effort = effort.and(Effort {
             iterations: answer.iterations,
             programs: 1,
@@ -293,14 +322,14 @@ fn careful(conic: &Conic, care: Care, effort: &mut Effort) -> Answer {
 /// The amounts of least Σ force² on given columns, if there are such.
 ///
 /// Where the balance leaves no choice they come from elimination, exact to rounding; else from a quadratic program.
-fn tidy(need: &[f64], columns: &[Column], care: Care, effort: &mut Effort) -> Option<Vec<f64>> {
+fn tidy(need: &[f64], columns: &[Column], manner: Manner, effort: &mut Effort) -> Option<Vec<f64>> {
     if columns.is_empty() {
         return Some(Vec::new());
     }
     if let Some(amounts) = exact::only(need, columns).or_else(|| exact::least(need, columns)) {
         return Some(amounts);
     }
-    let answer = careful(&least_squares(need, columns, None), care, effort);
+    let answer = careful(&least_squares(need, columns, None), manner, effort);
     (answer.status == Status::Solved).then(|| answer.x.iter().map(|v| v.max(0.0)).collect())
 }
 

@@ -9,7 +9,7 @@
 //! the order of the file; a tie between mirror images stays a tie, and the figure of a mirrored scene is the mirrored
 //! figure.
 
-use super::{Amounts, Care, Effort, Face, Status, largest, refined, tidy, twin};
+use super::{Amounts, Care, Effort, Face, Manner, Status, largest, refined, tidy, twin};
 use crate::program::{Program, columns, sticking_columns};
 
 /// Rounds of concentrating; the count of points rarely falls after the third.
@@ -44,6 +44,11 @@ pub struct Stuck {
 
 /// Solves the soft program.
 pub fn stick(program: &Program, care: Care) -> Stuck {
+    stick_in(program, care.into())
+}
+
+/// Solves it in a manner of one's own.
+pub fn stick_in(program: &Program, manner: Manner) -> Stuck {
     let mut effort = Effort::default();
     let mut all = columns(program);
     all.extend(sticking_columns(program));
@@ -53,7 +58,7 @@ pub fn stick(program: &Program, care: Care) -> Stuck {
     let mut priced = false;
     for price in PRICES {
         priced = price > 0.0;
-        let tried = twin(&whole.need, &whole.columns, care, &mut effort, |c| {
+        let tried = twin(&whole.need, &whole.columns, manner, &mut effort, |c| {
             if c.force.sticks() {
                 1.0
             } else {
@@ -90,7 +95,9 @@ pub fn stick(program: &Program, care: Care) -> Stuck {
     let mut face = whole.clone().with(first.amounts.clone());
     for margin in [1.0, 1e3, 1e6] {
         let narrow = whole.narrowed(&first, margin);
-        let second = twin(&narrow.need, &narrow.columns, care, &mut effort, |c| c.cost);
+        let second = twin(&narrow.need, &narrow.columns, manner, &mut effort, |c| {
+            c.cost
+        });
         if second.status == Status::Solved && unchanged(&narrow, &second.amounts) {
             let narrower = narrow.narrowed(&second, 1.0);
             face = if unchanged(&narrower, &narrower.amounts) {
@@ -103,8 +110,8 @@ pub fn stick(program: &Program, care: Care) -> Stuck {
     }
     let mut chosen = None;
     for little in LITTLE {
-        let few = concentrated(&face, little, &unchanged, care, &mut effort);
-        chosen = tidy(&few.need, &few.columns, care, &mut effort)
+        let few = concentrated(&face, little, &unchanged, manner, &mut effort);
+        chosen = tidy(&few.need, &few.columns, manner, &mut effort)
             .filter(|amounts| unchanged(&few, amounts))
             .map(|amounts| few.with(amounts));
         if chosen.is_some() {
@@ -112,7 +119,7 @@ pub fn stick(program: &Program, care: Care) -> Stuck {
         }
     }
     let mut face = chosen.unwrap_or(face);
-    if care == Care::Full {
+    if manner.care == Care::Full {
         face.amounts = refined(&face.need, &face.columns, face.amounts, &mut effort);
     }
     let (forces, sticking) = face.gathered(program);
@@ -131,7 +138,7 @@ fn concentrated(
     face: &Face,
     little: f64,
     unchanged: &impl Fn(&Face, &[f64]) -> bool,
-    care: Care,
+    manner: Manner,
     effort: &mut Effort,
 ) -> Face {
     let mut face = face.clone();
@@ -145,7 +152,7 @@ fn concentrated(
                 column.cost = 1e-2 * most / (amount + 1e-3 * most);
             }
         }
-        let solved = twin(&face.need, &face.columns, care, effort, |c| {
+        let solved = twin(&face.need, &face.columns, manner, effort, |c| {
             if c.force.sticks() { c.cost } else { 0.0 }
         });
         if solved.status != Status::Solved || !unchanged(&face, &solved.amounts) {

@@ -9,7 +9,7 @@ use crate::structure::{arch, block, first, on_floor, on_slope, rectangle, scene,
 const STANDS: Verdict = Verdict::Stable;
 const FALLS: Verdict = Verdict::Unstable;
 
-fn tower(n: usize, height: f64) -> Value {
+pub fn tower(n: usize, height: f64) -> Value {
     on_floor(
         0.5,
         (0..n)
@@ -24,8 +24,17 @@ fn tower(n: usize, height: f64) -> Value {
     )
 }
 
+/// A frictionless wedge between two slopes, its sides off the vertical by `half_angle`.
+pub fn wedge(half_angle: f64) -> Value {
+    let d = libm::tan(half_angle);
+    json!({ "drystone": 1, "friction": 0,
+        "ground": [{ "polygon": [[-3, 0], [-0.5, 0], [-0.5 - d, 1], [-3, 1]] },
+                   { "polygon": [[0.5, 0], [3, 0], [3, 1], [0.5 + d, 1]] }],
+        "blocks": [{ "id": "wedge", "polygon": [[-0.5, 0], [0.5, 0], [0.5 + d, 1], [-0.5 - d, 1]], "weight": 6 }] })
+}
+
 /// A block with its centre of gravity `beyond` the edge of what it rests on; with `pair`, on another block.
-fn overhang(beyond: f64, pair: bool) -> Value {
+pub fn overhang(beyond: f64, pair: bool) -> Value {
     let mut blocks = vec![block(
         "a",
         rectangle(0.5 + beyond, if pair { 0.5 } else { 0.0 }, 1.0, 0.5),
@@ -56,11 +65,7 @@ fn a_tower_of_a_thousand_blocks() {
 fn a_flat_wedge_stands_however_large_its_thrust() {
     for exponent in 2..=7 {
         let half_angle = libm::exp10(-f64::from(exponent));
-        let d = libm::tan(half_angle);
-        let frame = first(&json!({ "drystone": 1, "friction": 0,
-            "ground": [{ "polygon": [[-3, 0], [-0.5, 0], [-0.5 - d, 1], [-3, 1]] },
-                       { "polygon": [[0.5, 0], [3, 0], [3, 1], [0.5 + d, 1]] }],
-            "blocks": [{ "id": "wedge", "polygon": [[-0.5, 0], [0.5, 0], [0.5 + d, 1], [-0.5 - d, 1]], "weight": 6 }] }));
+        let frame = first(&wedge(half_angle));
         assert_eq!(
             frame.verdict, STANDS,
             "half-angle 1e-{exponent}: {:?}",

@@ -6,6 +6,7 @@
     reason = "a test that panics says what it found; helpers are no #[test]"
 )]
 
+mod accuracy;
 mod gallery;
 mod hard;
 mod laws;
