@@ -12,7 +12,7 @@ mod scale;
 
 pub use column::{Column, Force, columns, sticking_columns};
 pub use group::{Group, groups};
-pub use pose::{Conic, Correction, force_form, kinematic, least_squares, source};
+pub use pose::{Cap, Conic, Correction, force_form, kinematic, least_squares, source};
 pub use scale::Scale;
 
 use crate::effect::Plan;
