@@ -169,7 +169,8 @@ fn draw(chart: &Scatter, svg: &mut String) -> Result<(), Box<dyn std::error::Err
             (ten(low)..ten(high)).log_scale(),
         )?;
     let label = |v: &f64| power_of_ten(libm::round(libm::log10(*v)) as i32);
-    let every = |low: i32, high: i32| (high - low + 1).clamp(2, 10) as usize;
+    // plotters takes the number as an upper bound, ends included.
+    let every = |low: i32, high: i32| (high - low + 3).clamp(4, 10) as usize;
     axes.configure_mesh()
         .x_labels(every(left, right))
         .y_labels(every(low, high))

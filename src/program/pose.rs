@@ -239,15 +239,18 @@ pub fn elastic(program: &Program, most: &[f64], hardening: f64) -> Conic {
     conic
 }
 
+/// A second sum and the most it may come to.
+pub type Cap<'a> = (&'a dyn Fn(&Column) -> f64, f64);
+
 /// The forces themselves as unknowns: min Σ cost·amount  s.t.  they balance `need`, 0 ≤ amount ≤ limit.
 ///
-/// With `cap` = (cost, most) a second sum is bounded, Σ cost·amount ≤ most: the second stage of a lexicographic program.
+/// With a [`Cap`] = (cost, most) a second sum is bounded, Σ cost·amount ≤ most: the second stage of a lexicographic program.
 /// Kept, like [`source`], to show what the kinematic twin saves.
 pub fn force_form(
     need: &[f64],
     columns: &[Column],
     cost: impl Fn(&Column) -> f64,
-    cap: Option<(&dyn Fn(&Column) -> f64, f64)>,
+    cap: Option<Cap>,
 ) -> Conic {
     let mut conic = least_squares(need, columns, None);
     conic.quadratic.clear();

@@ -19,13 +19,21 @@ const MOST: f64 = 1.0;
 
 const STYLE: &str = include_str!("../../assets/accuracy.css");
 
+/// `41 frames`, `1 frame`.
+fn frames(study: &Study) -> String {
+    match study.cases.len() {
+        1 => "1 frame".into(),
+        n => format!("{n} frames"),
+    }
+}
+
 /// How every page begins: which version, and on what the numbers depend.
 pub fn heading(study: &Study) -> String {
     format!(
-        "drystone {}, {} frames. Times are medians of this run and mean something only beside each other; verdicts, errors \
+        "drystone {}, {}. Times are medians of this run and mean something only beside each other; verdicts, errors \
          and iterations are the same everywhere.",
         env!("CARGO_PKG_VERSION"),
-        study.cases.len()
+        frames(study)
     )
 }
 
@@ -74,8 +82,8 @@ pub fn svg(study: &Study) -> Result<String, Undrawn> {
     front.sort_by(|a, b| a.0.total_cmp(&b.0));
     scatter(&Scatter {
         title: format!(
-            "What accuracy costs: {} frames, drystone {}",
-            study.cases.len(),
+            "What accuracy costs: {}, drystone {}",
+            frames(study),
             env!("CARGO_PKG_VERSION")
         ),
         x: "time, in parts of that of standard".into(),
