@@ -26,6 +26,12 @@ pub fn quantity(value: f64, unit: &str) -> String {
     let exponent: i32 = exponent.parse().unwrap_or(0);
     let sign = if value < 0.0 { "−" } else { "" };
     let prefixes = ["n", "µ", "m", "", "k", "M", "G"];
+    // Down to hundredths a plain number is easier to compare with its neighbours than one with another prefix.
+    if (-2..0).contains(&exponent) {
+        let digits = mantissa.replace('.', "");
+        let zeros = "0".repeat((-1 - exponent) as usize);
+        return format!("{sign}0.{zeros}{} {unit}", digits.trim_end_matches('0'));
+    }
     let step = exponent.div_euclid(3);
     match usize::try_from(step + 3).ok().and_then(|i| prefixes.get(i)) {
         Some(prefix) => {
@@ -114,7 +120,9 @@ mod tests {
             (24.0, "24 N"),
             (43.372, "43.4 N"),
             (433.72, "434 N"),
-            (0.1348, "135 mN"),
+            (0.1348, "0.135 N"),
+            (0.0123, "0.0123 N"),
+            (0.00456, "4.56 mN"),
             (9.995e5, "1 MN"),
             (4.125 - 1e-9, "4.13 N"),
             (4.125 + 1e-9, "4.13 N"),

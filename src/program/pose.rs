@@ -240,7 +240,7 @@ pub fn elastic(program: &Program, most: &[f64], hardening: f64) -> Conic {
 }
 
 /// Inner product of two columns in (N1, N2, T) of one contact or in one grip component; `None` for different places.
-fn product(a: &Force, b: &Force) -> Option<f64> {
+pub(crate) fn product(a: &Force, b: &Force) -> Option<f64> {
     match (*a, *b) {
         (
             Force::Ray {

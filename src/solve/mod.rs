@@ -189,7 +189,7 @@ fn tidy(need: &[f64], columns: &[Column], care: Care, effort: &mut Effort) -> Op
     if columns.is_empty() {
         return Some(Vec::new());
     }
-    if let Some(amounts) = exact::only(need, columns) {
+    if let Some(amounts) = exact::only(need, columns).or_else(|| exact::least(need, columns)) {
         return Some(amounts);
     }
     let answer = careful(&least_squares(need, columns, None), care, effort);

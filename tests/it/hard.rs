@@ -324,3 +324,66 @@ fn what_is_not_called_for_is_not_simulated() {
     };
     assert!(worst_imbalance < 1e-9);
 }
+
+/// A limit of 10¹² loads is a number in the aim that drowns all others.
+#[test]
+fn lavish_limits_change_nothing() {
+    let path = format!("{}/assets/thesis/figure-4.json", env!("CARGO_MANIFEST_DIR"));
+    let mut file: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+    let totals = |file: &Value| {
+        let scene = scene(file);
+        let frames = Analysis::of(&scene).frames;
+        frames
+            .iter()
+            .map(|f| (f.verdict, f.total_force, f.total_sticking))
+            .collect::<Vec<_>>()
+    };
+    let expected = totals(&file);
+    for limit in [1e2, 1e6, 1e9, 1e12] {
+        for robot in file["robots"].as_array_mut().unwrap() {
+            robot["limits"] = json!({ "force": limit });
+        }
+        for (a, b) in totals(&file).iter().zip(&expected) {
+            assert_eq!(a.0, b.0, "{limit}");
+            assert!(
+                (a.1 - b.1).abs() < 1e-8 && (a.2 - b.2).abs() < 1e-8,
+                "{limit}: {a:?} {b:?}"
+            );
+        }
+    }
+}
+
+/// A contact a millionth of the block: the length L by which moments are counted is then as short.
+#[test]
+fn a_block_on_a_splinter() {
+    let splinter = |width: f64, off: f64| {
+        json!({ "drystone": 1, "friction": 0.5, "ground": [{ "polygon": rectangle(-1.0, -1.0, 2.0, 1.0) }],
+            "blocks": [
+                { "id": "splinter", "polygon": [[-0.5, 0], [0.5, 0], [width / 2.0, 1], [-width / 2.0, 1]], "weight": 1 },
+                { "id": "block", "polygon": rectangle(-0.5 + off, 1.0, 1.0, 1.0), "weight": 6 }] })
+    };
+    for width in [1e-2, 1e-4, 1e-5, 1e-6] {
+        assert_eq!(verdict(&splinter(width, 0.3 * width)), STANDS, "{width:e}");
+        assert_eq!(verdict(&splinter(width, 0.7 * width)), FALLS, "{width:e}");
+    }
+}
+
+/// Coordinates of 10⁶ block lengths have ten digits left.
+#[test]
+fn a_wall_a_million_lengths_away() {
+    let mut file = wall(4, 4);
+    let expected = first(&file).total_force;
+    for list in ["ground", "blocks"] {
+        for body in file[list].as_array_mut().unwrap() {
+            for corner in body["polygon"].as_array_mut().unwrap() {
+                *corner = json!([
+                    corner[0].as_f64().unwrap() + 1e6,
+                    corner[1].as_f64().unwrap() - 1e6
+                ]);
+            }
+        }
+    }
+    let frame = first(&file);
+    assert_eq!(frame.verdict, STANDS);
+    assert!((frame.total_force - expected).abs() < 1e-6 * expected);
+}
