@@ -56,7 +56,7 @@ impl Edge {
     /// How far inside an edge it must stand, and from how far beyond it may be shown to fall; relative.
     const NEAR: f64 = 1e-6;
     /// Steps away from an edge grow by this factor up to [`Edge::FAR`], as long as no proof convinces so close to it.
-    const WIDER: f64 = 4.0;
+    const WIDER: f64 = 16.0;
     /// The largest step away from an edge within which it may stay undecided.
     const FAR: f64 = 5e-3;
 
