@@ -5,8 +5,8 @@
 //! sufficient limit is the least amount of its own component while every other force is free of cost. Source: the
 //! static and kinematic theorems of limit analysis, Livesley 1978.
 
-use super::{Care, Effort, Status, careful, largest, twin};
-use crate::program::{Force, Program, columns, most_of};
+use super::{Care, Effort, Status, TOLERANCE, largest, solve, twin};
+use crate::program::{Column, Force, Program, columns, most_of};
 
 /// The end of what a program allows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,21 +21,47 @@ pub enum Limit {
     Unclear,
 }
 
+/// Tolerances tried one after the other: on walls of some hundred blocks the finest is out of reach.
+const TOLERANCES: [f64; 3] = [TOLERANCE, 10.0 * TOLERANCE, 100.0 * TOLERANCE];
+
 /// The largest λ ≥ 0 for which admissible forces give `program.need + λ·toward`.
+///
+/// Both are posed with a largest entry of 1: on a wall of 420 bricks loads of 300 end after a hundred iterations at
+/// 0.48159 where loads of 1 are solved, at 0.48162.
 pub fn most(program: &Program, toward: &[f64]) -> Limit {
     let size = largest(toward);
     if size == 0.0 {
         return Limit::Unbounded;
     }
-    let unit: Vec<f64> = toward.iter().map(|v| v / size).collect();
-    let conic = most_of(&program.need, &unit, &columns(program));
-    let answer = careful(&conic, Care::Full, &mut Effort::default());
-    match (answer.status, answer.z.last()) {
-        (Status::Solved, Some(amount)) => Limit::At(amount.max(0.0) / size),
-        (Status::Infeasible, _) => Limit::Unbounded,
-        (Status::Unbounded, _) => Limit::Never,
-        _ => Limit::Unclear,
+    let load = match largest(&program.need) {
+        0.0 => 1.0,
+        load => load,
+    };
+    let scaled = |list: &[f64], by: f64| -> Vec<f64> { list.iter().map(|v| v / by).collect() };
+    let conic = most_of(
+        &scaled(&program.need, load),
+        &scaled(toward, size),
+        &columns_in(program, load),
+    );
+    for tolerance in TOLERANCES {
+        let answer = solve(&conic, tolerance, Care::Full);
+        match (answer.status, answer.z.last()) {
+            (Status::Solved, Some(amount)) => return Limit::At(amount.max(0.0) * load / size),
+            (Status::Infeasible, _) => return Limit::Unbounded,
+            (Status::Unbounded, _) => return Limit::Never,
+            _ => {}
+        }
     }
+    Limit::Unclear
+}
+
+/// The columns of a program whose forces are counted in parts of `unit`.
+fn columns_in(program: &Program, unit: f64) -> Vec<Column> {
+    let mut columns = columns(program);
+    for column in &mut columns {
+        column.limit /= unit;
+    }
+    columns
 }
 
 /// The least limit of one component of one grip that lets admissible forces balance, the other limits as they are.

@@ -35,15 +35,30 @@ pub(super) fn worse(part: &Margin, whole: &Margin, way: Way) -> bool {
 pub(super) struct Edge {
     /// Which side stands.
     pub way: Way,
+    /// How the loads depend on the value.
+    pub loads: Loads,
     /// The size of an ordinary value.
     pub natural: f64,
     /// The largest value that is tried.
     pub most: f64,
 }
 
+/// How the power of the loads along a given motion depends on the value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Loads {
+    /// Linearly: a mechanism at one value says up to which value it is one.
+    Linear,
+    /// Not, or the contacts change with the value as well.
+    Other,
+}
+
 impl Edge {
     /// How far inside an edge it must stand, and from how far beyond it may be shown to fall; relative.
     const NEAR: f64 = 1e-6;
+    /// Steps away from an edge grow by this factor up to [`Edge::FAR`], as long as no proof convinces so close to it.
+    const WIDER: f64 = 16.0;
+    /// The largest step away from an edge within which it may stay undecided.
+    const FAR: f64 = 5e-3;
 
     /// A value, if the group stands just inside it and falls just beyond.
     pub fn confirmed(
@@ -53,18 +68,25 @@ impl Edge {
         at: f64,
     ) -> Option<Margin> {
         let at = if at < 1e-9 * self.natural { 0.0 } else { at };
-        let inside = at - self.outward(at) * Self::NEAR;
-        if trial.judge(&setting(inside.max(0.0))).0 != Verdict::Stable {
-            return None;
+        let mut step = Self::NEAR;
+        loop {
+            let inside = at - self.outward(at) * step;
+            match trial.judge(&setting(inside.max(0.0))).0 {
+                Verdict::Stable => break,
+                Verdict::Undecided if step < Self::FAR => step *= Self::WIDER,
+                _ => return None,
+            }
         }
         let mechanism = self.beyond(trial, setting, at)?;
         Some(Margin::Value { at, mechanism })
     }
 
-    /// The edge between 0 and `most`, found by halving.
+    /// The edge between 0 and `most`, found by halving and, for linear loads, by how far each mechanism reaches.
+    ///
+    /// Where a value is undecided the search ends: the edge lies there, within what can be decided.
     pub fn searched(&self, trial: &mut Trial, setting: &dyn Fn(f64) -> Setting) -> Margin {
-        let mut stands = |at: f64| trial.judge(&setting(at)).0 == Verdict::Stable;
-        let (mut inside, mut outside) = match (self.way, stands(0.0)) {
+        let at_none = trial.judge(&setting(0.0)).0 == Verdict::Stable;
+        match (self.way, at_none) {
             (Way::Most, false) => return Margin::None,
             (Way::Least, true) => {
                 return Margin::Value {
@@ -72,39 +94,58 @@ impl Edge {
                     mechanism: Vec::new(),
                 };
             }
-            (way, _) => {
-                let (mut near, mut far) = (0.0, self.natural.min(self.most));
-                // Large steps outward, as long as the answer is that at 0.
-                while stands(far) == (way == Way::Most) {
-                    if far >= self.most {
-                        return if way == Way::Most {
-                            Margin::Unbounded
-                        } else {
-                            Margin::None
-                        };
-                    }
-                    (near, far) = (far, (far * 10.0).min(self.most));
-                }
-                match way {
-                    Way::Most => (near, far),
-                    Way::Least => (far, near),
-                }
+            _ => {}
+        }
+        let (mut near, mut far) = (0.0, self.natural.min(self.most));
+        // Large steps outward, as long as the answer is that at 0.
+        let (mut verdict, mut motion) = trial.judge(&setting(far));
+        while (verdict == Verdict::Stable) == at_none {
+            if far >= self.most {
+                return match self.way {
+                    Way::Most => Margin::Unbounded,
+                    Way::Least => Margin::None,
+                };
             }
+            (near, far) = (far, (far * 10.0).min(self.most));
+            (verdict, motion) = trial.judge(&setting(far));
+        }
+        let (mut inside, mut outside) = match self.way {
+            Way::Most => (near, far),
+            Way::Least => (far, near),
         };
+        // The end of a mechanism is the edge itself as soon as it stands there.
+        let mut end = None;
+        let mut fresh = verdict == Verdict::Unstable;
         while (inside - outside).abs() > 1e-9 * inside.max(outside) + 1e-11 * self.natural {
-            let middle = 0.5 * (inside + outside);
-            if stands(middle) {
-                inside = middle;
-            } else {
-                outside = middle;
+            let reached = (fresh && self.loads == Loads::Linear)
+                .then(|| trial.reach(setting, &motion))
+                .flatten()
+                .filter(|at| (*at - inside) * (*at - outside) < 0.0);
+            let next = reached.unwrap_or(0.5 * (inside + outside));
+            (verdict, motion) = trial.judge(&setting(next));
+            fresh = false;
+            match verdict {
+                Verdict::Stable => inside = next,
+                Verdict::Unstable => {
+                    // After a mechanism's end a halving, so that short steps cannot go on for ever.
+                    fresh = reached.is_none();
+                    outside = next;
+                }
+                Verdict::Undecided => {}
+            }
+            if reached.is_some() {
+                end = Some(next);
+            }
+            if verdict == Verdict::Undecided || (reached.is_some() && verdict == Verdict::Stable) {
+                break;
             }
         }
+        // What a mechanism rules out is known better than what forces near the edge can show.
+        let at = end
+            .filter(|end| (end - inside) * (end - outside) <= 0.0)
+            .unwrap_or(inside);
         // What is left of the band around 0 is 0.
-        let at = if inside < 1e-6 * self.natural {
-            0.0
-        } else {
-            inside
-        };
+        let at = if at < 1e-6 * self.natural { 0.0 } else { at };
         self.told(trial, setting, at)
     }
 
@@ -132,7 +173,7 @@ impl Edge {
             if verdict == Verdict::Unstable {
                 return Some(motion);
             }
-            step *= 4.0;
+            step *= Self::WIDER;
         }
         (at == 0.0 && self.way == Way::Least).then(Vec::new)
     }

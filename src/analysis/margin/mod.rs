@@ -24,7 +24,7 @@ use crate::program::Group;
 use crate::proof::Motion;
 use crate::scene::{Frame, RobotId, Scene};
 use crate::solve::{Limit, least, most};
-use edge::{Edge, Way};
+use edge::{Edge, Loads, Way};
 use trial::{Limited, Setting, Trial};
 
 /// The end of what a frame bears in one direction.
@@ -219,16 +219,17 @@ fn of_group(trial: &mut Trial, stands: bool) -> Margins {
         }
     });
     let robots = robots.collect();
+    let horizontal_load = Sides {
+        left: horizontal(trial, -1.0, stands),
+        right: horizontal(trial, 1.0, stands),
+    };
     Margins {
         friction: friction(trial),
         tilt: Sides {
-            left: tilt::tilt(trial, -1.0, stands),
-            right: tilt::tilt(trial, 1.0, stands),
+            left: tilt::tilt(trial, -1.0, stands, &horizontal_load.left),
+            right: tilt::tilt(trial, 1.0, stands, &horizontal_load.right),
         },
-        horizontal_load: Sides {
-            left: horizontal(trial, -1.0, stands),
-            right: horizontal(trial, 1.0, stands),
-        },
+        horizontal_load,
         kernel: kernel(trial),
         load_factor: load_factor(trial, stands),
         robots,
@@ -242,6 +243,7 @@ fn friction(trial: &mut Trial) -> Margin {
     };
     Edge {
         way: Way::Least,
+        loads: Loads::Other,
         natural: 1.0,
         most: Margins::MOST_FRICTION,
     }
@@ -255,6 +257,7 @@ fn kernel(trial: &mut Trial) -> Margin {
     };
     Edge {
         way: Way::Most,
+        loads: Loads::Other,
         natural: 1.0,
         most: 1.0,
     }
@@ -305,6 +308,7 @@ fn linear(
 ) -> Margin {
     let edge = Edge {
         way: Way::Most,
+        loads: Loads::Linear,
         natural: 1.0,
         most: 1e6,
     };
@@ -340,6 +344,7 @@ fn limit(trial: &mut Trial, grip: usize, robot: RobotId, component: usize) -> Ma
     }
     let edge = Edge {
         way: Way::Least,
+        loads: Loads::Linear,
         natural: unit * crate::program::Scale::HEAVIEST,
         most: 1e6 * unit * crate::program::Scale::HEAVIEST,
     };

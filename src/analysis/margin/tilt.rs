@@ -2,39 +2,31 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use super::Margin;
-use super::edge::{Edge, Way};
+use super::edge::{Edge, Loads, Way};
 use super::trial::{Setting, Trial};
+use super::{Margin, linear};
 use crate::analysis::Verdict;
-use crate::solve::{Limit, most};
+use crate::proof::Motion;
 
-/// The largest turn of gravity to one side, degrees.
-pub(super) fn tilt(trial: &mut Trial, side: f64, stands: bool) -> Margin {
+/// The largest turn of gravity to one side, degrees, where the largest horizontal share to that side is known.
+pub(super) fn tilt(trial: &mut Trial, side: f64, stands: bool, horizontal: &Margin) -> Margin {
     if !stands {
         return Margin::None;
     }
-    let setting = |degrees: f64| turned(degrees.to_radians(), 1.0, side);
-    let edge = Edge {
-        way: Way::Most,
-        natural: 1f64.to_degrees(),
-        most: 180.0,
-    };
     if !trial.is_loaded() && !trial.is_limited() {
-        let known = match without_loads(trial, side) {
-            Limit::At(angle) => edge.confirmed(trial, &setting, angle.to_degrees()),
-            Limit::Unbounded => {
-                (trial.judge(&setting(180.0)).0 == Verdict::Stable).then_some(Margin::Unbounded)
-            }
-            _ => None,
-        };
-        if let Some(known) = known {
-            return known;
-        }
+        return of_weights(trial, side, horizontal);
     }
     let quarters = [(0.0, FRAC_PI_2), (FRAC_PI_2, PI)];
     let exit = quarters
         .into_iter()
         .find_map(|(from, to)| first_exit(trial, side, from, to));
+    let setting = |degrees: f64| turned(degrees.to_radians(), 1.0, side);
+    let edge = Edge {
+        way: Way::Most,
+        loads: Loads::Other,
+        natural: 1f64.to_degrees(),
+        most: 180.0,
+    };
     match exit.map(f64::to_degrees) {
         None => Margin::Unbounded,
         Some(at) => edge.told(trial, &setting, if at < 1e-5 { 0.0 } else { at }),
@@ -52,33 +44,29 @@ fn turned(angle: f64, stretch: f64, side: f64) -> Setting {
 
 /// The largest turn where only weights act and no limit cuts a force: what is carried is a cone then, and the turn's
 /// tangent is the largest horizontal share; beyond a quarter turn, the rest's tangent the largest lifting share.
-fn without_loads(trial: &mut Trial, side: f64) -> Limit {
-    let across = Setting {
-        along: 0.0,
-        across: side,
-        ..Setting::default()
+fn of_weights(trial: &mut Trial, side: f64, horizontal: &Margin) -> Margin {
+    let angle = |from: f64, share: f64, mechanism: &[Motion]| Margin::Value {
+        at: (from + libm::atan(share)).to_degrees(),
+        mechanism: mechanism.to_vec(),
     };
-    let sideways = Setting {
-        across: side,
-        ..Setting::default()
-    };
-    let (program, toward) = trial.direction(&Setting::default(), &sideways);
-    match most(&program, &toward) {
-        Limit::At(share) => Limit::At(libm::atan(share)),
-        Limit::Never => Limit::At(0.0),
-        Limit::Unbounded => {
-            let lifted = Setting {
-                along: -1.0,
-                ..across
+    match horizontal {
+        Margin::Value { at, mechanism } => angle(0.0, *at, mechanism),
+        Margin::None => Margin::None,
+        Margin::Unbounded => {
+            let lifted = |share: f64| Setting {
+                along: -share,
+                across: side,
+                ..Setting::default()
             };
-            let (program, toward) = trial.direction(&across, &lifted);
-            match most(&program, &toward) {
-                Limit::At(share) => Limit::At(FRAC_PI_2 + libm::atan(share)),
-                Limit::Never => Limit::At(FRAC_PI_2),
+            let alone = Setting {
+                along: -1.0,
+                ..Setting::default()
+            };
+            match linear(trial, &lifted, alone, true) {
+                Margin::Value { at, mechanism } => angle(FRAC_PI_2, at, &mechanism),
                 other => other,
             }
         }
-        Limit::Unclear => Limit::Unclear,
     }
 }
 
@@ -87,18 +75,21 @@ fn without_loads(trial: &mut Trial, side: f64) -> Limit {
 /// The loads that are carried form a convex set. If it holds both ends of an arc and the point where the tangents at
 /// them meet, it holds the triangle of the three and so the whole arc; otherwise the arc is halved.
 fn first_exit(trial: &mut Trial, side: f64, from: f64, to: f64) -> Option<f64> {
-    let mut stands =
-        |angle: f64, stretch: f64| trial.judge(&turned(angle, stretch, side)).0 == Verdict::Stable;
+    let mut judge = |angle: f64, stretch: f64| trial.judge(&turned(angle, stretch, side)).0;
     let (width, middle) = (to - from, 0.5 * (from + to));
     if width < 1e-9 {
-        return (!stands(to, 1.0)).then_some(from);
+        return (judge(to, 1.0) != Verdict::Stable).then_some(from);
     }
-    if stands(to, 1.0) && stands(middle, 1.0 / libm::cos(0.5 * width)) {
+    let beyond_the_arc = 1.0 / libm::cos(0.5 * width);
+    if judge(to, 1.0) == Verdict::Stable && judge(middle, beyond_the_arc) == Verdict::Stable {
         return None;
     }
-    if stands(middle, 1.0) {
-        first_exit(trial, side, from, middle).or_else(|| first_exit(trial, side, middle, to))
-    } else {
-        first_exit(trial, side, from, middle)
+    match judge(middle, 1.0) {
+        Verdict::Stable => {
+            first_exit(trial, side, from, middle).or_else(|| first_exit(trial, side, middle, to))
+        }
+        // The edge lies there, within what can be decided.
+        Verdict::Undecided if width < 1e-2 => Some(from),
+        _ => first_exit(trial, side, from, middle),
     }
 }

@@ -5,7 +5,7 @@ use crate::analysis::group::{heaviest, judged};
 use crate::effect::Plan;
 use crate::geometry::quarter_turn;
 use crate::interface::Interface;
-use crate::program::{Group, Program, Scale, assemble};
+use crate::program::{Group, Program, Scale, assemble, load_on};
 use crate::proof::Motion;
 use crate::scene::{Frame, Load, RobotId, Scene};
 
@@ -145,6 +145,38 @@ impl<'a> Trial<'a> {
             &self.group,
             self.length,
         )
+    }
+
+    /// The value up to which a motion is a mechanism, where the loads are linear in the value: there they do no work.
+    pub fn reach(&mut self, setting: &dyn Fn(f64) -> Setting, motion: &[Motion]) -> Option<f64> {
+        let [without, with] = [0.0, 1.0].map(|value| self.power(&setting(value), motion));
+        let at = without / (without - with);
+        at.is_finite().then_some(at)
+    }
+
+    /// The power of the changed loads along a motion, less what limited robots can hold, in W.
+    fn power(&mut self, setting: &Setting, motion: &[Motion]) -> f64 {
+        let plan = self.change(setting);
+        let mut power = 0.0;
+        for m in motion {
+            let (force, moment) = load_on(self.changed, &plan, m.block);
+            power += force.dot(&m.velocity) + moment * m.spin;
+            let held = self.group.holds.iter().map(|h| self.frame.holds[*h]);
+            for hold in held.filter(|h| h.block == m.block) {
+                let limits = self.changed.robots[hold.robot.0].limits;
+                let speed = m.at(self.changed, hold.at);
+                for (speed, limit) in [
+                    (speed.x, limits.fx),
+                    (speed.y, limits.fy),
+                    (m.spin, limits.torque),
+                ] {
+                    if limit.is_finite() {
+                        power -= speed.abs() * limit;
+                    }
+                }
+            }
+        }
+        power
     }
 
     /// The changed group's program.
