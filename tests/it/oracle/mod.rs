@@ -15,8 +15,9 @@ use dashu_ratio::RBig;
 use drystone::analysis::Verdict;
 use drystone::{Analysis, Scene};
 use rayon::prelude::*;
-use serde_json::Value;
+use serde_json::{Value, json};
 
+use crate::structure::{block, rectangle, scene};
 use balance::Balance;
 use simplex::{LinearProgram, Row};
 
@@ -114,7 +115,8 @@ fn compared(file: &Value, exact: bool, with_forces: bool) -> (Standing, Option<f
             }
         }
         lost.sort();
-        let told: Vec<usize> = frame.unsupported.iter().map(|b| b.0).collect();
+        let mut told: Vec<usize> = frame.unsupported.iter().map(|b| b.0).collect();
+        told.sort();
         let sticking = off(frame.total_sticking, sum, frame.weight);
         Some(if told == lost {
             sticking
@@ -250,5 +252,34 @@ fn the_exact_simplex_meets_its_dual() {
                 assert!(!better.is_feasible(), "program {seed}");
             }
         }
+    }
+}
+
+/// What excuses a difference is measured exactly too: a block with its centre of gravity d beyond the edge of a floor.
+///
+/// The edge carries N; force off by W − N and moment by N·d, in parts of W and of WL, are both least at t = d/(L + d), and
+/// L, the stretch that is left, is ½ − d: so t = 2d.
+#[test]
+fn the_distance_from_the_edge_is_exact() {
+    let two_to = |power: i32| libm::exp2(f64::from(power));
+    for (beyond, borderline) in [
+        (two_to(-20), false),
+        (two_to(-25), true),
+        (0.0, true),
+        (-two_to(-25), true),
+        (-two_to(-20), false),
+    ] {
+        let file = json!({ "drystone": 1, "ground": [{ "polygon": rectangle(0.0, -1.0, 1.0, 1.0) }],
+            "blocks": [block("a", rectangle(0.5 + beyond, 0.0, 1.0, 1.0), 6.0)] });
+        let scene = scene(&file);
+        let touches = touch::touches(&scene);
+        let groups = Balance::groups(&scene, &touches);
+        assert_eq!(
+            groups[0].distance(),
+            f64::max(0.0, 2.0 * beyond),
+            "{beyond:e}"
+        );
+        assert_eq!(groups[0].stands(), beyond <= 0.0, "{beyond:e}");
+        assert_eq!(groups[0].is_borderline(), borderline, "{beyond:e}");
     }
 }
