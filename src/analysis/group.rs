@@ -4,6 +4,11 @@
 //! the least-sticking program, whose optimum is the physical residual and decides near the edge. Each is believed only
 //! with its proof. Where both proofs hold, the forces win.
 
+mod failure;
+mod question;
+
+pub(super) use question::{judged, only_by_wedging};
+
 use super::{Failure, Verdict};
 use crate::effect::Plan;
 use crate::geometry::Vector;
@@ -56,43 +61,10 @@ pub(super) fn solved(
     group: &Group,
     length: f64,
 ) -> Findings {
-    let heaviest = group
-        .blocks
-        .iter()
-        .map(|block| {
-            let (force, moment) = load_on(scene, plan, *block);
-            force
-                .norm()
-                .max(moment.abs() / length)
-                .max(scene.blocks[block.0].weight)
-        })
-        .fold(0.0, f64::max);
-    let scale = Scale::of(length, heaviest);
-    let yardstick = Yardstick {
-        force: if heaviest > 0.0 { heaviest } else { 1.0 },
-        length,
-    };
-    let case = Case {
-        scene,
-        frame,
-        interfaces,
-        group,
-        yardstick,
-        scale,
-    };
-    let program = assemble(scene, frame, interfaces, plan, group, scale);
-    if heaviest == 0.0 {
-        let carried = case.carried(&program, &Amounts::none(&program));
-        return case.stands(carried, Effort::default());
-    }
-    if let Some(falls) = case.falls_free(plan) {
-        return falls;
-    }
-    if let Some(amounts) = single(&program) {
-        let carried = case.carried(&program, &amounts);
-        if carried.proof.holds() {
-            return case.stands(carried, Effort::default());
-        }
+    let case = Case::of(scene, frame, interfaces, plan, group, length);
+    let program = assemble(scene, frame, interfaces, plan, group, case.scale);
+    if let Some(found) = case.at_once(&program, plan) {
+        return found;
     }
     // Limits that can hardly matter are left out first; where they do matter after all, everything is done again.
     if let Some(generous) = program.without_lavish_limits() {
@@ -116,6 +88,18 @@ struct Judged {
     mechanism: Vec<Motion>,
     proof: Proof,
     effort: Effort,
+}
+
+/// The heaviest load of a group, N: a force, a moment over L, or a weight.
+pub(super) fn heaviest(scene: &Scene, plan: &Plan, group: &Group, length: f64) -> f64 {
+    let sizes = group.blocks.iter().map(|block| {
+        let (force, moment) = load_on(scene, plan, *block);
+        force
+            .norm()
+            .max(moment.abs() / length)
+            .max(scene.blocks[block.0].weight)
+    });
+    sizes.fold(0.0, f64::max)
 }
 
 fn doubt(forces: &Proof, motion: Option<&Proof>) -> String {
@@ -173,7 +157,56 @@ impl Judged {
     }
 }
 
-impl Case<'_> {
+impl<'a> Case<'a> {
+    /// A group in its own yardstick and scale.
+    fn of(
+        scene: &'a Scene,
+        frame: &'a Frame,
+        interfaces: &'a [&'a Interface],
+        plan: &Plan,
+        group: &'a Group,
+        length: f64,
+    ) -> Case<'a> {
+        let heaviest = heaviest(scene, plan, group, length);
+        Case {
+            scene,
+            frame,
+            interfaces,
+            group,
+            yardstick: Yardstick {
+                force: if heaviest > 0.0 { heaviest } else { 1.0 },
+                length,
+            },
+            scale: Scale::of(length, heaviest),
+        }
+    }
+
+    /// What can be answered without a program.
+    fn at_once(&self, program: &Program, plan: &Plan) -> Option<Findings> {
+        if heaviest(self.scene, plan, self.group, self.yardstick.length) == 0.0 {
+            let carried = self.carried(program, &Amounts::none(program));
+            return Some(self.stands(carried, Effort::default()));
+        }
+        if let Some(falls) = self.falls_free(plan) {
+            return Some(falls);
+        }
+        let carried = self.carried(program, &single(program)?);
+        carried
+            .proof
+            .holds()
+            .then(|| self.stands(carried, Effort::default()))
+    }
+
+    /// Whether a motion is proved, and does more work than forces within the proof's band could take up.
+    fn outweighs_the_band(&self, motion: &[Motion]) -> bool {
+        let proof = self.mechanism(motion);
+        let ways: f64 = motion
+            .iter()
+            .map(|m| m.velocity.norm() + m.spin.abs() * self.yardstick.length)
+            .sum();
+        matches!(proof, Proof::Mechanism { power, .. } if proof.holds() && power > 2.0 * Proof::BAND * ways)
+    }
+
     /// Solves a program and proves what comes out: quick first, with full care only where the quick answer has no proof.
     fn judged(&self, program: &Program) -> Judged {
         let mut judged = Judged {
@@ -448,65 +481,5 @@ impl Case<'_> {
                 spin: m.spin / fastest,
             })
             .collect()
-    }
-
-    /// What sticks, in newtons, in the order of interfaces and holds.
-    fn failures(&self, program: &Program, sticking: &Amounts) -> Vec<Failure> {
-        let unit = self.scale.force;
-        let most = sticking
-            .normal
-            .iter()
-            .flatten()
-            .chain(&sticking.friction)
-            .chain(sticking.grip.iter().flatten());
-        let least = 1e-6 * most.fold(0.0, |m: f64, v| m.max(v.abs()));
-        let counts = |v: f64| v.abs() > least;
-        let mut failures = Vec::new();
-        for (k, contact) in program.contacts.iter().enumerate() {
-            let interface = self.interfaces[contact.interface];
-            let bodies = interface.bodies;
-            let points = interface.application_points(self.scene.kernel);
-            for (at, pull) in points
-                .into_iter()
-                .zip(sticking.normal[k])
-                .filter(|p| counts(p.1))
-            {
-                failures.push(Failure::Tension {
-                    bodies,
-                    at,
-                    force: interface.normal * (-pull * unit),
-                });
-            }
-            if counts(sticking.friction[k]) {
-                let force = interface.tangent() * (sticking.friction[k] * unit);
-                failures.push(Failure::Friction {
-                    bodies,
-                    at: interface.middle(),
-                    force,
-                });
-            }
-        }
-        for (k, grip) in program.grips.iter().enumerate() {
-            let hold = self.frame.holds[grip.hold];
-            let [x, y, m] = sticking.grip[k];
-            let (robot, block, at) = (hold.robot, hold.block, hold.at);
-            if counts(x) || counts(y) {
-                failures.push(Failure::RobotForce {
-                    robot,
-                    block,
-                    at,
-                    force: Vector::new(x, y) * unit,
-                });
-            }
-            if counts(m) {
-                failures.push(Failure::RobotTorque {
-                    robot,
-                    block,
-                    at,
-                    torque: m * unit * self.scale.length,
-                });
-            }
-        }
-        failures
     }
 }

@@ -4,7 +4,9 @@
 //! this and nothing deeper. Groups of blocks that cannot influence each other are solved apart, and a group that has
 //! been solved in an earlier frame is not solved again; `group` does one group, this file puts frames together.
 
+mod frame;
 mod group;
+mod margin;
 
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -12,7 +14,8 @@ use std::time::Instant;
 use rayon::prelude::*;
 
 pub use crate::effect::EffectReport;
-use crate::effect::{self, Plan, Situation, mechanism, sticking};
+use crate::effect::wedging::{self, Wedging};
+use crate::effect::{self, Plan, Situation};
 use crate::geometry::{Point, Vector};
 use crate::interface::{Interface, Interfaces};
 use crate::program::{Group, groups};
@@ -21,7 +24,9 @@ pub use crate::resultant::Resultant;
 use crate::resultant::{friction_used, of as resultant_of};
 use crate::scene::{BlockId, BodyId, Frame, RobotId, Scene};
 use crate::solve::Effort;
+use frame::{settle, worst};
 use group::{Findings, solved};
+pub use margin::{Margin, Margins, RobotMargins, Sides};
 
 /// Whether a frame stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -68,6 +73,11 @@ pub struct FrameAnalysis {
     pub unsupported: Vec<BlockId>,
     /// How the blocks move where the frame falls, the fastest point with speed 1.
     pub mechanism: Vec<Motion>,
+    /// How far it is from the edge of standing, where that was asked for.
+    pub margins: Option<Margins>,
+    /// Whether it stands only by a self-stress that its loads do not build up from rest, where that was asked for, it
+    /// stands, and an answer was found.
+    pub only_by_wedging: Option<bool>,
     /// Every effect, simulated or skipped.
     pub effects: Vec<EffectReport>,
     /// How well the verdict is proved.
@@ -174,6 +184,25 @@ pub struct SolveReport {
     pub seconds: f64,
 }
 
+/// What an analysis is asked beside the verdict; by default nothing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Options {
+    /// How far each frame is from the edge of standing.
+    pub margins: Ask,
+    /// Whether each standing frame stands only by wedging.
+    pub wedging: Ask,
+}
+
+/// Whether something is asked for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Ask {
+    /// It is left out, and costs nothing.
+    #[default]
+    No,
+    /// It is found out.
+    Yes,
+}
+
 /// What makes one group the same as one of an earlier frame: its blocks and who holds them where.
 type Key = (Vec<BlockId>, Vec<(RobotId, BlockId, [u64; 2])>);
 
@@ -194,6 +223,11 @@ impl<'s> Analysis<'s> {
     /// # Ok::<(), drystone::scene::Problems>(())
     /// ```
     pub fn of(scene: &'s Scene) -> Analysis<'s> {
+        Analysis::with(scene, &Options::default())
+    }
+
+    /// Examines every frame of a scene, and what else is asked for.
+    pub fn with(scene: &'s Scene, options: &Options) -> Analysis<'s> {
         let found = Interfaces::of(scene);
         let length = found
             .typical_length()
@@ -204,7 +238,7 @@ impl<'s> Analysis<'s> {
             .iter()
             .map(|frame| {
                 let interfaces = found.in_frame(scene, frame);
-                let mut analysis = examined(scene, frame, &interfaces, length, &mut known);
+                let mut analysis = examined(scene, frame, &interfaces, length, options, &mut known);
                 analysis.notices.extend(found.notices.iter().cloned());
                 analysis
             })
@@ -246,6 +280,7 @@ fn examined(
     frame: &Frame,
     interfaces: &[&Interface],
     length: f64,
+    options: &Options,
     known: &mut BTreeMap<Key, Findings>,
 ) -> FrameAnalysis {
     let start = Instant::now();
@@ -280,6 +315,30 @@ fn examined(
         }
     }
     settle(&mut analysis, &situation);
+    let mut judged = None;
+    if options.margins == Ask::Yes {
+        let (margins, tries) = margin::of(scene, frame, interfaces, &groups, known, length);
+        analysis.margins = Some(margins);
+        judged = Some(tries);
+    }
+    analysis.effects.push(effect::margin::report(judged));
+    let wedging = match (options.wedging, analysis.verdict) {
+        (Ask::No, _) => Wedging::NotAsked,
+        (Ask::Yes, Verdict::Stable) => {
+            let found = groups
+                .iter()
+                .zip(&keys)
+                .filter_map(|(group, key)| Some((group, known.get(key)?)));
+            analysis.only_by_wedging =
+                group::only_by_wedging(scene, frame, interfaces, &plan, found, length);
+            match analysis.only_by_wedging {
+                Some(_) => Wedging::Found,
+                None => Wedging::Unclear,
+            }
+        }
+        (Ask::Yes, _) => Wedging::Falls,
+    };
+    analysis.effects.push(wedging::report(wedging));
     analysis.solve = SolveReport {
         method: if effort.programs == 0 && fresh.len() == groups.len() {
             "closed form"
@@ -349,6 +408,8 @@ fn gathered(
         failures: Vec::new(),
         unsupported: Vec::new(),
         mechanism: Vec::new(),
+        margins: None,
+        only_by_wedging: None,
         effects: plan.reports.clone(),
         proof: Proof::Forces {
             worst_imbalance: 0.0,
@@ -419,71 +480,4 @@ fn add(
         _ => analysis.proof,
     };
     analysis.verdict = analysis.verdict.max(found.verdict);
-}
-
-fn worst(a: Proof, b: Proof) -> Proof {
-    match (a, b) {
-        (
-            Proof::Forces {
-                worst_imbalance: i,
-                worst_share: r,
-                worst_pull: p,
-                worst_slip: s,
-            },
-            Proof::Forces {
-                worst_imbalance: j,
-                worst_share: q,
-                worst_pull: t,
-                worst_slip: u,
-            },
-        ) => Proof::Forces {
-            worst_imbalance: i.max(j),
-            worst_share: r.max(q),
-            worst_pull: p.max(t),
-            worst_slip: s.max(u),
-        },
-        (
-            Proof::Mechanism {
-                power: p,
-                worst_violation: v,
-            },
-            Proof::Mechanism {
-                power: q,
-                worst_violation: w,
-            },
-        ) => Proof::Mechanism {
-            power: p.min(q),
-            worst_violation: v.max(w),
-        },
-        (Proof::Mechanism { .. }, _) => a,
-        _ => b,
-    }
-}
-
-/// Writes what only the outcome tells.
-fn settle(analysis: &mut FrameAnalysis, situation: &Situation) {
-    let unstable = analysis.verdict == Verdict::Unstable;
-    if analysis.verdict != Verdict::Undecided {
-        analysis.doubt.clear();
-    }
-    analysis
-        .effects
-        .push(sticking::report(situation, !analysis.failures.is_empty()));
-    analysis.effects.push(mechanism::report(unstable));
-    if !analysis.unsupported.is_empty() {
-        let names: Vec<&str> = analysis
-            .unsupported
-            .iter()
-            .take(10)
-            .map(|b| situation.scene.blocks[b.0].id.as_str())
-            .collect();
-        let more = match analysis.unsupported.len() - names.len() {
-            0 => String::new(),
-            n => format!(" and {n} more"),
-        };
-        analysis.notices.push(format!(
-            "no sticking at the points where forces act could hold {}{more}",
-            names.join(", ")
-        ));
-    }
 }

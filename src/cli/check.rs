@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 
-use crate::analysis::Analysis;
+use crate::analysis::{Analysis, Ask, Options};
 use crate::cli::complaint::Complaint;
 use crate::cli::ending::Ending;
 use crate::cli::progress::{Progress, Shown};
@@ -26,6 +26,13 @@ pub(crate) struct Check {
     /// Leave out how long it took, so that the same scene gives the same bytes
     #[arg(long)]
     no_timing: bool,
+    /// Tell how far each frame is from the edge: least friction, largest tilt, horizontal load, kernel and factor on the
+    /// loads, robots' least limits
+    #[arg(long)]
+    margins: bool,
+    /// Tell whether each standing frame stands only by a self-stress that its loads do not build up from rest
+    #[arg(long)]
+    wedging: bool,
     /// Examine one frame only, by number from 1 or by its letter in the strip
     #[arg(long, value_name = "N")]
     frame: Option<FrameChoice>,
@@ -40,11 +47,15 @@ impl Check {
             Shown::Never
         };
         let progress = Progress::begin(sources.len(), shown);
+        let options = Options {
+            margins: if self.margins { Ask::Yes } else { Ask::No },
+            wedging: if self.wedging { Ask::Yes } else { Ask::No },
+        };
         let analyses: Vec<Analysis> = sources
             .par_iter()
             .map(|source| {
                 progress.doing(&source.name());
-                let analysis = Analysis::of(&source.scene);
+                let analysis = Analysis::with(&source.scene, &options);
                 progress.step();
                 analysis
             })

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use clap::builder::styling::{AnsiColor, Style};
 
-use crate::analysis::{Analysis, Failure, FrameAnalysis, Proof, Verdict};
+use crate::analysis::{Analysis, Failure, FrameAnalysis, Margin, Margins, Proof, Sides, Verdict};
 use crate::cli::terminal::visible;
 use crate::figure::letter;
 use crate::geometry::Point;
@@ -201,8 +201,50 @@ fn remarks(scene: &Scene, frame: &FrameAnalysis) -> Vec<String> {
     if !frame.doubt.is_empty() {
         remarks.push(frame.doubt.clone());
     }
+    if frame.only_by_wedging == Some(true) {
+        remarks.push("stands only by wedging: nothing that acts on it builds up the forces that would hold it".into());
+    }
+    if let Some(margins) = &frame.margins {
+        remarks.extend(edges(scene, margins));
+    }
     remarks.extend(frame.notices.iter().map(|n| format!("note: {n}")));
     remarks
+}
+
+/// How far a frame is from the edge, a line per margin.
+fn edges(scene: &Scene, margins: &Margins) -> Vec<String> {
+    let edge = |margin: &Margin, unit: &str| match margin {
+        Margin::Value { at, .. } => format!("{}{unit}", digits(*at)),
+        Margin::None => "none (it falls at any)".into(),
+        Margin::Unbounded => "any".into(),
+    };
+    let sides = |sides: &Sides, unit: &str| {
+        let (left, right) = (edge(&sides.left, unit), edge(&sides.right, unit));
+        format!("left {left}, right {right}")
+    };
+    let mut lines = vec![
+        format!("least friction: {}", edge(&margins.friction, "")),
+        format!("largest tilt: {}", sides(&margins.tilt, "°")),
+        format!(
+            "largest horizontal share of the weights: {}",
+            sides(&margins.horizontal_load, "")
+        ),
+        format!("largest kernel: {}", edge(&margins.kernel, "")),
+        format!(
+            "largest factor on the loads: {}",
+            edge(&margins.load_factor, "")
+        ),
+    ];
+    lines.extend(margins.robots.iter().map(|robot| {
+        format!(
+            "least limits of robot {}, each alone: fx {}, fy {}, torque {}",
+            scene.robots[robot.robot.0].id,
+            edge(&robot.fx, " N"),
+            edge(&robot.fy, " N"),
+            edge(&robot.torque, " N·m")
+        )
+    }));
+    lines
 }
 
 /// A failure in words.

@@ -9,10 +9,12 @@ pub mod corner_contact;
 pub mod friction;
 pub mod kernel;
 pub mod load;
+pub mod margin;
 pub mod mechanism;
 pub mod robot;
 pub mod robot_torque;
 pub mod sticking;
+pub mod wedging;
 pub mod weight;
 
 use crate::interface::Interface;
@@ -77,6 +79,20 @@ pub struct Plan {
     pub kernel: f64,
     /// What was decided, effect by effect.
     pub reports: Vec<EffectReport>,
+}
+
+impl Plan {
+    /// Every effect that a program can contain, without a word about why: for frames that are changed and judged again.
+    pub fn everything(kernel: f64) -> Plan {
+        Plan {
+            friction: true,
+            robots: true,
+            robot_torque: true,
+            loads: true,
+            kernel,
+            reports: Vec::new(),
+        }
+    }
 }
 
 /// Decides which effects a frame calls for.

@@ -100,6 +100,18 @@ pub fn kinematic(
     (conic, row_of)
 }
 
+/// The twin of  max λ  s.t.  Σ amount·column = need + λ·toward:  max needᵀy  s.t.  columnᵀy ≤ 0, towardᵀy ≥ 1.
+///
+/// The last row is the one of λ: its dual is the largest λ ≥ 0.
+pub fn most_of(need: &[f64], toward: &[f64], columns: &[Column]) -> Conic {
+    let (mut conic, _) = kinematic(need, columns, |_| 0.0);
+    let row = conic.bound.len();
+    let entries = toward.iter().enumerate().filter(|(_, v)| **v != 0.0);
+    conic.matrix.extend(entries.map(|(i, v)| (row, i, -v)));
+    conic.bound.push(-1.0);
+    conic
+}
+
 /// Amounts to be corrected by `size` times the unknowns.
 #[derive(Clone, Copy, Debug)]
 pub struct Correction<'a> {
@@ -147,6 +159,84 @@ pub fn least_squares(need: &[f64], columns: &[Column], correction: Option<Correc
         bound,
         equalities: rows,
     }
+}
+
+/// The forces of unit springs at every contact and grip that balance `program.need`, friction cut at given forces:
+/// min ½ Σ (N1² + N2² + T² + E²/hardening) + ½ Σ F²  s.t.  balance, N ≥ 0, |T| ≤ most, |F| ≤ limit.
+///
+/// The friction force of a contact is T + E, with E from a soft spring that goes on beyond `most`. Unknowns stand contact
+/// by contact as N1, N2, T, E/√hardening, then grip by grip as force x, force y, torque/L.
+pub fn elastic(program: &Program, most: &[f64], hardening: f64) -> Conic {
+    let mut smooth = program.clone();
+    for contact in &mut smooth.contacts {
+        contact.friction = 0.0;
+    }
+    for grip in &mut smooth.grips {
+        grip.limits = [f64::INFINITY; 3];
+    }
+    let contacts = program.contacts.len();
+    let mut conic = Conic {
+        unknowns: 4 * contacts + 3 * program.grips.len(),
+        quadratic: Vec::new(),
+        linear: Vec::new(),
+        matrix: Vec::new(),
+        bound: program.need.clone(),
+        equalities: program.need.len(),
+    };
+    conic.linear = vec![0.0; conic.unknowns];
+    conic.quadratic = (0..conic.unknowns).map(|i| (i, i, 1.0)).collect();
+    // The soft springs' unknown is E/√hardening, so that all unknowns cost alike.
+    let soft = hardening.sqrt();
+    let mut enter = |column: &Column, unknown: usize, share: f64| {
+        conic.matrix.extend(
+            column
+                .entries()
+                .map(|(row, value)| (row, unknown, share * value)),
+        );
+    };
+    for column in &columns(&smooth) {
+        match column.force {
+            Force::Ray { contact, point, .. } => enter(column, 4 * contact + point, 1.0),
+            Force::Grip {
+                grip,
+                component,
+                sign,
+            } if sign > 0.0 => {
+                enter(column, 4 * contacts + 3 * grip + component, 1.0);
+            }
+            _ => {}
+        }
+    }
+    for column in &super::sticking_columns(program) {
+        if let Force::StickFriction { contact, sign } = column.force
+            && sign > 0.0
+        {
+            enter(column, 4 * contact + 2, 1.0);
+            enter(column, 4 * contact + 3, soft);
+        }
+    }
+    let mut row = |unknown: usize, sign: f64, bound: f64| {
+        conic.matrix.push((conic.bound.len(), unknown, sign));
+        conic.bound.push(bound);
+    };
+    for (k, most) in most.iter().enumerate() {
+        for (unknown, sign, bound) in [
+            (0, -1.0, 0.0),
+            (1, -1.0, 0.0),
+            (2, 1.0, *most),
+            (2, -1.0, *most),
+        ] {
+            row(4 * k + unknown, sign, bound);
+        }
+    }
+    for (k, grip) in program.grips.iter().enumerate() {
+        for (component, limit) in grip.limits.iter().enumerate().filter(|l| l.1.is_finite()) {
+            for sign in [1.0, -1.0] {
+                row(4 * contacts + 3 * k + component, sign, *limit);
+            }
+        }
+    }
+    conic
 }
 
 /// Inner product of two columns in (N1, N2, T) of one contact or in one grip component; `None` for different places.

@@ -3,18 +3,23 @@
 //! Invariant: the same analysis gives the same bytes, apart from `seconds`, which [`Timing::LeftOut`] leaves out. Every
 //! number is plain: no −0, and the shortest decimal that reads back as the same f64. A number that could not be computed,
 //! which happens in frames that are `undecided` only, is `null`. Lists that say nothing are absent where the contract
-//! does not name them: `unsupported`, `notices`, `doubt`.
+//! does not name them: `unsupported`, `notices`, `doubt`. What was not asked for is absent: `margins`,
+//! `only_by_wedging`.
 //!
 //! This file is serde's second door, beside `scene::format`: that one reads a person's file, this one writes for programs,
 //! and the two change for different reasons.
 
 mod lines;
+mod margin;
 
 use serde::{Serialize, Serializer};
 
 use lines::Lines;
+use margin::Margins;
 
-use crate::analysis::{Analysis, Contact, Failure, FrameAnalysis, Proof, RobotForce, Verdict};
+use crate::analysis::{
+    Analysis, Contact, Failure, FrameAnalysis, Motion as Moved, Proof, RobotForce, Verdict,
+};
 use crate::geometry::{Point, Vector};
 use crate::interface::ContactKind;
 use crate::scene::{BlockId, BodyId, RobotId, Scene};
@@ -94,6 +99,10 @@ struct Frame<'a> {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     unsupported: Vec<&'a str>,
     mechanism: Vec<Motion<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    margins: Option<Margins<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    only_by_wedging: Option<bool>,
     effects: Vec<Effect<'a>>,
     proof: ProofNumbers,
     solve: Solve,
@@ -251,12 +260,10 @@ impl<'a> Frame<'a> {
             mechanism: frame
                 .mechanism
                 .iter()
-                .map(|m| Motion {
-                    block: block(m.block),
-                    velocity: arrow(m.velocity),
-                    spin: Number(m.spin),
-                })
+                .map(|m| Motion::of(scene, m))
                 .collect(),
+            margins: frame.margins.as_ref().map(|m| Margins::of(scene, m)),
+            only_by_wedging: frame.only_by_wedging,
             effects: frame
                 .effects
                 .iter()
@@ -287,6 +294,16 @@ pub fn word(verdict: Verdict) -> &'static str {
         Verdict::Stable => "stable",
         Verdict::Unstable => "unstable",
         Verdict::Undecided => "undecided",
+    }
+}
+
+impl<'a> Motion<'a> {
+    fn of(scene: &'a Scene, motion: &Moved) -> Motion<'a> {
+        Motion {
+            block: &scene.blocks[motion.block.0].id,
+            velocity: arrow(motion.velocity),
+            spin: Number(motion.spin),
+        }
     }
 }
 

@@ -9,13 +9,17 @@
 mod balance;
 mod conic;
 mod exact;
+mod limit;
 mod single;
 mod stick;
+mod wedge;
 
 pub use balance::{Balance, balance};
 pub use conic::{Answer, Care, Status, TOLERANCE, solve};
+pub use limit::{Limit, least, most};
 pub use single::single;
 pub use stick::{Stuck, stick};
+pub use wedge::{Reach, reach};
 
 use crate::program::{Column, Conic, Correction, Force, Program, kinematic, least_squares};
 

@@ -353,6 +353,41 @@ fn lavish_limits_change_nothing() {
     }
 }
 
+/// A contact a millionth of the block: the length L by which moments are counted is then as short.
+#[test]
+fn a_block_on_a_splinter() {
+    let splinter = |width: f64, off: f64| {
+        json!({ "drystone": 1, "friction": 0.5, "ground": [{ "polygon": rectangle(-1.0, -1.0, 2.0, 1.0) }],
+            "blocks": [
+                { "id": "splinter", "polygon": [[-0.5, 0], [0.5, 0], [width / 2.0, 1], [-width / 2.0, 1]], "weight": 1 },
+                { "id": "block", "polygon": rectangle(-0.5 + off, 1.0, 1.0, 1.0), "weight": 6 }] })
+    };
+    for width in [1e-2, 1e-4, 1e-5, 1e-6] {
+        assert_eq!(verdict(&splinter(width, 0.3 * width)), STANDS, "{width:e}");
+        assert_eq!(verdict(&splinter(width, 0.7 * width)), FALLS, "{width:e}");
+    }
+}
+
+/// Coordinates of 10⁶ block lengths have ten digits left.
+#[test]
+fn a_wall_a_million_lengths_away() {
+    let mut file = wall(4, 4);
+    let expected = first(&file).total_force;
+    for list in ["ground", "blocks"] {
+        for body in file[list].as_array_mut().unwrap() {
+            for corner in body["polygon"].as_array_mut().unwrap() {
+                *corner = json!([
+                    corner[0].as_f64().unwrap() + 1e6,
+                    corner[1].as_f64().unwrap() - 1e6
+                ]);
+            }
+        }
+    }
+    let frame = first(&file);
+    assert_eq!(frame.verdict, STANDS);
+    assert!((frame.total_force - expected).abs() < 1e-6 * expected);
+}
+
 /// μ = 1000 makes a push of 7e-7 N look like noise beside μN; it is more than the band, and dropping it left no proof.
 #[test]
 fn a_light_push_on_very_rough_bricks() {

@@ -1,7 +1,7 @@
 //! The contract, letter by letter.
 
 use super::*;
-use crate::analysis::{EffectReport, Motion as Moved, Resultant as Sum, SolveReport};
+use crate::analysis::{EffectReport, Resultant as Sum, SolveReport};
 use crate::geometry::{Polygon, Tolerance};
 use crate::scene::{Block, Body, Frame as Step, Limits, Robot as Arm};
 
@@ -121,6 +121,8 @@ fn frame() -> FrameAnalysis {
             velocity: Vector::new(0.5, -0.0),
             spin: f64::NAN,
         }],
+        margins: None,
+        only_by_wedging: None,
         effects: vec![EffectReport {
             effect: "friction",
             simulated: true,

@@ -257,8 +257,8 @@ fn the_exact_simplex_meets_its_dual() {
 
 /// What excuses a difference is measured exactly too: a block with its centre of gravity d beyond the edge of a floor.
 ///
-/// The edge carries N; force off by W − N and moment by N·d, in parts of W and of WL, are both least at t = d/(L + d), and
-/// L, the stretch that is left, is ½ − d: so t = 2d.
+/// In parts of W and WL, a force off by t and a moment off by t leave N = (1 − t)W with the arm d, friction tW with the
+/// arm ½ and tWL to balance: (1 − t)d = t/2 + tL. L, the stretch that is left, is ½ − d: so t = d.
 #[test]
 fn the_distance_from_the_edge_is_exact() {
     let two_to = |power: i32| libm::exp2(f64::from(power));
@@ -274,11 +274,7 @@ fn the_distance_from_the_edge_is_exact() {
         let scene = scene(&file);
         let touches = touch::touches(&scene);
         let groups = Balance::groups(&scene, &touches);
-        assert_eq!(
-            groups[0].distance(),
-            f64::max(0.0, 2.0 * beyond),
-            "{beyond:e}"
-        );
+        assert_eq!(groups[0].distance(), f64::max(0.0, beyond), "{beyond:e}");
         assert_eq!(groups[0].stands(), beyond <= 0.0, "{beyond:e}");
         assert_eq!(groups[0].is_borderline(), borderline, "{beyond:e}");
     }

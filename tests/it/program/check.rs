@@ -107,6 +107,28 @@ fn programs_read_one_object_a_scene() {
 }
 
 #[test]
+fn margins_are_there_where_asked_for() {
+    let bench = Bench::new();
+    let object =
+        |line: &str| -> Value { serde_json::from_str(&bench.run(line).out).expect("JSON") };
+    let plain = object("check --json falls.json");
+    assert!(plain["frames"][0].get("margins").is_none());
+    let asked = object("check --json --margins falls.json");
+    let margins = |frame: usize| &asked["frames"][frame]["margins"];
+    assert!(margins(0)["tilt"]["left"].is_null(), "it falls unturned");
+    assert!(margins(1)["friction"].as_f64().expect("number") >= 0.0);
+    assert_eq!(margins(1)["load_factor"], "unbounded");
+    assert!(
+        margins(1)["robots"]["crane"]["fy"]
+            .as_f64()
+            .expect("number")
+            > 0.0
+    );
+    let told = bench.run("check --margins stands.json").out;
+    assert!(told.contains("least friction: "), "{told}");
+}
+
+#[test]
 fn without_timing_the_same_scene_gives_the_same_bytes() {
     let bench = Bench::new();
     for line in [

@@ -1,0 +1,117 @@
+//! Margins as JSON: a number, `null` where a frame falls at any value, `"unbounded"` where it stands at any.
+
+use serde::{Serialize, Serializer};
+
+use super::{Motion, Number};
+use crate::analysis::{Margin, Margins as Found, Sides as Either};
+use crate::scene::Scene;
+
+#[derive(Serialize)]
+pub(super) struct Margins<'a> {
+    friction: End,
+    tilt: Sides<End>,
+    horizontal_load: Sides<End>,
+    kernel: End,
+    load_factor: End,
+    robots: Named<'a, Limits<End>>,
+    mechanisms: Mechanisms<'a>,
+}
+
+/// How the blocks begin to move just beyond each edge.
+#[derive(Serialize)]
+struct Mechanisms<'a> {
+    friction: Vec<Motion<'a>>,
+    tilt: Sides<Vec<Motion<'a>>>,
+    horizontal_load: Sides<Vec<Motion<'a>>>,
+    kernel: Vec<Motion<'a>>,
+    load_factor: Vec<Motion<'a>>,
+    robots: Named<'a, Limits<Vec<Motion<'a>>>>,
+}
+
+#[derive(Serialize)]
+struct Sides<T> {
+    left: T,
+    right: T,
+}
+
+#[derive(Serialize)]
+struct Limits<T> {
+    fx: T,
+    fy: T,
+    torque: T,
+}
+
+#[derive(Serialize)]
+#[serde(untagged)]
+enum End {
+    At(Number),
+    None,
+    Unbounded(&'static str),
+}
+
+/// An object whose keys stand in the order of the list.
+struct Named<'a, T>(Vec<(&'a str, T)>);
+
+impl<T: Serialize> Serialize for Named<'_, T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(name, value)| (name, value)))
+    }
+}
+
+impl<'a> Margins<'a> {
+    pub(super) fn of(scene: &'a Scene, found: &Found) -> Margins<'a> {
+        let motions = |margin: &Margin| match margin {
+            Margin::Value { mechanism, .. } => {
+                mechanism.iter().map(|m| Motion::of(scene, m)).collect()
+            }
+            Margin::None | Margin::Unbounded => Vec::new(),
+        };
+        Margins {
+            friction: end(&found.friction),
+            tilt: sides(&found.tilt, end),
+            horizontal_load: sides(&found.horizontal_load, end),
+            kernel: end(&found.kernel),
+            load_factor: end(&found.load_factor),
+            robots: robots(scene, found, end),
+            mechanisms: Mechanisms {
+                friction: motions(&found.friction),
+                tilt: sides(&found.tilt, motions),
+                horizontal_load: sides(&found.horizontal_load, motions),
+                kernel: motions(&found.kernel),
+                load_factor: motions(&found.load_factor),
+                robots: robots(scene, found, motions),
+            },
+        }
+    }
+}
+
+fn end(margin: &Margin) -> End {
+    match margin {
+        Margin::Value { at, .. } => End::At(Number(*at)),
+        Margin::None => End::None,
+        Margin::Unbounded => End::Unbounded("unbounded"),
+    }
+}
+
+fn sides<T>(of: &Either, told: impl Fn(&Margin) -> T) -> Sides<T> {
+    Sides {
+        left: told(&of.left),
+        right: told(&of.right),
+    }
+}
+
+fn robots<'a, T>(
+    scene: &'a Scene,
+    found: &Found,
+    told: impl Fn(&Margin) -> T,
+) -> Named<'a, Limits<T>> {
+    let robots = found.robots.iter().map(|robot| {
+        let limits = Limits {
+            fx: told(&robot.fx),
+            fy: told(&robot.fy),
+            torque: told(&robot.torque),
+        };
+        (scene.robots[robot.robot.0].id.as_str(), limits)
+    });
+    Named(robots.collect())
+}

@@ -1,0 +1,295 @@
+//! Margins: values known by hand or from the literature, and what every margin must obey.
+
+use drystone::analysis::{Ask, FrameAnalysis, Margin, Margins, Options, Verdict};
+use drystone::{Analysis, Scene};
+use serde_json::{Value, json};
+
+use crate::structure::{arch, block, on_floor, on_slope, rectangle, scene, verdict};
+
+fn frames(scene: &Scene) -> Vec<FrameAnalysis> {
+    let asked = Options {
+        margins: Ask::Yes,
+        ..Options::default()
+    };
+    Analysis::with(scene, &asked).frames
+}
+
+fn margins(file: &Value) -> Margins {
+    frames(&scene(file))
+        .remove(0)
+        .margins
+        .expect("margins were asked for")
+}
+
+fn thesis(name: &str) -> Vec<FrameAnalysis> {
+    let path = format!("{}/assets/thesis/{name}.json", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(path).expect("a scene of the source");
+    frames(&Scene::from_json(&text).expect("sound"))
+}
+
+fn step(name: &str, number: usize) -> Margins {
+    thesis(name).remove(number).margins.expect("asked for")
+}
+
+#[track_caller]
+fn near(margin: &Margin, expected: f64, within: f64) {
+    match margin {
+        Margin::Value { at, mechanism } => {
+            assert!(
+                (at - expected).abs() <= within,
+                "{at} against {expected}, off by {:e}",
+                at - expected
+            );
+            assert!(
+                !mechanism.is_empty() || expected == 0.0,
+                "{at} has no mechanism"
+            );
+        }
+        other => panic!("{other:?} against {expected}"),
+    }
+}
+
+/// A right-angled wedge, tip down, in a notch whose faces rise at 60° to the left and at 30° to the right.
+fn wedge(friction: f64) -> Value {
+    let (left, right) = (-1.0 / libm::sqrt(3.0), libm::sqrt(3.0));
+    json!({ "drystone": 1, "friction": friction,
+        "ground": [{ "polygon": [[-3, -1], [3, -1], [3, 1], [right, 1], [0, 0], [left, 1], [-3, 1]] }],
+        "blocks": [{ "id": "wedge", "polygon": [[0, 0], [right, 1], [left, 1]], "weight": 6 }] })
+}
+
+/// Turned to the right the wedge leaves the left face and slides up the right one, at its slope plus the angle of friction.
+#[test]
+fn a_wedge_leaves_its_notch_at_the_slope_of_a_face_and_the_angle_of_friction() {
+    for friction in [0.2, 0.5, 0.7] {
+        let found = margins(&wedge(friction));
+        let angle = libm::atan(friction).to_degrees();
+        near(&found.tilt.right, 30.0 + angle, 1e-6);
+        near(&found.tilt.left, 60.0 + angle, 1e-6);
+        near(&found.friction, 0.0, 0.0);
+        assert_eq!(found.load_factor, Margin::Unbounded);
+    }
+}
+
+#[test]
+fn a_block_on_a_slope_slides_down_or_up() {
+    let file = on_slope(30.0, 4.0, 0.5, 0.8, 0.0);
+    let found = margins(&file);
+    let angle = libm::atan(0.8).to_degrees();
+    // The slope rises to the right, so the block slides down to the left.
+    near(&found.tilt.left, angle - 30.0, 1e-6);
+    near(&found.tilt.right, angle + 30.0, 1e-6);
+    let share = |degrees: f64| libm::tan(degrees.to_radians());
+    near(&found.horizontal_load.left, share(angle - 30.0), 1e-7);
+    near(&found.horizontal_load.right, share(angle + 30.0), 1e-5);
+    near(&found.friction, share(30.0), 1e-6);
+    // The weight's line meets the slope 2 − 0.25·tan 30° from the nearer end of its 4 m.
+    near(&found.kernel, 1.0 - 0.25 * share(30.0) / 2.0, 1e-6);
+}
+
+#[test]
+fn figure_6_ends_at_a_quarter_of_a_kernel() {
+    near(&step("figure-6-kernel-0", 1).kernel, 0.25, 1e-6);
+    near(&step("figure-6-kernel-02", 1).friction, 0.3464, 5e-5);
+    // The upright link has its centre of gravity above a corner: it stands, and bears nothing to that side.
+    let upright = step("figure-6-kernel-0", 0);
+    let least = [&upright.tilt.left, &upright.tilt.right]
+        .map(|m| m.at().expect("a tilt at which it falls"));
+    assert_eq!(least[0].min(least[1]), 0.0);
+    assert!(least[0].max(least[1]) > 1.0);
+}
+
+#[test]
+fn figure_3b_needs_little_friction() {
+    near(&step("figure-3b", 0).friction, 0.2277, 5e-5);
+}
+
+#[test]
+fn a_thick_arch_needs_a_third_of_friction() {
+    near(&margins(&arch(181, 0.3, 0.7)).friction, 0.3092, 0.002);
+}
+
+#[test]
+fn the_thinnest_arch() {
+    let (mut falls, mut stands) = (0.1, 0.12);
+    while stands - falls > 1e-5 {
+        let middle = 0.5 * (stands + falls);
+        match verdict(&arch(181, middle, 0.9)) {
+            Verdict::Stable => stands = middle,
+            _ => falls = middle,
+        }
+    }
+    assert!((stands - 0.10745).abs() < 1e-4, "{stands}");
+}
+
+/// A block 2 m wide and 3 m high, pushed at its top by 1 N to the left and hung on to by 0.5 N at its right edge.
+#[test]
+fn a_load_grows_until_the_block_topples() {
+    let mut file = on_floor(0.9, vec![block("a", rectangle(0.0, 0.0, 2.0, 3.0), 6.0)]);
+    file["loads"] = json!([{ "block": "a", "force": [-1, -0.5], "at": [2, 3] }]);
+    let found = margins(&file);
+    // About the left foot: 6·1 + λ·0.5·2 = λ·1·3.
+    near(&found.load_factor, 3.0, 1e-7);
+    // 6·1 + 0.5·2 − 1·3 = h·6·1.5 to the left; to the right, about the right foot, 6·1 + 1·3 = h·6·1.5.
+    near(&found.horizontal_load.left, 4.0 / 9.0, 1e-7);
+    near(&found.horizontal_load.right, 1.0, 1e-7);
+    // 1 + 3·(cos θ·… ): the turned weight's moment about the left foot is 6 cos θ − 9 sin θ, and 2 of it is needed.
+    let left = found.tilt.left.at().expect("it topples").to_radians();
+    let moment = 6.0 * libm::cos(left) - 9.0 * libm::sin(left);
+    assert!((moment - 2.0).abs() < 1e-5, "{moment}");
+    assert_eq!(found.tilt.right.at().map(|a| a > 40.0), Some(true));
+}
+
+#[test]
+fn what_falls_at_any_value_has_none() {
+    let flying = margins(&on_floor(
+        0.5,
+        vec![block("a", rectangle(0.0, 1.0, 1.0, 1.0), 6.0)],
+    ));
+    for margin in [
+        &flying.friction,
+        &flying.tilt.left,
+        &flying.horizontal_load.right,
+        &flying.kernel,
+        &flying.load_factor,
+    ] {
+        assert_eq!(*margin, Margin::None);
+    }
+}
+
+#[test]
+fn a_robot_needs_no_more_than_what_it_holds() {
+    let mut file = on_floor(0.5, vec![block("a", rectangle(0.0, 3.0, 1.0, 1.0), 8.0)]);
+    // Held 0.25 m left of the centroid: 8 N and 2 N·m.
+    file["robots"] = json!([{ "id": "r", "holds": "a", "at": [0.25, 3.5], "limits": { "force": 20, "torque": 5 } }]);
+    let found = margins(&file);
+    let [robot] = &found.robots[..] else {
+        panic!("one robot holds")
+    };
+    near(&robot.fx, 0.0, 0.0);
+    near(&robot.fy, 8.0, 1e-6);
+    near(&robot.torque, 2.0, 1e-6);
+    // Sideways it can take 20 N of 8 N of weight.
+    near(&found.horizontal_load.left, 2.5, 1e-6);
+    file["robots"][0]["limits"] = json!({ "force": 4, "torque": 5 });
+    let [robot] = &margins(&file).robots[..] else {
+        panic!("one robot holds")
+    };
+    assert_eq!(robot.fx, Margin::None, "the other limit is too small");
+    assert_eq!(robot.torque, Margin::None, "the other limit is too small");
+    near(&robot.fy, 8.0, 1e-6);
+}
+
+/// A robot that can give 8 N each way holds 8 N turned by 45° as well, but not by 45° ± any more than its box allows.
+#[test]
+fn a_limited_robot_is_turned_to_the_first_edge() {
+    let mut file = on_floor(0.5, vec![block("a", rectangle(0.0, 3.0, 1.0, 1.0), 8.0)]);
+    file["robots"] =
+        json!([{ "id": "r", "holds": "a", "limits": { "fx": 4, "fy": 9, "torque": 0 } }]);
+    // sin θ · 8 = 4.
+    near(&margins(&file).tilt.right, 30.0, 1e-5);
+    near(&margins(&file).tilt.left, 30.0, 1e-5);
+    file["robots"][0]["limits"] = json!({ "force": 8 });
+    assert_eq!(margins(&file).tilt.right, Margin::Unbounded);
+}
+
+#[test]
+fn a_squeezed_block_needs_next_to_nothing() {
+    let file = json!({ "drystone": 1, "friction": 0.5,
+        "ground": [{ "polygon": rectangle(-2.0, -1.0, 2.0, 3.0) }, { "polygon": rectangle(1.0, -1.0, 2.0, 3.0) }],
+        "blocks": [block("a", rectangle(0.0, 0.0, 1.0, 1.0), 6.0)] });
+    let found = margins(&file);
+    assert!(found.friction.at().expect("it stands") < 1e-6);
+    assert_eq!(found.tilt.left, Margin::Unbounded);
+    assert_eq!(found.horizontal_load.right, Margin::Unbounded);
+    assert_eq!(found.kernel, Margin::Unbounded);
+}
+
+#[test]
+fn a_frame_is_as_good_as_its_worst_group() {
+    let tower = |height: f64| {
+        on_floor(
+            0.9,
+            vec![
+                block("low", rectangle(0.0, 0.0, 1.0, 1.0), 6.0),
+                block("high", rectangle(5.0, 0.0, 1.0, height), 6.0),
+            ],
+        )
+    };
+    near(&margins(&tower(4.0)).horizontal_load.left, 0.25, 1e-7);
+    near(&margins(&tower(1.25)).horizontal_load.left, 0.8, 1e-7);
+}
+
+#[test]
+fn margins_are_an_effect_on_request() {
+    let file = on_floor(0.5, vec![block("a", rectangle(0.0, 0.0, 1.0, 1.0), 6.0)]);
+    let scene = scene(&file);
+    let told = |frame: &FrameAnalysis| {
+        let effect = frame.effects.iter().find(|e| e.effect == "margins");
+        let effect = effect.expect("every effect is told");
+        (effect.simulated, effect.why.clone())
+    };
+    let plain = Analysis::of(&scene).frames.remove(0);
+    assert_eq!(told(&plain), (false, "not asked for".to_string()));
+    assert_eq!(plain.margins, None);
+    let asked = frames(&scene).remove(0);
+    assert!(told(&asked).0 && told(&asked).1.starts_with("asked for"));
+    assert_eq!(asked.verdict, plain.verdict);
+}
+
+/// Every margin of the source's scenes, asked of changed scene files through the front door.
+#[test]
+fn just_inside_it_stands_and_just_beyond_it_falls() {
+    let folder = format!("{}/assets/thesis", env!("CARGO_MANIFEST_DIR"));
+    let mut asked = 0;
+    for name in [
+        "figure-3b",
+        "figure-5",
+        "figure-6-kernel-02",
+        "figure-8-left",
+    ] {
+        let text = std::fs::read_to_string(format!("{folder}/{name}.json")).expect("a scene");
+        let file: Value = serde_json::from_str(&text).expect("JSON");
+        for (number, frame) in thesis(name).iter().enumerate() {
+            let found = frame.margins.as_ref().expect("asked for");
+            let mut agrees = |margin: &Margin,
+                              more_is_worse: bool,
+                              change: &dyn Fn(f64) -> Value| {
+                let Some(at) = margin.at().filter(|at| *at > 0.0) else {
+                    return;
+                };
+                for (share, inside) in [(1.0 - 1e-4, more_is_worse), (1.0 + 1e-4, !more_is_worse)] {
+                    let scene = scene(&change(at * share));
+                    let verdict = Analysis::of(&scene).frames[number].verdict;
+                    let expected = if inside {
+                        Verdict::Stable
+                    } else {
+                        Verdict::Unstable
+                    };
+                    assert_eq!(
+                        verdict, expected,
+                        "{name}, frame {number}: {at} times {share}"
+                    );
+                    asked += 1;
+                }
+            };
+            let with = |key: &str, value: Value| {
+                let mut changed = file.clone();
+                changed[key] = value;
+                changed
+            };
+            // The source's scenes know one friction coefficient and a gravity of (0, −1).
+            agrees(&found.friction, false, &|mu| with("friction", json!(mu)));
+            agrees(&found.kernel, true, &|kernel| with("kernel", json!(kernel)));
+            for (margin, side) in [(&found.tilt.left, -1.0), (&found.tilt.right, 1.0)] {
+                agrees(margin, true, &|degrees| {
+                    let angle = degrees.to_radians();
+                    with(
+                        "gravity",
+                        json!([side * libm::sin(angle), -libm::cos(angle)]),
+                    )
+                });
+            }
+        }
+    }
+    assert_eq!(asked, 30);
+}
