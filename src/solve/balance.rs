@@ -25,6 +25,9 @@ const MARGINS: [f64; 5] = [1.0, 1e-3, 1e3, 1e-6, 1e6];
 /// On the true face every balance costs the same, up to the solver's digits; a dearer one means a column too many.
 const SAME_COST: f64 = 2e-8;
 
+/// Very rough contacts cost the solver digits; within this share the cheapest balance is nearer the truth than its aim.
+const NEAR_COST: f64 = 1e-6;
+
 /// Solves the hard program of [Vallat23](crate::doc::references) §2.0.7 through its kinematic twin.
 pub fn balance(program: &Program, care: Care) -> Balance {
     balance_in(program, care.into())
@@ -38,7 +41,7 @@ pub fn balance_in(program: &Program, manner: Manner) -> Balance {
     match solved.status {
         Status::Solved => {
             let size = largest(&program.need);
-            let mut found = None;
+            let mut found: Option<(f64, Face)> = None;
             let margins = match manner.choice {
                 Choice::Any => &[][..],
                 Choice::Unique => &MARGINS[..],
@@ -48,15 +51,20 @@ pub fn balance_in(program: &Program, manner: Manner) -> Balance {
                 let Some(amounts) = tidy(&face.need, &face.columns, manner, &mut effort) else {
                     continue;
                 };
-                let cheap =
-                    (face.cost(&amounts) - solved.aim).abs() <= SAME_COST * solved.aim.abs();
+                let cost = face.cost(&amounts);
+                let off = (cost - solved.aim).abs() / solved.aim.abs();
                 let rest = largest(&remainder(&face.need, &face.columns, &amounts));
-                if cheap && rest <= 1e-8 * size {
-                    found = Some(face.with(amounts));
+                if off > NEAR_COST || rest > 1e-8 * size {
+                    continue;
+                }
+                if found.as_ref().is_none_or(|best| cost < best.0) {
+                    found = Some((cost, face.with(amounts)));
+                }
+                if off <= SAME_COST {
                     break;
                 }
             }
-            let mut face = found.unwrap_or_else(|| whole.with(solved.amounts));
+            let mut face = found.map_or_else(|| whole.with(solved.amounts), |best| best.1);
             if manner.care == Care::Full {
                 face.amounts = refined(&face.need, &face.columns, face.amounts, &mut effort);
             }

@@ -87,6 +87,16 @@ impl<'a> Balance<'a> {
 
     /// Least such sum of forces that no contact and no robot may give, newtons; `None` where none helps.
     pub fn least_sticking(&self) -> Option<f64> {
+        self.soft().least().map(|v| v.to_f64_fast())
+    }
+
+    /// Whether no sticking helps, not even one that may leave the balance off by the band.
+    pub fn is_past_help(&self) -> bool {
+        self.off(self.soft()) > Proof::BAND
+    }
+
+    /// The source's soft program at the limit of its β: sticking has a cost and nothing else.
+    fn soft(&self) -> LinearProgram {
         let mut program = self.admissible();
         program.costs.iter_mut().for_each(|c| *c = RBig::ZERO);
         for touch in &self.touches {
@@ -109,12 +119,15 @@ impl<'a> Balance<'a> {
                 }
             }
         }
-        program.least().map(|v| v.to_f64_fast())
+        program
     }
 
     /// By how much the balance must be off somewhere, in parts of the heaviest load and of L: 0 where it stands.
     pub fn distance(&self) -> f64 {
-        let mut program = self.admissible();
+        self.off(self.admissible())
+    }
+
+    fn off(&self, mut program: LinearProgram) -> f64 {
         program.costs.iter_mut().for_each(|c| *c = RBig::ZERO);
         let off = program.unknown(RBig::ONE);
         for row in 0..3 * self.blocks.len() {
