@@ -31,9 +31,6 @@ pub(crate) struct Check {
     /// loads, robots' least limits
     #[arg(long)]
     margins: bool,
-    /// Tell whether each standing frame stands only by a self-stress that its loads do not build up from rest
-    #[arg(long)]
-    wedging: bool,
     /// Examine one frame only, by number from 1 or by its letter in the strip
     #[arg(long, value_name = "N")]
     frame: Option<FrameChoice>,
@@ -52,7 +49,6 @@ impl Check {
         let progress = Progress::begin(sources.len(), shown);
         let options = Options {
             margins: if self.margins { Ask::Yes } else { Ask::No },
-            wedging: if self.wedging { Ask::Yes } else { Ask::No },
             ..self.level.options()
         };
         let analyses: Vec<Analysis> = sources

@@ -79,6 +79,9 @@ pub(crate) fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
         let parts = failures.into_iter().map(|f| missing(scene, f)).collect();
         sentences.push(format!("missing: {}", listed(&shortened(parts, 3))));
     }
+    if found.only_by_wedging == Some(true) {
+        sentences.push("only by wedging: its loads alone do not build up what holds it".to_owned());
+    }
     if found.verdict == Verdict::Undecided && !found.doubt.is_empty() {
         sentences.push(found.doubt.clone());
     }

@@ -123,3 +123,19 @@ fn it_is_an_effect_on_request() {
     );
     assert_eq!(falls.only_by_wedging, None);
 }
+
+#[test]
+fn the_figure_says_so() {
+    let scene = scene(&bar_between_walls(0.0, 0.7));
+    let options = Options {
+        wedging: Ask::Yes,
+        ..Options::default()
+    };
+    let drawn = |options: &Options| {
+        let analysis = Analysis::with(&scene, options);
+        let drawing = drystone::figure::forces(&analysis, &drystone::figure::Options::default());
+        drystone::output::svg::write(&drawing)
+    };
+    assert!(drawn(&options).contains("only by wedging"));
+    assert!(!drawn(&Options::default()).contains("only by wedging"));
+}
