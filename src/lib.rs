@@ -52,6 +52,7 @@
 //! | [`figure::forces`] | [`drawing::Drawing`] | an analysis |
 //! | [`output::svg::write`] | SVG text | a drawing |
 //! | [`output::png::render`] | PNG bytes | that text |
+//! | [`study::study`] | what accuracy costs | scenes |
 //! | [`report::result::to_json`] | JSON for other programs | an analysis |
 //!
 //! Why it is built so stands in [`doc::design`]; axes, units and signs in [`doc::conventions`]; tolerances and traps in
@@ -83,6 +84,10 @@ pub mod figure;
 
 pub mod output;
 
+pub mod chart;
+
+pub mod study;
+
 pub mod report;
 
 pub mod cli;
@@ -100,6 +105,10 @@ pub mod doc {
 
     #[doc = include_str!("doc/numerics.md")]
     pub mod numerics {}
+
+    #[doc = include_str!("doc/accuracy.md")]
+    #[doc = include_str!("../assets/accuracy.svg")]
+    pub mod accuracy {}
 
     #[doc = include_str!("doc/references.md")]
     pub mod references {}

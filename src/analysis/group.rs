@@ -9,14 +9,14 @@ mod question;
 
 pub(super) use question::{judged, only_by_wedging};
 
-use super::{Failure, Verdict};
-use crate::effect::Plan;
+use super::{Failure, Options, Verdict};
+use crate::effect::{Plan, Situation};
 use crate::geometry::Vector;
 use crate::interface::Interface;
 use crate::program::{Group, Program, Scale, assemble, load_on};
-use crate::proof::{self, Held, Motion, Pressed, Proof, Yardstick};
+use crate::proof::{self, Demand, Held, Motion, Pressed, Proof, Yardstick};
 use crate::scene::{BodyId, Frame, Scene};
-use crate::solve::{Amounts, Care, Effort, balance, single, stick};
+use crate::solve::{Amounts, Effort, Manner, balance_in, single, stick_in};
 
 /// What was found out about one group, forces in the order of its interfaces and holds.
 #[derive(Clone, Debug)]
@@ -43,6 +43,8 @@ struct Case<'a> {
     group: &'a Group,
     yardstick: Yardstick,
     scale: Scale,
+    manners: Vec<Manner>,
+    demand: Demand,
 }
 
 /// Forces in newtons with their proof.
@@ -54,14 +56,14 @@ struct Carried {
 
 /// Solves one group and proves its verdict.
 pub(super) fn solved(
-    scene: &Scene,
-    frame: &Frame,
-    interfaces: &[&Interface],
+    situation: &Situation,
     plan: &Plan,
     group: &Group,
     length: f64,
+    options: Options,
 ) -> Findings {
-    let case = Case::of(scene, frame, interfaces, plan, group, length);
+    let (scene, frame, interfaces) = (situation.scene, situation.frame, situation.interfaces);
+    let case = Case::of(scene, frame, interfaces, plan, group, length, options);
     let program = assemble(scene, frame, interfaces, plan, group, case.scale);
     if let Some(found) = case.at_once(&program, plan) {
         return found;
@@ -83,6 +85,8 @@ struct Judged {
     program: Program,
     amounts: Amounts,
     sticking: Option<Amounts>,
+    /// No sticking could hold it.
+    hopeless: bool,
     mechanism: Vec<Motion>,
     proof: Proof,
     effort: Effort,
@@ -146,7 +150,7 @@ impl Judged {
             contacts: carried.contacts,
             grips: carried.grips,
             total_sticking,
-            unsupported: self.sticking.is_none() && self.verdict == Verdict::Unstable,
+            unsupported: self.hopeless && self.verdict == Verdict::Unstable,
             failures,
             mechanism,
             proof: self.proof,
@@ -164,6 +168,7 @@ impl<'a> Case<'a> {
         plan: &Plan,
         group: &'a Group,
         length: f64,
+        options: Options,
     ) -> Case<'a> {
         let heaviest = heaviest(scene, plan, group, length);
         Case {
@@ -176,6 +181,8 @@ impl<'a> Case<'a> {
                 length,
             },
             scale: Scale::of(length, heaviest),
+            manners: options.manners(),
+            demand: options.accuracy.demand(),
         }
     }
 
@@ -189,9 +196,7 @@ impl<'a> Case<'a> {
             return Some(falls);
         }
         let carried = self.carried(program, &single(program)?);
-        carried
-            .proof
-            .holds()
+        self.believes(&carried.proof)
             .then(|| self.stands(carried, Effort::default()))
     }
 
@@ -213,6 +218,7 @@ impl<'a> Case<'a> {
             program: program.clone(),
             amounts: Amounts::none(program),
             sticking: None,
+            hopeless: false,
             mechanism: Vec::new(),
             proof: Proof::Mechanism {
                 power: 0.0,
@@ -221,12 +227,12 @@ impl<'a> Case<'a> {
             effort: Effort::default(),
         };
         let mut direction = None;
-        for care in [Care::Quick, Care::Full] {
-            let first = balance(program, care);
+        for manner in &self.manners {
+            let first = balance_in(program, *manner);
             judged.effort = judged.effort.and(first.effort);
             if let Some(amounts) = first.forces {
                 let proof = self.carried(program, &amounts).proof;
-                if proof.holds() {
+                if self.believes(&proof) {
                     return Judged {
                         amounts,
                         proof,
@@ -237,17 +243,17 @@ impl<'a> Case<'a> {
             direction = first.motion.map(|y| self.moved(&y));
             if direction
                 .as_ref()
-                .is_some_and(|motion| self.mechanism(motion).holds())
+                .is_some_and(|motion| self.believes(&self.mechanism(motion)))
             {
                 break;
             }
         }
         let mut doubts = String::new();
-        for care in [Care::Quick, Care::Full] {
-            let stuck = stick(program, care);
+        for manner in &self.manners {
+            let stuck = stick_in(program, *manner);
             judged.effort = judged.effort.and(stuck.effort);
             let proof = self.carried(program, &stuck.forces).proof;
-            if stuck.balanced && proof.holds() {
+            if stuck.balanced == Some(true) && self.believes(&proof) {
                 return Judged {
                     amounts: stuck.forces,
                     proof,
@@ -255,20 +261,24 @@ impl<'a> Case<'a> {
                 };
             }
             judged.amounts = stuck.forces;
-            judged.sticking = stuck.balanced.then_some(stuck.sticking);
-            let motions = stuck
-                .motion
-                .map(|y| self.moved(&y))
-                .into_iter()
-                .chain(direction.clone());
+            judged.sticking = (stuck.balanced == Some(true)).then_some(stuck.sticking);
+            judged.hopeless = stuck.balanced == Some(false);
+            let own = stuck.motion.map(|y| self.moved(&y));
+            let motions = if stuck.priced {
+                [direction.clone(), own]
+            } else {
+                [own, direction.clone()]
+            };
             let proved: Vec<(Vec<Motion>, Proof)> = motions
+                .into_iter()
+                .flatten()
                 .map(|motion| {
                     let proof = self.mechanism(&motion);
                     (motion, proof)
                 })
                 .collect();
             doubts = doubt(&proof, proved.first().map(|p| &p.1));
-            if let Some((mechanism, proof)) = proved.into_iter().find(|p| p.1.holds()) {
+            if let Some((mechanism, proof)) = proved.into_iter().find(|p| self.believes(&p.1)) {
                 return Judged {
                     verdict: Verdict::Unstable,
                     mechanism,
@@ -283,6 +293,10 @@ impl<'a> Case<'a> {
             doubt: doubts,
             ..judged
         }
+    }
+
+    fn believes(&self, proof: &Proof) -> bool {
+        proof.meets(self.demand)
     }
 
     fn touching(&self) -> Vec<&Interface> {
@@ -305,8 +319,9 @@ impl<'a> Case<'a> {
 
     /// Newtons from pure numbers, made admissible to the last bit, with their proof.
     ///
-    /// Noise below 1e-13 of the heaviest load (of friction: 1e-10 of μN) becomes 0 and friction is cut to μN, so that what is left of the solver's
-    /// error shows as imbalance alone, where the proof measures it.
+    /// Noise below 1e-13 of the heaviest load (of friction: 1e-10 of N or μN, and never more than a tenth of the band)
+    /// becomes 0 and friction is cut to μN, so that what is left of the solver's error shows as imbalance alone, where
+    /// the proof measures it.
     fn carried(&self, program: &Program, amounts: &Amounts) -> Carried {
         let unit = self.scale.force;
         let noise = 1e-13 * self.yardstick.force;
@@ -316,9 +331,11 @@ impl<'a> Case<'a> {
             let normal = amounts.normal[k].map(|v| clean(v * unit).max(0.0));
             let most = contact.friction * (normal[0] + normal[1]);
             let friction = (amounts.friction[k] * unit).clamp(-most, most);
+            let still = (1e-10 * most.min(normal[0] + normal[1]))
+                .min(0.1 * Proof::BAND * self.yardstick.force);
             contacts.push((
                 normal,
-                if friction.abs() <= 1e-10 * most {
+                if friction.abs() <= still {
                     0.0
                 } else {
                     friction
@@ -373,7 +390,7 @@ impl<'a> Case<'a> {
     }
 
     fn stands(&self, carried: Carried, effort: Effort) -> Findings {
-        let holds = carried.proof.holds();
+        let holds = self.believes(&carried.proof);
         Findings {
             verdict: if holds {
                 Verdict::Stable

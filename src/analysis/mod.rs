@@ -7,6 +7,7 @@
 mod frame;
 mod group;
 mod margin;
+mod option;
 
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -19,7 +20,7 @@ use crate::effect::{self, Plan, Situation};
 use crate::geometry::{Point, Vector};
 use crate::interface::{Interface, Interfaces};
 use crate::program::{Group, groups};
-pub use crate::proof::{Motion, Proof};
+pub use crate::proof::{Demand, Motion, Proof};
 pub use crate::resultant::Resultant;
 use crate::resultant::{friction_used, of as resultant_of};
 use crate::scene::{BlockId, BodyId, Frame, RobotId, Scene};
@@ -27,6 +28,7 @@ use crate::solve::Effort;
 use frame::{settle, worst};
 use group::{Findings, solved};
 pub use margin::{Margin, Margins, RobotMargins, Sides};
+pub use option::{Accuracy, Ask, Options};
 
 /// Whether a frame stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -184,25 +186,6 @@ pub struct SolveReport {
     pub seconds: f64,
 }
 
-/// What an analysis is asked beside the verdict; by default nothing.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Options {
-    /// How far each frame is from the edge of standing.
-    pub margins: Ask,
-    /// Whether each standing frame stands only by wedging.
-    pub wedging: Ask,
-}
-
-/// Whether something is asked for.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Ask {
-    /// It is left out, and costs nothing.
-    #[default]
-    No,
-    /// It is found out.
-    Yes,
-}
-
 /// What makes one group the same as one of an earlier frame: its blocks and who holds them where.
 type Key = (Vec<BlockId>, Vec<(RobotId, BlockId, [u64; 2])>);
 
@@ -229,16 +212,15 @@ impl<'s> Analysis<'s> {
     /// Examines every frame of a scene, and what else is asked for.
     pub fn with(scene: &'s Scene, options: &Options) -> Analysis<'s> {
         let found = Interfaces::of(scene);
-        let length = found
-            .typical_length()
-            .unwrap_or_else(|| typical_block(scene));
+        let length = Analysis::length_of(scene, &found);
         let mut known: BTreeMap<Key, Findings> = BTreeMap::new();
         let frames = scene
             .frames
             .iter()
             .map(|frame| {
                 let interfaces = found.in_frame(scene, frame);
-                let mut analysis = examined(scene, frame, &interfaces, length, options, &mut known);
+                let mut analysis =
+                    examined(scene, frame, &interfaces, length, *options, &mut known);
                 analysis.notices.extend(found.notices.iter().cloned());
                 analysis
             })
@@ -248,6 +230,13 @@ impl<'s> Analysis<'s> {
             length,
             frames,
         }
+    }
+
+    /// L: the median interface length, or the typical block's where nothing touches; metres.
+    pub fn length_of(scene: &Scene, found: &Interfaces) -> f64 {
+        found
+            .typical_length()
+            .unwrap_or_else(|| typical_block(scene))
     }
 
     /// The worst verdict of all frames.
@@ -280,7 +269,7 @@ fn examined(
     frame: &Frame,
     interfaces: &[&Interface],
     length: f64,
-    options: &Options,
+    options: Options,
     known: &mut BTreeMap<Key, Findings>,
 ) -> FrameAnalysis {
     let start = Instant::now();
@@ -295,7 +284,7 @@ fn examined(
     let fresh: Vec<usize> = (0..groups.len())
         .filter(|k| !known.contains_key(&keys[*k]))
         .collect();
-    let one = |k: &usize| solved(scene, frame, interfaces, &plan, &groups[*k], length);
+    let one = |k: &usize| solved(&situation, &plan, &groups[*k], length, options);
     // Many small groups are worth the threads; the order of the results is that of the groups either way.
     let findings: Vec<Findings> = if fresh.len() > 16 {
         fresh.par_iter().map(one).collect()

@@ -8,6 +8,7 @@ use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 use crate::analysis::{Analysis, Ask, Options};
 use crate::cli::complaint::Complaint;
 use crate::cli::ending::Ending;
+use crate::cli::level::Level;
 use crate::cli::progress::{Progress, Shown};
 use crate::cli::source::{self, FrameChoice};
 use crate::cli::table;
@@ -36,6 +37,8 @@ pub(crate) struct Check {
     /// Examine one frame only, by number from 1 or by its letter in the strip
     #[arg(long, value_name = "N")]
     frame: Option<FrameChoice>,
+    #[command(flatten)]
+    level: Level,
 }
 
 impl Check {
@@ -50,6 +53,7 @@ impl Check {
         let options = Options {
             margins: if self.margins { Ask::Yes } else { Ask::No },
             wedging: if self.wedging { Ask::Yes } else { Ask::No },
+            ..self.level.options()
         };
         let analyses: Vec<Analysis> = sources
             .par_iter()

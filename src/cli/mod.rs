@@ -15,11 +15,13 @@
 //! Where several apply, the first of 2, 4, 1, 3 that does is the code: wrong input stops everything, and a frame that is
 //! known to fall tells more than one that nobody can decide.
 
+mod accuracy;
 mod check;
 mod complaint;
 mod completions;
 mod destination;
 mod ending;
+mod level;
 mod new;
 mod picture;
 mod progress;
@@ -60,6 +62,7 @@ struct CommandLine {
 enum Command {
     Render(render::Render),
     Check(check::Check),
+    Accuracy(accuracy::Accuracy),
     Schema(schema::Schema),
     New(new::New),
     Shapes(shapes::Shapes),
@@ -84,6 +87,7 @@ pub fn run() -> ExitCode {
     let ended = match line.command {
         Command::Render(render) => render.run(&terminal),
         Command::Check(check) => check.run(&terminal),
+        Command::Accuracy(accuracy) => accuracy.run(&terminal),
         Command::Schema(schema) => schema.run(&terminal),
         Command::New(new) => new.run(&terminal),
         Command::Shapes(shapes) => shapes.run(&terminal),

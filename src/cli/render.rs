@@ -9,6 +9,7 @@ use crate::analysis::{Analysis, Verdict};
 use crate::cli::complaint::Complaint;
 use crate::cli::destination::{self, Destination};
 use crate::cli::ending::Ending;
+use crate::cli::level::Level;
 use crate::cli::picture::{Format, Picture};
 use crate::cli::progress::{Progress, Shown};
 use crate::cli::source::{self, FrameChoice, Source};
@@ -46,6 +47,8 @@ pub(crate) struct Render {
     /// End with 1 or 3, as check does, where something is unstable or undecided
     #[arg(long)]
     strict: bool,
+    #[command(flatten)]
+    level: Level,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -154,7 +157,7 @@ impl Render {
         progress: &Progress,
     ) -> Result<Rendered, Complaint> {
         progress.doing(&source.name());
-        let analysis = Analysis::of(&source.scene);
+        let analysis = Analysis::with(&source.scene, &self.level.options());
         progress.step();
         let drawing = figure::forces(&analysis, &self.options());
         let bytes = self.picture.bytes(&drawing, format)?;

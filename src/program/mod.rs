@@ -13,7 +13,9 @@ mod scale;
 pub use column::{Column, Force, columns, sticking_columns};
 pub use group::{Group, groups};
 pub(crate) use pose::product;
-pub use pose::{Conic, Correction, elastic, kinematic, least_squares, most_of, source};
+pub use pose::{
+    Cap, Conic, Correction, elastic, force_form, kinematic, least_squares, most_of, source,
+};
 pub use scale::Scale;
 
 use crate::effect::Plan;

@@ -239,6 +239,31 @@ pub fn elastic(program: &Program, most: &[f64], hardening: f64) -> Conic {
     conic
 }
 
+/// A second sum and the most it may come to.
+pub type Cap<'a> = (&'a dyn Fn(&Column) -> f64, f64);
+
+/// The forces themselves as unknowns: min Σ cost·amount  s.t.  they balance `need`, 0 ≤ amount ≤ limit.
+///
+/// With a [`Cap`] = (cost, most) a second sum is bounded, Σ cost·amount ≤ most: the second stage of a lexicographic program.
+/// Kept, like [`source`], to show what the kinematic twin saves.
+pub fn force_form(
+    need: &[f64],
+    columns: &[Column],
+    cost: impl Fn(&Column) -> f64,
+    cap: Option<Cap>,
+) -> Conic {
+    let mut conic = least_squares(need, columns, None);
+    conic.quadratic.clear();
+    conic.linear = columns.iter().map(cost).collect();
+    if let Some((cost, most)) = cap {
+        let row = conic.bound.len();
+        let entries = columns.iter().enumerate().map(|(j, c)| (row, j, cost(c)));
+        conic.matrix.extend(entries.filter(|e| e.2 != 0.0));
+        conic.bound.push(most);
+    }
+    conic
+}
+
 /// Inner product of two columns in (N1, N2, T) of one contact or in one grip component; `None` for different places.
 pub(crate) fn product(a: &Force, b: &Force) -> Option<f64> {
     match (*a, *b) {

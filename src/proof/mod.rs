@@ -48,8 +48,13 @@ impl Proof {
     /// A motion convinces when the loads' power is at least so many times its worst violation.
     pub const CONVINCING: f64 = 1e3;
 
-    /// Whether the proof convinces.
+    /// Whether the proof convinces as [`Demand::STANDARD`] wants it.
     pub fn holds(&self) -> bool {
+        self.meets(Demand::STANDARD)
+    }
+
+    /// Whether the proof comes to what is demanded.
+    pub fn meets(&self, demand: Demand) -> bool {
         match *self {
             Proof::Forces {
                 worst_imbalance,
@@ -57,15 +62,38 @@ impl Proof {
                 worst_pull,
                 worst_slip,
             } => {
-                worst_imbalance.max(worst_pull).max(worst_slip) <= Self::BAND
+                worst_imbalance.max(worst_pull).max(worst_slip) <= demand.imbalance
                     && worst_share <= Self::SHARE
             }
             Proof::Mechanism {
                 power,
                 worst_violation,
-            } => power > 1e-12 && power >= Self::CONVINCING * worst_violation,
+            } => power > 1e-12 && power >= demand.conviction * worst_violation,
         }
     }
+}
+
+/// What a proof must come to before its verdict is believed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Demand {
+    /// Worst imbalance, pull or slip of forces that balance, relative to the heaviest load.
+    pub imbalance: f64,
+    /// Power of a motion in parts of its worst violation.
+    pub conviction: f64,
+}
+
+impl Demand {
+    /// For every verdict.
+    pub const STANDARD: Demand = Demand {
+        imbalance: Proof::BAND,
+        conviction: Proof::CONVINCING,
+    };
+
+    /// A hundred times narrower in forces, a thousand times in motions.
+    pub const STRICT: Demand = Demand {
+        imbalance: 1e-9,
+        conviction: 1e6,
+    };
 }
 
 /// The forces at one interface, newtons.

@@ -9,11 +9,13 @@
 //! This file is serde's second door, beside `scene::format`: that one reads a person's file, this one writes for programs,
 //! and the two change for different reasons.
 
+mod accuracy;
 mod lines;
 mod margin;
 
 use serde::{Serialize, Serializer};
 
+pub use accuracy::accuracy_json;
 use lines::Lines;
 use margin::Margins;
 

@@ -1,6 +1,8 @@
 //! The hard program: admissible forces of least sum that balance every block, or a motion that none can stop.
 
-use super::{Amounts, Care, Effort, Status, gathered, kept, refined, rest, tidy, twin};
+use super::{
+    Amounts, Care, Choice, Effort, Face, Manner, Status, largest, refined, remainder, tidy, twin,
+};
 use crate::program::{Program, columns};
 
 /// What the hard program gave.
@@ -16,37 +18,49 @@ pub struct Balance {
 
 /// Slack may outweigh the amount so many times before a column is left out of the face of optima.
 ///
-/// The first value is the plain rule. Near the edge of standing an amount can be as small as its slack; then more columns
-/// are let in, until what they carry balances.
-const MARGINS: [f64; 3] = [1.0, 1e3, 1e6];
+/// The first value is the plain rule. A column whose slack and amount are both next to nothing may be in by chance, which
+/// shows in the cost; near the edge of standing one may be out by chance, and then nothing balances.
+const MARGINS: [f64; 5] = [1.0, 1e-3, 1e3, 1e-6, 1e6];
+
+/// On the true face every balance costs the same, up to the solver's digits; a dearer one means a column too many.
+const SAME_COST: f64 = 2e-8;
 
 /// Solves the hard program of [Vallat23](crate::doc::references) §2.0.7 through its kinematic twin.
 pub fn balance(program: &Program, care: Care) -> Balance {
+    balance_in(program, care.into())
+}
+
+/// Solves it in a manner of one's own.
+pub fn balance_in(program: &Program, manner: Manner) -> Balance {
     let mut effort = Effort::default();
-    let columns = columns(program);
-    let solved = twin(&program.need, &columns, care, &mut effort, |c| c.cost);
+    let whole = Face::whole(&program.need, columns(program));
+    let solved = twin(&whole.need, &whole.columns, manner, &mut effort, |c| c.cost);
     match solved.status {
         Status::Solved => {
+            let size = largest(&program.need);
             let mut found = None;
-            for margin in MARGINS {
-                let (face, _) = kept(&columns, &solved.amounts, &solved.active(margin));
-                let Some(amounts) = tidy(&program.need, &face, care, &mut effort) else {
+            let margins = match manner.choice {
+                Choice::Any => &[][..],
+                Choice::Unique => &MARGINS[..],
+            };
+            for margin in margins {
+                let face = whole.narrowed(&solved, *margin);
+                let Some(amounts) = tidy(&face.need, &face.columns, manner, &mut effort) else {
                     continue;
                 };
-                let cost: f64 = face.iter().zip(&amounts).map(|(c, a)| c.cost * a).sum();
-                // On the true face every balance costs the same; a dearer one means a column too many.
-                let cheap = (cost - solved.aim).abs() <= 1e-6 * solved.aim.abs();
-                if cheap && rest(&program.need, &face, &amounts) <= 1e-8 {
-                    found = Some((face, amounts));
+                let cheap =
+                    (face.cost(&amounts) - solved.aim).abs() <= SAME_COST * solved.aim.abs();
+                let rest = largest(&remainder(&face.need, &face.columns, &amounts));
+                if cheap && rest <= 1e-8 * size {
+                    found = Some(face.with(amounts));
                     break;
                 }
             }
-            let (face, amounts) = found.unwrap_or((columns, solved.amounts));
-            let amounts = match care {
-                Care::Quick => amounts,
-                Care::Full => refined(&program.need, &face, amounts, &mut effort),
-            };
-            let (forces, _) = gathered(program, &face, &amounts);
+            let mut face = found.unwrap_or_else(|| whole.with(solved.amounts));
+            if manner.care == Care::Full {
+                face.amounts = refined(&face.need, &face.columns, face.amounts, &mut effort);
+            }
+            let (forces, _) = face.gathered(program);
             Balance {
                 forces: Some(forces),
                 motion: None,

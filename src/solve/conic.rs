@@ -1,7 +1,7 @@
 //! The one door to clarabel: a [`Conic`] goes in, a status of our own and plain vectors come out.
 //!
 //! Settings that are not the solver's own, and why: `qdldl` because the automatic choice takes faer on large programs,
-//! 13.1 s against 4.6 s at 10⁴ blocks; tolerance 1e-9 because 1e-12 turns nearly marginal cases into numerical errors;
+//! 13.1 s against 4.6 s at 10⁴ blocks; tolerance 1e-9 because it is the loosest that decides every frame measured in [`doc::accuracy`](crate::doc::accuracy);
 //! presolve off because nothing here has infinite bounds. NaN in the data comes back as "solved", so it is refused here.
 
 use clarabel::algebra::CscMatrix;
@@ -39,6 +39,37 @@ pub struct Answer {
 
 /// The tolerance of feasibility and gap the solver is asked for.
 pub const TOLERANCE: f64 = 1e-9;
+
+/// How a program is solved: how precisely, how carefully, and whether the one picture is sought.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Manner {
+    /// The tolerance of feasibility and gap the solver is asked for.
+    pub tolerance: f64,
+    /// How much it takes care.
+    pub care: Care,
+    /// Which of several balances is wanted.
+    pub choice: Choice,
+}
+
+/// Which of several balances of the same cost is wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Choice {
+    /// Any: what the interior-point method ends in. Good enough for a verdict.
+    Any,
+    /// The one of least Σ force², which does not depend on the order of the file.
+    Unique,
+}
+
+impl From<Care> for Manner {
+    /// The default tolerance, and the unique balance.
+    fn from(care: Care) -> Manner {
+        Manner {
+            tolerance: TOLERANCE,
+            care,
+            choice: Choice::Unique,
+        }
+    }
+}
 
 /// How much the solver takes care.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

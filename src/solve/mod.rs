@@ -14,13 +14,14 @@ mod single;
 mod stick;
 mod wedge;
 
-pub use balance::{Balance, balance};
-pub use conic::{Answer, Care, Status, TOLERANCE, solve};
+pub use balance::{Balance, balance, balance_in};
+pub use conic::{Answer, Care, Choice, Manner, Status, TOLERANCE, solve};
 pub use limit::{Limit, least, most};
 pub use single::single;
-pub use stick::{Stuck, stick};
+pub use stick::{Stuck, stick, stick_in};
 pub use wedge::{Reach, reach};
 
+use crate::geometry::{Vector, cross, quarter_turn};
 use crate::program::{Column, Conic, Correction, Force, Program, kinematic, least_squares};
 
 /// Amounts of the forces of a program, pure numbers.
@@ -56,8 +57,33 @@ impl Amounts {
         contacts + self.grip.iter().flatten().map(|v| v.abs()).sum::<f64>()
     }
 
+    /// Worst of what the forces leave unbalanced of a program's need, pure numbers.
+    pub fn unbalanced(&self, program: &Program) -> f64 {
+        let mut rest = program.need.clone();
+        let mut act = |block: usize, force: Vector, moment: f64| {
+            for (row, value) in [force.x, force.y, moment].into_iter().enumerate() {
+                rest[3 * block + row] -= value;
+            }
+        };
+        for (k, contact) in program.contacts.iter().enumerate() {
+            let (normal, tangent) = (contact.normal, quarter_turn(contact.normal));
+            let [first, second] = self.normal[k].map(|amount| normal * amount);
+            let first = first + tangent * self.friction[k];
+            let both = [(contact.on, 1.0)].into_iter();
+            for ((block, arms), sign) in both.chain(contact.from.map(|from| (from, -1.0))) {
+                let moment = cross(arms[0], first) + cross(arms[1], second);
+                act(block, (first + second) * sign, moment * sign);
+            }
+        }
+        for (grip, [x, y, moment]) in program.grips.iter().zip(&self.grip) {
+            let force = Vector::new(*x, *y);
+            act(grip.block, force, cross(grip.arm, force) + moment);
+        }
+        largest(&rest)
+    }
+
     /// Adds `amount` of a force.
-    fn add(&mut self, force: Force, amount: f64) {
+    pub fn add(&mut self, force: Force, amount: f64) {
         match force {
             Force::Ray {
                 contact,
@@ -106,20 +132,25 @@ impl Effort {
 }
 
 /// A solved kinematic twin.
-struct Twin {
-    status: Status,
+#[derive(Clone, Debug)]
+pub struct Twin {
+    /// How it ended; `Unbounded` means that `y` is a motion nothing stops.
+    pub status: Status,
     /// The virtual velocities against which loads work.
-    y: Vec<f64>,
+    pub y: Vec<f64>,
     /// Amount of each column.
-    amounts: Vec<f64>,
+    pub amounts: Vec<f64>,
     /// Slack of each column: by how much it is too dear to be used.
-    slack: Vec<f64>,
-    aim: f64,
+    pub slack: Vec<f64>,
+    /// What one more unit of each column's limit would save.
+    pub worth: Vec<f64>,
+    /// The least cost, as the twin knows it.
+    pub aim: f64,
 }
 
 impl Twin {
     /// Whether each column belongs to the face of optima: its slack is at most `margin` times its amount.
-    fn active(&self, margin: f64) -> Vec<bool> {
+    pub fn active(&self, margin: f64) -> Vec<bool> {
         self.amounts
             .iter()
             .zip(&self.slack)
@@ -128,22 +159,117 @@ impl Twin {
     }
 }
 
+/// A face of optima: the columns that may still be chosen, and those that every optimum uses to their limit.
+#[derive(Clone)]
+struct Face {
+    /// What the columns must give, beside what the full ones do.
+    need: Vec<f64>,
+    columns: Vec<Column>,
+    amounts: Vec<f64>,
+    full: Vec<Column>,
+}
+
+impl Face {
+    fn whole(need: &[f64], columns: Vec<Column>) -> Face {
+        let amounts = vec![0.0; columns.len()];
+        Face {
+            need: need.to_vec(),
+            columns,
+            amounts,
+            full: Vec::new(),
+        }
+    }
+
+    /// The same columns with other amounts.
+    fn with(self, amounts: Vec<f64>) -> Face {
+        Face { amounts, ..self }
+    }
+
+    /// The face's part on which the optima of a solved twin of it lie.
+    ///
+    /// A limited column whose limit is worth more than it leaves unused is full; only then is every balance on the face
+    /// an optimum.
+    fn narrowed(&self, solved: &Twin, margin: f64) -> Face {
+        let mut face = Face {
+            columns: Vec::new(),
+            amounts: Vec::new(),
+            ..self.clone()
+        };
+        let active = solved.active(margin);
+        for (k, column) in self.columns.iter().enumerate() {
+            let amount = solved.amounts[k];
+            if column.limit.is_finite() && solved.worth[k] > column.limit - amount {
+                column.add_to(&mut face.need, -column.limit);
+                face.full.push(*column);
+            } else if active[k] {
+                face.columns.push(*column);
+                face.amounts.push(amount);
+            }
+        }
+        face
+    }
+
+    /// The face with the columns of which `keep` holds.
+    fn only(&self, keep: impl Fn(&Column, f64) -> bool) -> Face {
+        let mut face = Face {
+            columns: Vec::new(),
+            amounts: Vec::new(),
+            ..self.clone()
+        };
+        for (column, amount) in self.columns.iter().zip(&self.amounts) {
+            if keep(column, *amount) {
+                face.columns.push(*column);
+                face.amounts.push(*amount);
+            }
+        }
+        face
+    }
+
+    /// What the amounts cost, those of the full columns included.
+    fn cost(&self, amounts: &[f64]) -> f64 {
+        let chosen: f64 = self
+            .columns
+            .iter()
+            .zip(amounts)
+            .map(|(c, a)| c.cost * a)
+            .sum();
+        chosen + self.full.iter().map(|c| c.cost * c.limit).sum::<f64>()
+    }
+
+    /// The admissible and the sticking forces.
+    fn gathered(&self, program: &Program) -> (Amounts, Amounts) {
+        let (mut admissible, mut sticking) = (Amounts::none(program), Amounts::none(program));
+        let chosen = self.columns.iter().zip(self.amounts.iter().copied());
+        let full = self.full.iter().map(|c| (c, c.limit));
+        for (column, amount) in chosen.chain(full) {
+            let to = if column.force.sticks() {
+                &mut sticking
+            } else {
+                &mut admissible
+            };
+            to.add(column.force, amount);
+        }
+        (admissible, sticking)
+    }
+}
+
 /// Solves the kinematic twin of some columns, again with full care where the quick way ends nowhere.
-fn twin(
+pub fn twin(
     need: &[f64],
     columns: &[Column],
-    care: Care,
+    manner: impl Into<Manner>,
     effort: &mut Effort,
     cost: impl Fn(&Column) -> f64,
 ) -> Twin {
     let (conic, row_of) = kinematic(need, columns, cost);
-    let answer = careful(&conic, care, effort);
+    let answer = careful(&conic, manner, effort);
     let n = columns.len();
     let mut solved = Twin {
         status: answer.status,
         y: vec![0.0; need.len()],
         amounts: vec![0.0; n],
         slack: vec![0.0; n],
+        worth: vec![0.0; n],
         aim: 0.0,
     };
     if answer.x.is_empty() {
@@ -161,19 +287,30 @@ fn twin(
         }
     }
     solved.y.copy_from_slice(&answer.x[..need.len()]);
-    solved.aim = need.iter().zip(&solved.y).map(|(b, y)| b * y).sum();
+    // Limited columns own the unknowns after the velocities, in their order.
+    let limited = (0..n).filter(|k| columns[*k].limit.is_finite());
+    for (k, worth) in limited.zip(&answer.x[need.len()..]) {
+        solved.worth[k] = worth.max(0.0);
+    }
+    solved.aim = -conic
+        .linear
+        .iter()
+        .zip(&answer.x)
+        .map(|(q, x)| q * x)
+        .sum::<f64>();
     solved
 }
 
 /// Solves, and solves again with full care where the quick way ends nowhere.
-fn careful(conic: &Conic, care: Care, effort: &mut Effort) -> Answer {
-    let mut answer = solve(conic, TOLERANCE, care);
+fn careful(conic: &Conic, manner: impl Into<Manner>, effort: &mut Effort) -> Answer {
+    let manner = manner.into();
+    let mut answer = solve(conic, manner.tolerance, manner.care);
     *effort = effort.and(Effort {
         iterations: answer.iterations,
         programs: 1,
     });
-    if answer.status == Status::Unclear && care == Care::Quick {
-        answer = solve(conic, TOLERANCE, Care::Full);
+    if answer.status == Status::Unclear && manner.care == Care::Quick {
+        answer = solve(conic, manner.tolerance, Care::Full);
         *effort = effort.and(Effort {
             iterations: answer.iterations,
             programs: 1,
@@ -185,20 +322,15 @@ fn careful(conic: &Conic, care: Care, effort: &mut Effort) -> Answer {
 /// The amounts of least Σ force² on given columns, if there are such.
 ///
 /// Where the balance leaves no choice they come from elimination, exact to rounding; else from a quadratic program.
-fn tidy(need: &[f64], columns: &[Column], care: Care, effort: &mut Effort) -> Option<Vec<f64>> {
+fn tidy(need: &[f64], columns: &[Column], manner: Manner, effort: &mut Effort) -> Option<Vec<f64>> {
     if columns.is_empty() {
         return Some(Vec::new());
     }
     if let Some(amounts) = exact::only(need, columns).or_else(|| exact::least(need, columns)) {
         return Some(amounts);
     }
-    let answer = careful(&least_squares(need, columns, None), care, effort);
+    let answer = careful(&least_squares(need, columns, None), manner, effort);
     (answer.status == Status::Solved).then(|| answer.x.iter().map(|v| v.max(0.0)).collect())
-}
-
-/// What the amounts leave unbalanced, relative to the largest need.
-fn rest(need: &[f64], columns: &[Column], amounts: &[f64]) -> f64 {
-    largest(&remainder(need, columns, amounts)) / largest(need)
 }
 
 fn remainder(need: &[f64], columns: &[Column], amounts: &[f64]) -> Vec<f64> {
@@ -253,24 +385,4 @@ fn refined(
         amounts = better;
     }
     amounts
-}
-
-/// Columns that are active, with their amounts.
-fn kept(columns: &[Column], amounts: &[f64], active: &[bool]) -> (Vec<Column>, Vec<f64>) {
-    let pick = columns.iter().zip(amounts).zip(active).filter(|(_, a)| **a);
-    pick.map(|((column, amount), _)| (*column, *amount)).unzip()
-}
-
-/// The forces of some columns' amounts.
-fn gathered(program: &Program, columns: &[Column], amounts: &[f64]) -> (Amounts, Amounts) {
-    let (mut admissible, mut sticking) = (Amounts::none(program), Amounts::none(program));
-    for (column, amount) in columns.iter().zip(amounts) {
-        let to = if column.force.sticks() {
-            &mut sticking
-        } else {
-            &mut admissible
-        };
-        to.add(column.force, *amount);
-    }
-    (admissible, sticking)
 }

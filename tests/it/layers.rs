@@ -39,6 +39,20 @@ const ROOMS: &[(&str, &[&str])] = &[
         &["geometry", "scene", "interface", "analysis", "drawing"],
     ),
     ("output", &["drawing"]),
+    ("chart", &["drawing"]),
+    (
+        "study",
+        &[
+            "geometry",
+            "scene",
+            "interface",
+            "effect",
+            "program",
+            "solve",
+            "proof",
+            "analysis",
+        ],
+    ),
     (
         "report",
         &[
@@ -49,6 +63,8 @@ const ROOMS: &[(&str, &[&str])] = &[
             "figure",
             "drawing",
             "output",
+            "chart",
+            "study",
         ],
     ),
     (
@@ -61,6 +77,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "figure",
             "drawing",
             "output",
+            "study",
             "report",
         ],
     ),
@@ -101,10 +118,12 @@ const DOORS: &[(&str, &[&str])] = &[
     ("clap_complete", &["cli/completions.rs"]),
     ("clap", &["cli/"]),
     ("tempfile", &["output/file.rs"]),
+    ("plotters", &["chart/"]),
+    ("maud", &["report/"]),
 ];
 
 /// Doors that are one file, but whose file is the owning room's to choose.
-const SINGLE: &[&str] = &["jsonc_parser", "clarabel", "tempfile", "skrifa"];
+const SINGLE: &[&str] = &["jsonc_parser", "clarabel", "tempfile", "skrifa", "plotters"];
 
 /// Names that say nothing about what a file is.
 const EMPTY_NAMES: &[&str] = &[

@@ -6,10 +6,12 @@
     reason = "a test that panics says what it found; helpers are no #[test]"
 )]
 
+mod accuracy;
 mod gallery;
 mod hard;
 mod laws;
 mod layers;
+mod oracle;
 mod margins;
 mod pictures;
 mod problems;

@@ -1,8 +1,8 @@
 //! Questions about a group beside what [`solved`] finds out.
 
 use super::{Case, Findings, solved};
-use crate::analysis::Verdict;
-use crate::effect::Plan;
+use crate::analysis::{Options, Verdict};
+use crate::effect::{Plan, Situation};
 use crate::geometry::cross;
 use crate::interface::Interface;
 use crate::program::{Group, assemble};
@@ -21,7 +21,15 @@ pub(in crate::analysis) fn judged(
     group: &Group,
     length: f64,
 ) -> (Verdict, Vec<Motion>) {
-    let case = Case::of(scene, frame, interfaces, plan, group, length);
+    let case = Case::of(
+        scene,
+        frame,
+        interfaces,
+        plan,
+        group,
+        length,
+        Options::default(),
+    );
     let program = assemble(scene, frame, interfaces, plan, group, case.scale);
     if let Some(found) = case.at_once(&program, plan) {
         return (found.verdict, found.mechanism);
@@ -39,7 +47,12 @@ pub(in crate::analysis) fn judged(
     {
         return (Verdict::Unstable, motion);
     }
-    let found = solved(scene, frame, interfaces, plan, group, length);
+    let situation = Situation {
+        scene,
+        frame,
+        interfaces,
+    };
+    let found = solved(&situation, plan, group, length, Options::default());
     (found.verdict, found.mechanism)
 }
 
@@ -56,7 +69,15 @@ pub(in crate::analysis) fn only_by_wedging<'a>(
 ) -> Option<bool> {
     let mut only = Some(false);
     for (group, found) in groups {
-        let case = Case::of(scene, frame, interfaces, plan, group, length);
+        let case = Case::of(
+            scene,
+            frame,
+            interfaces,
+            plan,
+            group,
+            length,
+            Options::default(),
+        );
         let mut program = assemble(scene, frame, interfaces, plan, group, case.scale);
         for (grip, (force, torque)) in std::mem::take(&mut program.grips).iter().zip(&found.grips) {
             let force = force / case.scale.force;

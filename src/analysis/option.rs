@@ -1,0 +1,82 @@
+//! [`Options`]: how accurate an analysis is, and what it is asked beside the verdict.
+//!
+//! A level changes what an answer costs and how well it must be proved, never what it may say without a proof.
+
+use crate::proof::Demand;
+use crate::solve::{Care, Choice, Manner, TOLERANCE};
+
+/// How an analysis is made.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Options {
+    /// How accurate it is.
+    pub accuracy: Accuracy,
+    /// A tolerance for the solver in place of the level's own, to measure what it costs.
+    pub tolerance: Option<f64>,
+    /// How far each frame is from the edge of standing.
+    pub margins: Ask,
+    /// Whether each standing frame stands only by wedging.
+    pub wedging: Ask,
+}
+
+/// Whether something is asked for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Ask {
+    /// It is left out, and costs nothing.
+    #[default]
+    No,
+    /// It is found out.
+    Yes,
+}
+
+/// What an answer may cost, and how well it must be proved.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Accuracy {
+    /// Any balance at all, from a solver that stops at [`Accuracy::LOOSE`]; verdicts are as honest as in `Standard`, but where a
+    /// load can go several ways the forces shown are one way of many, and may depend on the order of the file.
+    Draft,
+    /// The unique forces; a verdict is believed as [`Demand::STANDARD`] says.
+    #[default]
+    Standard,
+    /// The unique forces; a verdict without a proof as [`Demand::STRICT`] wants it is `Undecided`.
+    Proved,
+}
+
+impl Accuracy {
+    /// Where a draft's solver stops. See [`doc::accuracy`](crate::doc::accuracy).
+    pub const LOOSE: f64 = 1e-8;
+
+    /// What a proof must come to.
+    pub fn demand(self) -> Demand {
+        match self {
+            Accuracy::Draft | Accuracy::Standard => Demand::STANDARD,
+            Accuracy::Proved => Demand::STRICT,
+        }
+    }
+}
+
+impl Options {
+    /// The manners in which a program is tried, one after the other until a proof convinces.
+    pub(super) fn manners(self) -> Vec<Manner> {
+        let full = match self.accuracy {
+            Accuracy::Draft | Accuracy::Standard => Manner::from(Care::Full),
+            // A motion's violation is the solver's own: only a closer look makes it smaller.
+            Accuracy::Proved => Manner {
+                tolerance: TOLERANCE * 1e-2,
+                ..Care::Full.into()
+            },
+        };
+        let draft = Manner {
+            tolerance: Accuracy::LOOSE,
+            care: Care::Quick,
+            choice: Choice::Any,
+        };
+        let mut manners = vec![Manner::from(Care::Quick), full];
+        if self.accuracy == Accuracy::Draft {
+            manners.insert(0, draft);
+        }
+        for manner in &mut manners {
+            manner.tolerance = self.tolerance.unwrap_or(manner.tolerance);
+        }
+        manners
+    }
+}

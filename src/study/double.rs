@@ -1,0 +1,115 @@
+//! [`Double`]: a number as the unevaluated sum of two f64, about 32 digits.
+//!
+//! Source: Dekker 1971, Knuth's two-sum; products through the fused multiply-add, which is exact on every machine (in
+//! hardware or not). Only what the reference needs.
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// high + low, |low| ≤ half a unit in the last place of high.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Double {
+    high: f64,
+    low: f64,
+}
+
+impl Double {
+    /// No amount.
+    pub const ZERO: Double = Double {
+        high: 0.0,
+        low: 0.0,
+    };
+
+    /// The nearest f64.
+    pub fn near(self) -> f64 {
+        self.high
+    }
+
+    /// Its size.
+    pub fn abs(self) -> Double {
+        if self.high < 0.0 { -self } else { self }
+    }
+
+    /// The exact sum of two f64.
+    fn sum(a: f64, b: f64) -> Double {
+        let high = a + b;
+        let other = high - a;
+        let low = (a - (high - other)) + (b - other);
+        Double { high, low }
+    }
+}
+
+impl From<f64> for Double {
+    fn from(high: f64) -> Double {
+        Double { high, low: 0.0 }
+    }
+}
+
+impl Neg for Double {
+    type Output = Double;
+    fn neg(self) -> Double {
+        Double {
+            high: -self.high,
+            low: -self.low,
+        }
+    }
+}
+
+impl Add for Double {
+    type Output = Double;
+    fn add(self, other: Double) -> Double {
+        let (s, t) = (
+            Double::sum(self.high, other.high),
+            Double::sum(self.low, other.low),
+        );
+        let s = Double::sum(s.high, s.low + t.high);
+        Double::sum(s.high, s.low + t.low)
+    }
+}
+
+impl Sub for Double {
+    type Output = Double;
+    fn sub(self, other: Double) -> Double {
+        self + -other
+    }
+}
+
+impl Mul for Double {
+    type Output = Double;
+    fn mul(self, other: Double) -> Double {
+        let high = self.high * other.high;
+        let low = self.high.mul_add(other.high, -high);
+        Double::sum(high, low + (self.high * other.low + self.low * other.high))
+    }
+}
+
+impl Div for Double {
+    type Output = Double;
+    fn div(self, other: Double) -> Double {
+        let first = Double::from(self.high / other.high);
+        let rest = self - first * other;
+        let second = Double::from(rest.high / other.high);
+        let rest = rest - second * other;
+        first + second + Double::from(rest.high / other.high)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thirty_digits_are_kept() {
+        let (one, three, tiny) = (
+            Double::from(1.0),
+            Double::from(3.0),
+            Double::from(1.0 / 1024.0 / 1048576.0 / 1048576.0 / 1048576.0),
+        );
+        assert_eq!((one + tiny - one).near(), tiny.near());
+        let rest = one - one / three * three;
+        assert!(rest.near().abs() < 1e-31, "{rest:?}");
+        // (1 + t)(1 − t) = 1 − t², where t² is far below the last bit of 1.
+        let t = Double::from(1e-10);
+        let square = one - (one + t) * (one - t);
+        assert!((square.near() / 1e-20 - 1.0).abs() < 1e-10);
+    }
+}

@@ -1,0 +1,182 @@
+//! The unique forces of least Σ force² in extended precision, certified: the reference for the largest single force.
+//!
+//! Unknowns are N1, N2, T of each contact and three components of each grip. A quadratic program's answer tells which
+//! cone faces the forces lie in; on those the least squares are one system of equations. Certificate: the forces are
+//! admissible, their sum is the certified optimum, and no column of the face of optima would shorten them, each to 10⁻¹³.
+
+use std::collections::BTreeMap;
+
+use super::double::Double;
+use super::reference::{EXACT, Optimum, add, along, entries};
+use super::skyline::Skyline;
+use crate::program::{Column, Force, Program, least_squares};
+use crate::solve::{Care, Status, solve};
+
+/// Where a force belongs: its contact, or its grip behind all contacts.
+type Place = usize;
+
+/// One direction at a place, orthogonal to the others there.
+struct Axis {
+    place: Place,
+    direction: [Double; 3],
+    entries: Vec<(usize, Double)>,
+    square: Double,
+}
+
+/// Norm of the largest resultant among the unique forces, if they can be certified.
+pub(super) fn largest_of_unique(
+    program: &Program,
+    columns: &[Column],
+    optimum: &Optimum,
+) -> Option<f64> {
+    if optimum.limited {
+        return None;
+    }
+    let face: Vec<Column> = optimum.face.iter().map(|j| columns[*j]).collect();
+    for tolerance in [1e-9, 1e-11, 1e-7] {
+        let conic = least_squares(&program.need, &face, None);
+        let answer = solve(&conic, tolerance, Care::Full);
+        if answer.status != Status::Solved {
+            continue;
+        }
+        // Every column has a row −x ≤ 0, and one more where it is limited.
+        let mut row = program.need.len();
+        let mut multiplier = Vec::with_capacity(face.len());
+        for column in &face {
+            multiplier.push(answer.z[row]);
+            row += 1 + usize::from(column.limit.is_finite());
+        }
+        for margin in [1.0, 1e2, 1e-2, 1e4, 1e-4] {
+            let used = face
+                .iter()
+                .zip(&answer.x)
+                .zip(&multiplier)
+                .filter(|((_, x), z)| **x * margin > **z);
+            let axes = axes(program, used.map(|((c, _), _)| c));
+            if let Some(largest) = certified(program, &face, &axes, optimum.value) {
+                return Some(largest);
+            }
+        }
+    }
+    None
+}
+
+fn place(program: &Program, column: &Column) -> (Place, [Double; 3]) {
+    let mut vector = [Double::ZERO; 3];
+    match column.force {
+        Force::Ray {
+            contact,
+            point,
+            normal,
+            friction,
+        } => {
+            vector[point] = normal.into();
+            vector[2] = friction.into();
+            (contact, vector)
+        }
+        Force::Grip {
+            grip,
+            component,
+            sign,
+        } => {
+            vector[component] = sign.into();
+            (program.contacts.len() + grip, vector)
+        }
+        // Sticking is no column of a program that stands.
+        _ => (usize::MAX, vector),
+    }
+}
+
+fn dot(a: &[Double; 3], b: &[Double; 3]) -> Double {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// Orthogonal axes of the cone faces that some columns span, place by place.
+fn axes<'a>(program: &Program, used: impl Iterator<Item = &'a Column>) -> Vec<Axis> {
+    let mut axes: Vec<Axis> = Vec::new();
+    for column in used {
+        let (place, mut direction) = place(program, column);
+        let mut rows: BTreeMap<usize, Double> = entries(column).into_iter().collect();
+        let whole = dot(&direction, &direction).near();
+        for axis in axes.iter().rev().take_while(|a| a.place == place) {
+            let share = dot(&direction, &axis.direction) / axis.square;
+            for (d, a) in direction.iter_mut().zip(&axis.direction) {
+                *d = *d - share * *a;
+            }
+            for (row, value) in &axis.entries {
+                let at = rows.entry(*row).or_default();
+                *at = *at - share * *value;
+            }
+        }
+        let square = dot(&direction, &direction);
+        // Directions at a place are rounded by 1e-16 each; a dependent one leaves the square of that.
+        if square.near() > 1e-20 * whole {
+            axes.push(Axis {
+                place,
+                direction,
+                entries: rows.into_iter().collect(),
+                square,
+            });
+        }
+    }
+    axes
+}
+
+fn certified(program: &Program, face: &[Column], axes: &[Axis], total: Double) -> Option<f64> {
+    let one = Double::from(1.0);
+    let terms = axes
+        .iter()
+        .map(|axis| (one / axis.square, axis.entries.as_slice()));
+    let matrix = Skyline::of(program.need.len(), terms);
+    let need: Vec<Double> = program.need.iter().map(|v| Double::from(*v)).collect();
+    let mut w = vec![Double::ZERO; need.len()];
+    let mut rest = need.clone();
+    let amounts = |w: &[Double]| -> Vec<Double> {
+        axes.iter()
+            .map(|axis| along(&axis.entries, w) / axis.square)
+            .collect()
+    };
+    for _ in 0..4 {
+        for (w, d) in w.iter_mut().zip(matrix.solve(&rest)) {
+            *w = *w + d;
+        }
+        rest = need.clone();
+        for (axis, amount) in axes.iter().zip(amounts(&w)) {
+            add(&mut rest, &axis.entries, -amount);
+        }
+    }
+    let places = program.contacts.len() + program.grips.len();
+    let mut forces = vec![[Double::ZERO; 3]; places];
+    for (axis, amount) in axes.iter().zip(amounts(&w)) {
+        for (f, d) in forces[axis.place].iter_mut().zip(&axis.direction) {
+            *f = *f + amount * *d;
+        }
+    }
+    let size = total.near().max(1e-300);
+    let small = EXACT * size;
+    let balanced = rest.iter().all(|r| r.abs().near() <= small);
+    let (contacts, grips) = forces.split_at(program.contacts.len());
+    let admissible = contacts.iter().zip(&program.contacts).all(|(f, contact)| {
+        let pressed = f[0] + f[1];
+        let most = Double::from(contact.friction) * pressed;
+        let slip = (f[2].abs() - most).near();
+        f[0].near().min(f[1].near()) >= -small && slip <= EXACT * size
+    });
+    let sum = forces
+        .iter()
+        .flatten()
+        .fold(Double::ZERO, |s, v| s + v.abs());
+    let optimal = (sum - total).abs().near() <= 10.0 * EXACT * size;
+    let shortest = face.iter().all(|column| {
+        let (place, direction) = place(program, column);
+        let gain = dot(&direction, &forces[place]) - along(&entries(column), &w);
+        gain.near() >= -small
+    });
+    if !(balanced && admissible && optimal && shortest) {
+        return None;
+    }
+    let norm = |x: Double, y: Double| libm::hypot(x.near(), y.near());
+    let contacts = contacts.iter().map(|f| norm(f[0] + f[1], f[2]));
+    let grips = grips.iter().map(|f| norm(f[0], f[1]));
+    Some(contacts.chain(grips).fold(0.0, f64::max))
+}

@@ -1,0 +1,439 @@
+//! [`Method`]: the ways of solving that are compared, each timed with posing its program.
+
+use super::Task;
+use crate::analysis::{Accuracy, Analysis, Options, Proof, Verdict};
+use crate::program::{Column, Program, Scale, columns, force_form, source, sticking_columns};
+use crate::solve::{
+    Amounts, Care, Choice, Effort, Manner, Status, balance_in, solve, stick_in, twin,
+};
+
+/// A way of solving.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// The source's soft program as posed, a newton of sticking at 10^exponent newtons.
+    Source(u8),
+    /// The hard program and, where it has no solution, the lexicographic one, with forces as unknowns.
+    ForceForm,
+    /// The kinematic twin alone.
+    Kinematic,
+    /// The twin, and the unique forces on its face of optima; fewest failure points.
+    Unique,
+    /// All that `check` does at a level: proofs, and second looks where a proof fails.
+    Level(Accuracy),
+}
+
+/// What a run gave for a whole frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outcome {
+    /// Whether it says that the frame stands.
+    pub verdict: Verdict,
+    /// Total force where it stands, total sticking where it falls, N.
+    pub total: Option<f64>,
+    /// The largest resultant of a contact or grip, N.
+    pub largest: Option<f64>,
+    /// Failure points.
+    pub points: usize,
+    /// Worst imbalance relative to the heaviest load, where it stands.
+    pub imbalance: Option<f64>,
+    /// Worst violation of the motion relative to its power, where it falls and a motion is proved.
+    pub violation: Option<f64>,
+    /// Interior-point iterations.
+    pub iterations: usize,
+    /// Solving time, where the method keeps its own; s.
+    pub(super) seconds: Option<f64>,
+}
+
+impl Method {
+    /// All that are compared, in reading order.
+    pub const ALL: [Method; 10] = [
+        Method::Source(2),
+        Method::Source(4),
+        Method::Source(6),
+        Method::Source(8),
+        Method::ForceForm,
+        Method::Kinematic,
+        Method::Unique,
+        Method::Level(Accuracy::Draft),
+        Method::Level(Accuracy::Standard),
+        Method::Level(Accuracy::Proved),
+    ];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Method::Source(2) => "source, β = 10²",
+            Method::Source(4) => "source, β = 10⁴",
+            Method::Source(6) => "source, β = 10⁶",
+            Method::Source(_) => "source, β = 10⁸",
+            Method::ForceForm => "hard, then lexicographic",
+            Method::Kinematic => "kinematic",
+            Method::Unique => "kinematic, unique forces",
+            Method::Level(Accuracy::Draft) => "draft",
+            Method::Level(Accuracy::Standard) => "standard",
+            Method::Level(Accuracy::Proved) => "proved",
+        }
+    }
+
+    /// Solves a frame.
+    pub(super) fn solve(self, task: &Task, tolerance: f64) -> Outcome {
+        if let Method::Level(accuracy) = self {
+            return level(task, accuracy, tolerance);
+        }
+        let mut whole = Outcome::none();
+        for program in &task.programs {
+            let one = match self {
+                Method::Source(exponent) => {
+                    as_posed(program, libm::exp10(f64::from(exponent)), tolerance)
+                }
+                Method::ForceForm => force(program, tolerance),
+                Method::Kinematic => kinematic(program, tolerance),
+                _ => unique(program, tolerance),
+            };
+            whole = whole.and(one.in_newtons(program.scale));
+        }
+        whole
+    }
+}
+
+impl Outcome {
+    /// Nothing to hold, and nothing that falls.
+    pub(super) fn none() -> Outcome {
+        Outcome {
+            verdict: Verdict::Stable,
+            total: Some(0.0),
+            largest: Some(0.0),
+            points: 0,
+            imbalance: Some(0.0),
+            violation: None,
+            iterations: 0,
+            seconds: None,
+        }
+    }
+
+    fn undecided(effort: Effort) -> Outcome {
+        Outcome {
+            verdict: Verdict::Undecided,
+            total: None,
+            largest: None,
+            imbalance: None,
+            iterations: effort.iterations,
+            ..Outcome::none()
+        }
+    }
+
+    fn falls(total: Option<f64>, points: usize, effort: Effort) -> Outcome {
+        Outcome {
+            verdict: Verdict::Unstable,
+            total,
+            points,
+            ..Outcome::undecided(effort)
+        }
+    }
+
+    fn stands(amounts: &Amounts, imbalance: f64, effort: Effort) -> Outcome {
+        Outcome {
+            verdict: Verdict::Stable,
+            total: Some(amounts.total()),
+            largest: Some(largest(amounts)),
+            imbalance: Some(imbalance / Scale::HEAVIEST),
+            ..Outcome::undecided(effort)
+        }
+    }
+
+    fn in_newtons(self, scale: Scale) -> Outcome {
+        Outcome {
+            total: self.total.map(|v| v * scale.force),
+            largest: self.largest.map(|v| v * scale.force),
+            ..self
+        }
+    }
+
+    /// Two groups of one frame: the worse verdict brings its own sum.
+    fn and(self, other: Outcome) -> Outcome {
+        let both = |a: Option<f64>, b: Option<f64>, join: fn(f64, f64) -> f64| {
+            a.zip(b).map(|(a, b)| join(a, b))
+        };
+        let iterations = self.iterations + other.iterations;
+        if self.verdict == other.verdict {
+            Outcome {
+                total: both(self.total, other.total, |a, b| a + b),
+                largest: both(self.largest, other.largest, f64::max),
+                points: self.points + other.points,
+                imbalance: both(self.imbalance, other.imbalance, f64::max),
+                iterations,
+                ..self
+            }
+        } else {
+            let worse = if self.verdict > other.verdict {
+                self
+            } else {
+                other
+            };
+            Outcome {
+                iterations,
+                ..worse
+            }
+        }
+    }
+}
+
+/// Sticking that counts, in pure numbers: what the band allows, and what the solver was allowed to leave undone.
+fn counts(tolerance: f64) -> f64 {
+    Scale::HEAVIEST * Proof::BAND.max(10.0 * tolerance)
+}
+
+fn largest(amounts: &Amounts) -> f64 {
+    let contacts = amounts
+        .normal
+        .iter()
+        .zip(&amounts.friction)
+        .map(|(n, t)| libm::hypot(n[0] + n[1], *t));
+    let grips = amounts.grip.iter().map(|g| libm::hypot(g[0], g[1]));
+    contacts.chain(grips).fold(0.0, f64::max)
+}
+
+fn effort(iterations: usize) -> Effort {
+    Effort {
+        iterations,
+        programs: 1,
+    }
+}
+
+/// What some amounts leave unbalanced.
+fn imbalance(need: &[f64], columns: &[Column], amounts: &[f64]) -> f64 {
+    let mut rest = need.to_vec();
+    for (column, amount) in columns.iter().zip(amounts) {
+        column.add_to(&mut rest, -amount);
+    }
+    rest.iter().fold(0.0, |m: f64, v| m.max(v.abs()))
+}
+
+/// The source's soft program: it reports what sticks, and stands where nothing does.
+fn as_posed(program: &Program, beta: f64, tolerance: f64) -> Outcome {
+    let conic = source(program, beta);
+    let answer = solve(&conic, tolerance, Care::Full);
+    let effort = effort(answer.iterations);
+    match answer.status {
+        Status::Infeasible => return Outcome::falls(None, 0, effort),
+        Status::Solved => {}
+        _ => return Outcome::undecided(effort),
+    }
+    let n = conic.unknowns / 2;
+    let sticking: f64 = answer.x[n..].iter().map(|v| v.max(0.0)).sum();
+    if sticking > counts(tolerance) {
+        let most = answer.x[n..].iter().fold(0.0, |m: f64, v| m.max(*v));
+        let points = answer.x[n..].iter().filter(|v| **v > 1e-6 * most).count();
+        return Outcome::falls(Some(sticking), points, effort);
+    }
+    let mut amounts = Amounts::none(program);
+    let mut next = 0;
+    for (k, contact) in program.contacts.iter().enumerate() {
+        for point in 0..contact.points {
+            amounts.normal[k][point] = answer.x[next];
+            amounts.friction[k] += answer.x[next + 1] - answer.x[next + 2];
+            next += 3;
+        }
+    }
+    for grip in &mut amounts.grip {
+        for component in grip {
+            *component = answer.x[next] - answer.x[next + 1];
+            next += 2;
+        }
+    }
+    let mut rest = conic.bound[..conic.equalities].to_vec();
+    // Without their sticking, the forces must balance alone.
+    for (row, column, value) in &conic.matrix {
+        if *row < conic.equalities && *column < n {
+            rest[*row] -= value * answer.x[*column];
+        }
+    }
+    let off = rest.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    let sum = answer.x[..n].iter().sum();
+    Outcome {
+        total: Some(sum),
+        ..Outcome::stands(&amounts, off, effort)
+    }
+}
+
+fn sticking_cost(column: &Column) -> f64 {
+    f64::from(u8::from(column.force.sticks()))
+}
+
+/// Forces as unknowns, no large number.
+fn force(program: &Program, tolerance: f64) -> Outcome {
+    let need = &program.need;
+    let admissible = columns(program);
+    let cost = |c: &Column| c.cost;
+    let hard = solve(
+        &force_form(need, &admissible, cost, None),
+        tolerance,
+        Care::Full,
+    );
+    let mut iterations = hard.iterations;
+    if hard.status == Status::Solved {
+        return standing(program, &admissible, &hard.x, effort(iterations));
+    }
+    let mut all = admissible;
+    all.extend(sticking_columns(program));
+    let first = solve(
+        &force_form(need, &all, sticking_cost, None),
+        tolerance,
+        Care::Full,
+    );
+    iterations += first.iterations;
+    let certain = hard.status == Status::Infeasible;
+    match first.status {
+        Status::Solved => {}
+        Status::Infeasible => return Outcome::falls(None, 0, effort(iterations)),
+        _ if certain => return Outcome::falls(None, 0, effort(iterations)),
+        _ => return Outcome::undecided(effort(iterations)),
+    }
+    let sum = |x: &[f64]| -> f64 { all.iter().zip(x).map(|(c, x)| sticking_cost(c) * x).sum() };
+    let least = sum(&first.x);
+    let most = least * (1.0 + tolerance) + tolerance;
+    let second = solve(
+        &force_form(need, &all, cost, Some((&sticking_cost, most))),
+        tolerance,
+        Care::Full,
+    );
+    iterations += second.iterations;
+    let x = if second.status == Status::Solved {
+        &second.x
+    } else {
+        &first.x
+    };
+    if !certain && least <= counts(tolerance) {
+        return standing(program, &all, x, effort(iterations));
+    }
+    let sticks = || all.iter().zip(x).filter(|(c, _)| c.force.sticks());
+    let largest = sticks().map(|(_, x)| *x).fold(0.0, f64::max);
+    let points = sticks().filter(|(_, x)| **x > 1e-6 * largest).count();
+    Outcome::falls(Some(least), points, effort(iterations))
+}
+
+fn standing(program: &Program, columns: &[Column], x: &[f64], effort: Effort) -> Outcome {
+    let mut amounts = Amounts::none(program);
+    let mut own = Vec::with_capacity(columns.len());
+    for (column, x) in columns.iter().zip(x) {
+        let x = if column.force.sticks() { 0.0 } else { *x };
+        own.push(x);
+        amounts.add(column.force, x);
+    }
+    Outcome::stands(&amounts, imbalance(&program.need, columns, &own), effort)
+}
+
+fn manner(tolerance: f64, choice: Choice) -> Manner {
+    Manner {
+        tolerance,
+        care: Care::Quick,
+        choice,
+    }
+}
+
+/// The twin alone: hard, and where that has no solution the least sticking.
+fn kinematic(program: &Program, tolerance: f64) -> Outcome {
+    let manner = manner(tolerance, Choice::Any);
+    let mut effort = Effort::default();
+    let admissible = columns(program);
+    let hard = twin(&program.need, &admissible, manner, &mut effort, |c| c.cost);
+    if hard.status == Status::Solved {
+        return standing(program, &admissible, &hard.amounts, effort);
+    }
+    let mut all = admissible;
+    all.extend(sticking_columns(program));
+    let soft = twin(&program.need, &all, manner, &mut effort, sticking_cost);
+    let sticks = || {
+        all.iter()
+            .zip(&soft.amounts)
+            .filter(|(c, _)| c.force.sticks())
+    };
+    let least: f64 = sticks().map(|(_, x)| *x).sum();
+    let certain = hard.status == Status::Unbounded;
+    match soft.status {
+        Status::Solved if !certain && least <= counts(tolerance) => {
+            standing(program, &all, &soft.amounts, effort)
+        }
+        Status::Solved => {
+            let largest = sticks().map(|(_, x)| *x).fold(0.0, f64::max);
+            let points = sticks().filter(|(_, x)| **x > 1e-6 * largest).count();
+            Outcome::falls(Some(least), points, effort)
+        }
+        Status::Unbounded => Outcome::falls(None, 0, effort),
+        _ if certain => Outcome::falls(None, 0, effort),
+        _ => Outcome::undecided(effort),
+    }
+}
+
+/// The twin, then the unique forces; all that `check` does but the proof.
+fn unique(program: &Program, tolerance: f64) -> Outcome {
+    let manner = manner(tolerance, Choice::Unique);
+    let hard = balance_in(program, manner);
+    if let Some(amounts) = hard.forces {
+        let off = amounts.unbalanced(program);
+        return Outcome::stands(&amounts, off, hard.effort);
+    }
+    let soft = stick_in(program, manner);
+    let effort = hard.effort.and(soft.effort);
+    let certain = hard.motion.is_some();
+    if soft.balanced == Some(true) {
+        let least = soft.sticking.total();
+        if !certain && least <= counts(tolerance) {
+            let off = soft.forces.unbalanced(program);
+            return Outcome::stands(&soft.forces, off, effort);
+        }
+        let parts = || {
+            let sticking = &soft.sticking;
+            sticking
+                .normal
+                .iter()
+                .flatten()
+                .chain(&sticking.friction)
+                .chain(sticking.grip.iter().flatten())
+        };
+        let most = parts().fold(0.0, |m: f64, v| m.max(v.abs()));
+        let points = parts().filter(|v| v.abs() > 1e-6 * most).count();
+        return Outcome::falls(Some(least), points, effort);
+    }
+    match certain || soft.motion.is_some() {
+        true => Outcome::falls(None, 0, effort),
+        false => Outcome::undecided(effort),
+    }
+}
+
+/// An analysis at a level, timed from the interfaces on.
+fn level(task: &Task, accuracy: Accuracy, tolerance: f64) -> Outcome {
+    let options = Options {
+        accuracy,
+        tolerance: Some(tolerance),
+        ..Options::default()
+    };
+    let analysis = Analysis::with(&task.scene, &options);
+    let Some(frame) = analysis.frames.first() else {
+        return Outcome::none();
+    };
+    let contacts = frame.contacts.iter().map(|c| c.resultant.force.norm());
+    let grips = frame.robots.iter().map(|r| r.force.norm());
+    let (imbalance, violation) = match frame.proof {
+        Proof::Forces {
+            worst_imbalance, ..
+        } => (Some(worst_imbalance), None),
+        Proof::Mechanism {
+            power,
+            worst_violation,
+        } => (None, Some(worst_violation / power)),
+    };
+    Outcome {
+        verdict: frame.verdict,
+        total: match frame.verdict {
+            Verdict::Stable => Some(frame.total_force),
+            Verdict::Unstable if frame.unsupported.is_empty() => Some(frame.total_sticking),
+            _ => None,
+        },
+        largest: Some(contacts.chain(grips).fold(0.0, f64::max)),
+        points: frame.failures.len(),
+        imbalance,
+        violation,
+        iterations: frame.solve.iterations,
+        seconds: Some(frame.solve.seconds),
+    }
+}

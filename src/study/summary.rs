@@ -1,0 +1,109 @@
+//! [`Summary`]: one line per method and tolerance over all frames of a study.
+
+use super::{Mark, Method, Run, Study};
+use crate::analysis::Accuracy;
+use crate::solve::TOLERANCE;
+
+/// What one method at one tolerance came to over all frames.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Summary {
+    /// The method.
+    pub method: Method,
+    /// What the solver was asked for.
+    pub tolerance: f64,
+    /// Median over the frames of the time in parts of that of `standard` at the default tolerance.
+    pub time: f64,
+    /// Worst relative error of the total over the frames with the right verdict.
+    pub total_error: Option<f64>,
+    /// Median of the same.
+    pub median_error: Option<f64>,
+    /// Worst relative error of the largest single force.
+    pub largest_error: Option<f64>,
+    /// Wrong verdicts.
+    pub wrong: usize,
+    /// Frames without a verdict.
+    pub undecided: usize,
+    /// Frames with a certified truth.
+    pub frames: usize,
+    /// Median iterations.
+    pub iterations: usize,
+    /// No other line is both as fast and as precise, with no wrong verdict.
+    pub best: bool,
+}
+
+fn median(mut list: Vec<f64>) -> Option<f64> {
+    list.sort_by(f64::total_cmp);
+    list.get(list.len() / 2).copied()
+}
+
+/// Sums up a study, in the order of methods and tolerances.
+///
+/// Times are ratios within each frame to `standard` at the tolerance nearest the default, so that large frames do not
+/// drown small ones.
+pub fn summary(study: &Study) -> Vec<Summary> {
+    let Some(first) = study.cases.first() else {
+        return Vec::new();
+    };
+    let base: Vec<f64> = study
+        .cases
+        .iter()
+        .map(|case| {
+            let standard = case
+                .runs
+                .iter()
+                .filter(|r| r.method == Method::Level(Accuracy::Standard));
+            let far = |r: &&Run| libm::log10(r.tolerance / TOLERANCE).abs();
+            standard
+                .min_by(|a, b| far(a).total_cmp(&far(b)))
+                .map_or(1.0, |r| r.seconds)
+                .max(1e-9)
+        })
+        .collect();
+    let mut lines: Vec<Summary> = (0..first.runs.len())
+        .map(|k| {
+            let runs = || study.cases.iter().map(move |case| &case.runs[k]);
+            let count = |mark: Mark| runs().filter(|r| r.mark == mark).count();
+            let worst = |of: fn(&Run) -> Option<f64>| runs().filter_map(of).reduce(f64::max);
+            let times = runs().zip(&base).map(|(r, base)| r.seconds / base);
+            let turns = runs().map(|r| r.outcome.iterations as f64);
+            Summary {
+                method: first.runs[k].method,
+                tolerance: first.runs[k].tolerance,
+                time: median(times.collect()).unwrap_or(1.0),
+                total_error: worst(|r| r.total_error),
+                median_error: median(runs().filter_map(|r| r.total_error).collect()),
+                largest_error: worst(|r| r.largest_error),
+                wrong: count(Mark::Wrong),
+                undecided: count(Mark::Undecided),
+                frames: study.cases.len() - count(Mark::Unknown),
+                iterations: median(turns.collect()).unwrap_or(0.0) as usize,
+                best: false,
+            }
+        })
+        .collect();
+    let sound: Vec<(f64, f64)> = lines
+        .iter()
+        .filter(|l| l.wrong == 0)
+        .filter_map(|l| l.total_error.map(|e| (l.time, e)))
+        .collect();
+    for line in &mut lines {
+        line.best = line.wrong == 0
+            && line.total_error.is_some_and(|error| {
+                !sound.iter().any(|(t, e)| {
+                    (*t < line.time && *e <= error) || (*t <= line.time && *e < error)
+                })
+            });
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_median_is_the_middle_one() {
+        assert_eq!(median(vec![3.0, 1.0, 2.0]), Some(2.0));
+        assert_eq!(median(Vec::new()), None);
+    }
+}

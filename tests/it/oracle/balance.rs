@@ -1,0 +1,378 @@
+//! The balance of a frame as exact linear programs, in the source's own unknowns and straight from the scene's corners.
+//!
+//! A contact's normal is the stretch turned by a quarter, not brought to length 1, since a unit normal is irrational;
+//! pressing and friction are both counted in lengths of that normal, so |T| ≤ μ(N1 + N2) stays what it is.
+
+use dashu_ratio::RBig;
+use drystone::proof::Proof;
+use drystone::scene::{Hold, Scene};
+
+use super::simplex::{LinearProgram, Row};
+use super::touch::{Pair, Touch, corners, cross, dot, exact, minus, pair};
+
+/// A group of blocks that no ground separates, with all that acts on it.
+pub struct Balance<'a> {
+    scene: &'a Scene,
+    pub blocks: Vec<usize>,
+    touches: Vec<&'a Touch>,
+    holds: Vec<Hold>,
+    /// Median length of all stretches, by which torques are weighed.
+    length: f64,
+    centroids: Vec<Pair>,
+}
+
+/// Number of the row of a block's force x; force y and moment follow.
+type First = usize;
+
+impl<'a> Balance<'a> {
+    /// The groups of a scene's only frame.
+    pub fn groups(scene: &'a Scene, touches: &'a [Touch]) -> Vec<Balance<'a>> {
+        let mut mark: Vec<usize> = (0..scene.blocks.len()).collect();
+        for _ in 0..scene.blocks.len() {
+            for touch in touches {
+                if let Some(from) = touch.from {
+                    let least = mark[touch.on].min(mark[from]);
+                    (mark[touch.on], mark[from]) = (least, least);
+                }
+            }
+        }
+        let length = median(
+            touches
+                .iter()
+                .map(|t| norm(&minus(&t.ends[1], &t.ends[0])))
+                .collect(),
+        )
+        .or_else(|| {
+            median(
+                scene
+                    .blocks
+                    .iter()
+                    .map(|b| b.body.polygon.area().sqrt())
+                    .collect(),
+            )
+        })
+        .unwrap_or(1.0);
+        let centroids: Vec<Pair> = scene
+            .blocks
+            .iter()
+            .map(|b| centroid(&corners(&b.body)))
+            .collect();
+        (0..scene.blocks.len())
+            .filter(|first| mark[*first] == *first)
+            .map(|first| Balance {
+                scene,
+                blocks: (0..mark.len()).filter(|k| mark[*k] == first).collect(),
+                touches: touches.iter().filter(|t| mark[t.on] == first).collect(),
+                holds: scene.frames[0]
+                    .holds
+                    .iter()
+                    .filter(|h| mark[h.block.0] == first)
+                    .copied()
+                    .collect(),
+                length,
+                centroids: centroids.clone(),
+            })
+            .collect()
+    }
+
+    /// Whether admissible forces balance every block.
+    pub fn stands(&self) -> bool {
+        self.admissible().is_feasible()
+    }
+
+    /// Least Σ(N1+N2+|T|) + Σ(|Fx|+|Fy|+|M|/L) that balances, newtons.
+    pub fn least_force(&self) -> Option<f64> {
+        self.admissible().least().map(|v| v.to_f64_fast())
+    }
+
+    /// Least such sum of forces that no contact and no robot may give, newtons; `None` where none helps.
+    pub fn least_sticking(&self) -> Option<f64> {
+        let mut program = self.admissible();
+        program.costs.iter_mut().for_each(|c| *c = RBig::ZERO);
+        for touch in &self.touches {
+            let way = Way::of(touch);
+            let cost = exact(way.length);
+            for at in self.application_points(touch) {
+                let pull = program.unknown(cost.clone());
+                self.act(&mut program, touch, pull, &at, &negative(&way.normal));
+            }
+            for along in [way.tangent.clone(), negative(&way.tangent)] {
+                let slip = program.unknown(cost.clone());
+                self.act(&mut program, touch, slip, &touch.ends[0], &along);
+            }
+        }
+        for hold in &self.holds {
+            for component in 0..3 {
+                for sign in [1.0, -1.0] {
+                    let beyond = program.unknown(self.grip_cost(component));
+                    self.grip(&mut program, hold, beyond, component, sign);
+                }
+            }
+        }
+        program.least().map(|v| v.to_f64_fast())
+    }
+
+    /// By how much the balance must be off somewhere, in parts of the heaviest load and of L: 0 where it stands.
+    pub fn distance(&self) -> f64 {
+        let mut program = self.admissible();
+        program.costs.iter_mut().for_each(|c| *c = RBig::ZERO);
+        let off = program.unknown(RBig::ONE);
+        for row in 0..3 * self.blocks.len() {
+            let size = exact(self.size(row));
+            let rest = program.unknown(RBig::ZERO);
+            program.rows[row]
+                .entries
+                .extend([(rest, RBig::ONE), (off, -size.clone())]);
+            let entries = vec![(rest, RBig::ONE), (off, RBig::from(-2) * size)];
+            program.rows.push(Row {
+                entries,
+                bound: RBig::ZERO,
+                equality: false,
+            });
+        }
+        program.least().map_or(f64::INFINITY, |v| v.to_f64_fast())
+    }
+
+    /// Whether it stands and goes on standing when any block's load changes by `share` of the heaviest.
+    pub fn stands_with_margin(&self, share: f64) -> bool {
+        self.stands()
+            && (0..3 * self.blocks.len()).all(|row| {
+                [share, -share].iter().all(|share| {
+                    let mut program = self.admissible();
+                    program.rows[row].bound += exact(share * self.size(row));
+                    program.is_feasible()
+                })
+            })
+    }
+
+    /// Whether the verdict hangs on less than the stated band, either way.
+    pub fn is_borderline(&self) -> bool {
+        let distance = self.distance();
+        if distance > 0.0 {
+            distance <= Proof::BAND
+        } else {
+            !self.stands_with_margin(Proof::BAND)
+        }
+    }
+
+    /// What an imbalance in a row is measured by: the heaviest load, times L for moments.
+    fn size(&self, row: First) -> f64 {
+        let load = |k: &usize| {
+            let [x, y, m] = self.load(*k).map(|v| v.to_f64_fast());
+            libm::hypot(x, y)
+                .max(m.abs() / self.length)
+                .max(self.scene.blocks[*k].weight)
+        };
+        let heaviest = self.blocks.iter().map(load).fold(0.0, f64::max);
+        let heaviest = if heaviest > 0.0 { heaviest } else { 1.0 };
+        if row % 3 == 2 {
+            heaviest * self.length
+        } else {
+            heaviest
+        }
+    }
+
+    /// The source's hard program: three rows per block first, then friction and limits.
+    fn admissible(&self) -> LinearProgram {
+        let mut program = LinearProgram::default();
+        for block in &self.blocks {
+            for load in self.load(*block) {
+                program.rows.push(Row {
+                    entries: Vec::new(),
+                    bound: -load,
+                    equality: true,
+                });
+            }
+        }
+        for touch in &self.touches {
+            let way = Way::of(touch);
+            let cost = exact(way.length);
+            let mut entries = Vec::new();
+            for at in self.application_points(touch) {
+                let press = program.unknown(cost.clone());
+                self.act(&mut program, touch, press, &at, &way.normal);
+                entries.push((press, -exact(touch.friction)));
+            }
+            if touch.friction > 0.0 {
+                for along in [way.tangent.clone(), negative(&way.tangent)] {
+                    let rub = program.unknown(cost.clone());
+                    self.act(&mut program, touch, rub, &touch.ends[0], &along);
+                    entries.push((rub, RBig::ONE));
+                }
+                program.rows.push(Row {
+                    entries,
+                    bound: RBig::ZERO,
+                    equality: false,
+                });
+            }
+        }
+        for hold in &self.holds {
+            let limits = self.scene.robots[hold.robot.0].limits;
+            for (component, limit) in [limits.fx, limits.fy, limits.torque]
+                .into_iter()
+                .enumerate()
+            {
+                for sign in [1.0, -1.0] {
+                    let push = program.unknown(self.grip_cost(component));
+                    self.grip(&mut program, hold, push, component, sign);
+                    if limit.is_finite() {
+                        let entries = vec![(push, RBig::ONE)];
+                        program.rows.push(Row {
+                            entries,
+                            bound: exact(limit),
+                            equality: false,
+                        });
+                    }
+                }
+            }
+        }
+        program
+    }
+
+    /// Load on a block about its centroid: force x, force y, moment.
+    fn load(&self, block: usize) -> [RBig; 3] {
+        let gravity = self.scene.gravity;
+        let size = libm::hypot(gravity.x, gravity.y);
+        let down = if size > 0.0 { gravity / size } else { gravity };
+        let weight = exact(self.scene.blocks[block].weight);
+        let mut load = [&weight * exact(down.x), &weight * exact(down.y), RBig::ZERO];
+        for listed in self.scene.loads.iter().filter(|l| l.block.0 == block) {
+            let force = pair(listed.force.x, listed.force.y);
+            let at = pair(listed.at.x, listed.at.y);
+            load[2] += cross(&minus(&at, &self.centroids[block]), &force) + exact(listed.torque);
+            let [x, y] = force;
+            load[0] += x;
+            load[1] += y;
+        }
+        load
+    }
+
+    /// Both ends of the stretch, each moved inward by half the kernel's share.
+    fn application_points(&self, touch: &Touch) -> [Pair; 2] {
+        let share = exact(self.scene.kernel) / RBig::from(2);
+        let along = minus(&touch.ends[1], &touch.ends[0]);
+        let inward = along.map(|v| v * &share);
+        let [a, b] = &touch.ends;
+        [[&a[0] + &inward[0], &a[1] + &inward[1]], minus(b, &inward)]
+    }
+
+    /// Enters an unknown force of a contact: on the one body, and turned round on the other.
+    fn act(
+        &self,
+        program: &mut LinearProgram,
+        touch: &Touch,
+        unknown: usize,
+        at: &Pair,
+        force: &Pair,
+    ) {
+        self.push(program, touch.on, unknown, at, force);
+        if let Some(from) = touch.from {
+            self.push(program, from, unknown, at, &negative(force));
+        }
+    }
+
+    fn push(
+        &self,
+        program: &mut LinearProgram,
+        block: usize,
+        unknown: usize,
+        at: &Pair,
+        force: &Pair,
+    ) {
+        let first = self.first_row(block);
+        let moment = cross(&minus(at, &self.centroids[block]), force);
+        for (offset, value) in [&force[0], &force[1], &moment].into_iter().enumerate() {
+            program.rows[first + offset]
+                .entries
+                .push((unknown, value.clone()));
+        }
+    }
+
+    fn grip(
+        &self,
+        program: &mut LinearProgram,
+        hold: &Hold,
+        unknown: usize,
+        component: usize,
+        sign: f64,
+    ) {
+        let block = hold.block.0;
+        match component {
+            0 => self.push(
+                program,
+                block,
+                unknown,
+                &pair(hold.at.x, hold.at.y),
+                &pair(sign, 0.0),
+            ),
+            1 => self.push(
+                program,
+                block,
+                unknown,
+                &pair(hold.at.x, hold.at.y),
+                &pair(0.0, sign),
+            ),
+            _ => program.rows[self.first_row(block) + 2]
+                .entries
+                .push((unknown, exact(sign))),
+        }
+    }
+
+    fn grip_cost(&self, component: usize) -> RBig {
+        if component == 2 {
+            exact(1.0 / self.length)
+        } else {
+            RBig::ONE
+        }
+    }
+
+    fn first_row(&self, block: usize) -> First {
+        let place = self.blocks.iter().position(|b| *b == block);
+        3 * place.expect("what touches a group is of the group")
+    }
+}
+
+/// A stretch's directions, both as long as the stretch.
+struct Way {
+    normal: Pair,
+    tangent: Pair,
+    length: f64,
+}
+
+impl Way {
+    fn of(touch: &Touch) -> Way {
+        let tangent = minus(&touch.ends[1], &touch.ends[0]);
+        let normal = [tangent[1].clone(), -tangent[0].clone()];
+        Way {
+            normal,
+            length: norm(&tangent),
+            tangent,
+        }
+    }
+}
+
+fn negative(v: &Pair) -> Pair {
+    [-v[0].clone(), -v[1].clone()]
+}
+
+fn norm(v: &Pair) -> f64 {
+    dot(v, v).to_f64_fast().sqrt()
+}
+
+fn median(mut lengths: Vec<f64>) -> Option<f64> {
+    lengths.sort_by(f64::total_cmp);
+    lengths.get(lengths.len().saturating_sub(1) / 2).copied()
+}
+
+fn centroid(corners: &[Pair]) -> Pair {
+    let (mut area, mut sum) = (RBig::ZERO, [RBig::ZERO, RBig::ZERO]);
+    for i in 0..corners.len() {
+        let (a, b) = (&corners[i], &corners[(i + 1) % corners.len()]);
+        let part = cross(a, b);
+        for (total, k) in sum.iter_mut().zip(0..) {
+            *total += &part * (&a[k] + &b[k]);
+        }
+        area += part;
+    }
+    sum.map(|v| v / (RBig::from(3) * &area))
+}

@@ -1,0 +1,282 @@
+//! An exact linear program: whole numbers only, so that an answer is a fact and not a status.
+//!
+//! Edmonds' integer pivoting: the table holds minors of the data over one common denominator, the last pivot, and every
+//! division comes out even. The dearest column enters; where that goes round without gain, Bland's rule does, which
+//! cannot cycle. Slow and small on purpose, and nothing of it comes from the solver it is held against.
+
+use dashu_int::ops::{Gcd, UnsignedAbs};
+use dashu_int::{IBig, UBig};
+use dashu_ratio::RBig;
+
+/// Pivots without gain after which Bland's rule takes over.
+const PATIENCE: usize = 12;
+
+/// One row: Σ entries · x = or ≤ `bound`.
+#[derive(Clone, Debug)]
+pub struct Row {
+    pub entries: Vec<(usize, RBig)>,
+    /// At least 0 where the row is an inequality.
+    pub bound: RBig,
+    pub equality: bool,
+}
+
+/// min `costs`·x over x ≥ 0 and the rows.
+#[derive(Clone, Debug, Default)]
+pub struct LinearProgram {
+    pub costs: Vec<RBig>,
+    pub rows: Vec<Row>,
+}
+
+impl LinearProgram {
+    /// A new unknown of this cost.
+    pub fn unknown(&mut self, cost: RBig) -> usize {
+        self.costs.push(cost);
+        self.costs.len() - 1
+    }
+
+    /// Whether any x fits.
+    pub fn is_feasible(&self) -> bool {
+        Table::new(self).reach_feasible()
+    }
+
+    /// The least cost, `None` where nothing fits. Costs are not negative, so that there is a least.
+    pub fn least(&self) -> Option<RBig> {
+        assert!(
+            self.costs.iter().all(|c| *c >= RBig::ZERO),
+            "costs have a least"
+        );
+        let mut table = Table::new(self);
+        if !table.reach_feasible() {
+            return None;
+        }
+        let x = table.optimum(&self.costs);
+        // The table could be wrong; what comes out of it is put into the program again.
+        for row in &self.rows {
+            let sum = row
+                .entries
+                .iter()
+                .fold(RBig::ZERO, |sum, (k, v)| sum + v * &x[*k]);
+            let kept = if row.equality {
+                sum == row.bound
+            } else {
+                sum <= row.bound
+            };
+            assert!(kept, "the simplex table breaks a row");
+        }
+        assert!(
+            x.iter().all(|v| *v >= RBig::ZERO),
+            "the simplex table breaks a sign"
+        );
+        Some(
+            x.iter()
+                .zip(&self.costs)
+                .fold(RBig::ZERO, |sum, (v, c)| sum + v * c),
+        )
+    }
+}
+
+struct Table {
+    /// One row per row of the program, the bound last; entries over `denominator`.
+    rows: Vec<Vec<IBig>>,
+    /// What each row is solved for.
+    basis: Vec<Basic>,
+    /// What to lessen: reduced costs over `denominator`, minus the value last.
+    aim: Vec<IBig>,
+    denominator: IBig,
+    width: usize,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Basic {
+    /// Leaves first where several could, and never comes back.
+    Artificial,
+    Unknown(usize),
+}
+
+impl Table {
+    fn new(program: &LinearProgram) -> Table {
+        let unknowns = program.costs.len();
+        let slacks = program.rows.iter().filter(|r| !r.equality).count();
+        let width = unknowns + slacks + 1;
+        let (mut rows, mut basis) = (Vec::new(), Vec::new());
+        let mut slack = unknowns;
+        for row in &program.rows {
+            let values = row.entries.iter().map(|e| &e.1).chain([&row.bound]);
+            let common = values.fold(UBig::ONE, |c, v| lcm(c, v.denominator()));
+            let whole = |v: &RBig| (v * &RBig::from(common.clone())).into_parts().0;
+            let mut line = vec![IBig::ZERO; width];
+            for (k, value) in &row.entries {
+                line[*k] += whole(value);
+            }
+            line[width - 1] = whole(&row.bound);
+            let content = line
+                .iter()
+                .filter(|v| !v.is_zero())
+                .fold(UBig::ZERO, |g, v| {
+                    if g.is_zero() {
+                        v.clone().unsigned_abs()
+                    } else {
+                        g.gcd(v.clone().unsigned_abs())
+                    }
+                });
+            if !content.is_zero() {
+                let content = IBig::from(content);
+                line.iter_mut().for_each(|v| *v = &*v / &content);
+            }
+            if row.equality {
+                if line[width - 1] < IBig::ZERO {
+                    line.iter_mut().for_each(|v| *v = -&*v);
+                }
+                basis.push(Basic::Artificial);
+            } else {
+                assert!(row.bound >= RBig::ZERO, "an inequality starts out kept");
+                line[slack] = IBig::ONE;
+                basis.push(Basic::Unknown(slack));
+                slack += 1;
+            }
+            rows.push(line);
+        }
+        Table {
+            rows,
+            basis,
+            aim: Vec::new(),
+            denominator: IBig::ONE,
+            width,
+        }
+    }
+
+    /// Drives the artificial unknowns to 0, if that can be.
+    fn reach_feasible(&mut self) -> bool {
+        self.aim = vec![IBig::ZERO; self.width];
+        for (row, basic) in self.rows.iter().zip(&self.basis) {
+            if *basic == Basic::Artificial {
+                for (sum, value) in self.aim.iter_mut().zip(row) {
+                    *sum -= value;
+                }
+            }
+        }
+        while !self.aim[self.width - 1].is_zero() {
+            if !self.step() {
+                return false;
+            }
+        }
+        true
+    }
+
+    /// Goes on from a feasible basis to the best one; the unknowns there.
+    fn optimum(&mut self, costs: &[RBig]) -> Vec<RBig> {
+        self.drop_artificials();
+        let common = costs.iter().fold(UBig::ONE, |c, v| lcm(c, v.denominator()));
+        let whole = |v: &RBig| (v * &RBig::from(common.clone())).into_parts().0;
+        let mut cost: Vec<IBig> = costs.iter().map(whole).collect();
+        cost.resize(self.width, IBig::ZERO);
+        self.aim = cost.iter().map(|c| c * &self.denominator).collect();
+        for (row, basic) in self.rows.iter().zip(&self.basis) {
+            if let Basic::Unknown(k) = basic {
+                for (reduced, value) in self.aim.iter_mut().zip(row) {
+                    *reduced -= &cost[*k] * value;
+                }
+            }
+        }
+        while self.step() {}
+        let mut x = vec![RBig::ZERO; costs.len()];
+        for (row, basic) in self.rows.iter().zip(&self.basis) {
+            if let Basic::Unknown(k) = basic
+                && *k < x.len()
+            {
+                let amount = row[self.width - 1].clone();
+                x[*k] = RBig::from_parts_signed(amount, self.denominator.clone());
+            }
+        }
+        x
+    }
+
+    /// Puts unknowns in the place of artificials that stand at 0, and drops rows that say nothing new.
+    fn drop_artificials(&mut self) {
+        let mut r = 0;
+        while r < self.rows.len() {
+            if self.basis[r] != Basic::Artificial {
+                r += 1;
+                continue;
+            }
+            match (0..self.width - 1).find(|k| !self.rows[r][*k].is_zero()) {
+                Some(k) => {
+                    if self.rows[r][k] < IBig::ZERO {
+                        self.rows[r].iter_mut().for_each(|v| *v = -&*v);
+                    }
+                    self.pivot(r, k);
+                }
+                None => {
+                    self.rows.swap_remove(r);
+                    self.basis.swap_remove(r);
+                }
+            }
+        }
+    }
+
+    /// One step of the simplex method with gain, after as many without as it takes. False at the optimum.
+    fn step(&mut self) -> bool {
+        for idle in 0.. {
+            let dear = |k: &usize| self.aim[*k] < IBig::ZERO;
+            let entering = if idle < PATIENCE {
+                (0..self.width - 1)
+                    .filter(dear)
+                    .min_by(|a, b| self.aim[*a].cmp(&self.aim[*b]))
+            } else {
+                (0..self.width - 1).find(dear)
+            };
+            let Some(k) = entering else {
+                return false;
+            };
+            let Some(r) = self.leaving(k) else {
+                unreachable!("costs are not negative, so nothing falls for ever");
+            };
+            let gains = !self.rows[r][self.width - 1].is_zero();
+            self.pivot(r, k);
+            if gains {
+                break;
+            }
+        }
+        true
+    }
+
+    /// The row that first reaches 0 as unknown `k` grows.
+    fn leaving(&self, k: usize) -> Option<usize> {
+        let bound = |r: usize| &self.rows[r][self.width - 1];
+        (0..self.rows.len())
+            .filter(|r| self.rows[*r][k] > IBig::ZERO)
+            .min_by(|a, b| {
+                let (left, right) = (bound(*a) * &self.rows[*b][k], bound(*b) * &self.rows[*a][k]);
+                left.cmp(&right).then(self.basis[*a].cmp(&self.basis[*b]))
+            })
+    }
+
+    /// Solves row `r` for unknown `k`, whose entry is positive.
+    fn pivot(&mut self, r: usize, k: usize) {
+        let line = std::mem::take(&mut self.rows[r]);
+        let pivot = line[k].clone();
+        // The pivot's own row was taken out and is empty.
+        let others = self.rows.iter_mut().chain([&mut self.aim]);
+        for row in others.filter(|row| !row.is_empty()) {
+            let factor = std::mem::take(&mut row[k]);
+            for (j, value) in row.iter_mut().enumerate() {
+                if j == k || (value.is_zero() && (factor.is_zero() || line[j].is_zero())) {
+                    continue;
+                }
+                let mut next = &*value * &pivot;
+                if !factor.is_zero() && !line[j].is_zero() {
+                    next -= &factor * &line[j];
+                }
+                *value = next / &self.denominator;
+            }
+        }
+        self.rows[r] = line;
+        self.denominator = pivot;
+        self.basis[r] = Basic::Unknown(k);
+    }
+}
+
+fn lcm(a: UBig, b: &UBig) -> UBig {
+    let common = (&a).gcd(b);
+    a / common * b
+}

@@ -1,0 +1,152 @@
+//! Where bodies touch, found with no tolerance at all: edges on one line to the last bit, facing, with a stretch in common.
+
+use dashu_ratio::RBig;
+use drystone::interface::Interfaces;
+use drystone::scene::{BlockId, Body, BodyId, Scene};
+
+/// A place or a direction, exactly.
+pub type Pair = [RBig; 2];
+
+/// A stretch of edge between a block and another body.
+#[derive(Clone, Debug)]
+pub struct Touch {
+    pub on: usize,
+    /// The partner's number, `None` for the ground.
+    pub from: Option<usize>,
+    /// The first body lies to the left of the way from the second end to the first.
+    pub ends: [Pair; 2],
+    pub friction: f64,
+}
+
+/// A floating-point number as the fraction it is.
+pub fn exact(value: f64) -> RBig {
+    RBig::try_from(value).expect("scenes hold finite numbers")
+}
+
+pub fn pair(x: f64, y: f64) -> Pair {
+    [exact(x), exact(y)]
+}
+
+pub fn minus(a: &Pair, b: &Pair) -> Pair {
+    [&a[0] - &b[0], &a[1] - &b[1]]
+}
+
+pub fn cross(a: &Pair, b: &Pair) -> RBig {
+    &a[0] * &b[1] - &a[1] * &b[0]
+}
+
+pub fn dot(a: &Pair, b: &Pair) -> RBig {
+    &a[0] * &b[0] + &a[1] * &b[1]
+}
+
+/// Corners of a body's outline, anticlockwise by its own area.
+pub fn corners(body: &Body) -> Vec<Pair> {
+    let mut corners: Vec<Pair> = body
+        .polygon
+        .outline()
+        .iter()
+        .map(|p| pair(p.x, p.y))
+        .collect();
+    let twice: RBig = (0..corners.len())
+        .map(|i| cross(&corners[i], &corners[(i + 1) % corners.len()]))
+        .fold(RBig::ZERO, |a, b| a + b);
+    if twice < RBig::ZERO {
+        corners.reverse();
+    }
+    corners
+}
+
+/// Everything that touches exactly.
+pub fn touches(scene: &Scene) -> Vec<Touch> {
+    let blocks: Vec<Vec<Pair>> = scene.blocks.iter().map(|b| corners(&b.body)).collect();
+    let ground: Vec<Vec<Pair>> = scene.ground.iter().map(|g| corners(&g.body)).collect();
+    let mut found = Vec::new();
+    for (i, one) in blocks.iter().enumerate() {
+        for (j, other) in blocks[..i].iter().enumerate() {
+            let friction = scene.blocks[i]
+                .body
+                .friction
+                .min(scene.blocks[j].body.friction);
+            let stretches = joined(stretches(one, other));
+            found.extend(stretches.into_iter().map(|ends| Touch {
+                on: i,
+                from: Some(j),
+                ends,
+                friction,
+            }));
+        }
+        for (j, other) in ground.iter().enumerate() {
+            let friction = scene.blocks[i]
+                .body
+                .friction
+                .min(scene.ground[j].body.friction);
+            let stretches = joined(stretches(one, other));
+            found.extend(stretches.into_iter().map(|ends| Touch {
+                on: i,
+                from: None,
+                ends,
+                friction,
+            }));
+        }
+    }
+    found
+}
+
+/// Everything that touches as drystone found it, for lattices whose corners no floating-point number holds.
+pub fn as_found(scene: &Scene) -> Vec<Touch> {
+    let number = |body: BodyId| match body {
+        BodyId::Block(BlockId(k)) => Some(k),
+        BodyId::Ground(_) => None,
+    };
+    let all = Interfaces::of(scene).all;
+    all.iter()
+        .map(|i| Touch {
+            on: number(i.bodies[0]).expect("the first body is a block"),
+            from: number(i.bodies[1]),
+            ends: i.ends.map(|p| pair(p.x, p.y)),
+            friction: i.friction,
+        })
+        .collect()
+}
+
+/// Common stretches of the edges of two outlines.
+fn stretches(one: &[Pair], other: &[Pair]) -> Vec<[Pair; 2]> {
+    let mut found = Vec::new();
+    for i in 0..one.len() {
+        let (a, b) = (&one[i], &one[(i + 1) % one.len()]);
+        let along = minus(b, a);
+        for j in 0..other.len() {
+            let (c, d) = (&other[j], &other[(j + 1) % other.len()]);
+            let straight = cross(&along, &minus(c, a)) == RBig::ZERO
+                && cross(&along, &minus(d, a)) == RBig::ZERO;
+            if !straight || dot(&along, &minus(d, c)) >= RBig::ZERO {
+                continue;
+            }
+            let way = |p: &Pair| dot(&along, &minus(p, a));
+            let begin = if way(d) > RBig::ZERO { d } else { a };
+            let end = if way(c) < way(b) { c } else { b };
+            if way(begin) < way(end) {
+                found.push([end.clone(), begin.clone()]);
+            }
+        }
+    }
+    found
+}
+
+/// Stretches that continue each other along one line made one: a corner set into a straight edge changes nothing.
+fn joined(mut list: Vec<[Pair; 2]>) -> Vec<[Pair; 2]> {
+    let follows = |a: &[Pair; 2], b: &[Pair; 2]| {
+        let (u, v) = (minus(&a[1], &a[0]), minus(&b[1], &b[0]));
+        a[1] == b[0] && cross(&u, &v) == RBig::ZERO && dot(&u, &v) > RBig::ZERO
+    };
+    loop {
+        let next = (0..list.len())
+            .flat_map(|i| (0..list.len()).map(move |j| (i, j)))
+            .find(|(i, j)| i != j && follows(&list[*i], &list[*j]));
+        let Some((i, j)) = next else {
+            return list;
+        };
+        list[i][1] = list[j][1].clone();
+        list.swap_remove(j);
+    }
+}
