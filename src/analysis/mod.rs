@@ -297,7 +297,7 @@ fn examined(
     for (k, found) in fresh.iter().zip(findings) {
         known.insert(keys[*k].clone(), found);
     }
-    let mut analysis = gathered(scene, frame, interfaces, &plan, length);
+    let mut analysis = gathered(scene, frame, interfaces, &plan);
     for (group, key) in groups.iter().zip(&keys) {
         if let Some(found) = known.get(key) {
             add(&mut analysis, scene, frame, group, found, length);
@@ -356,13 +356,7 @@ fn key(frame: &Frame, group: &Group) -> Key {
 }
 
 /// The frame before any group is added: every contact and grip without force.
-fn gathered(
-    scene: &Scene,
-    frame: &Frame,
-    interfaces: &[&Interface],
-    plan: &Plan,
-    _length: f64,
-) -> FrameAnalysis {
+fn gathered(scene: &Scene, frame: &Frame, interfaces: &[&Interface], plan: &Plan) -> FrameAnalysis {
     let contacts = interfaces
         .iter()
         .map(|interface| Contact {
