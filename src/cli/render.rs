@@ -38,6 +38,12 @@ pub(crate) struct Render {
     /// Arrows to one scale in each panel, or in the whole strip
     #[arg(long, value_enum, default_value = "panel")]
     arrow_scale: ArrowScale,
+    /// What the figure shows
+    #[arg(long, value_enum, default_value = "forces")]
+    kind: Kind,
+    /// Write its amount beside every arrow
+    #[arg(long)]
+    amounts: bool,
     /// Panels per row of a strip
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     columns: Option<u16>,
@@ -49,6 +55,12 @@ pub(crate) struct Render {
     strict: bool,
     #[command(flatten)]
     level: Level,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Kind {
+    /// Every force as an arrow on the block it acts on, and what is missing
+    Forces,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -159,7 +171,7 @@ impl Render {
         progress.doing(&source.name());
         let analysis = Analysis::with(&source.scene, &self.level.options());
         progress.step();
-        let drawing = figure::forces(&analysis, &self.options());
+        let drawing = figure::draw(&analysis, self.kind(), &self.options());
         let bytes = self.picture.bytes(&drawing, format)?;
         progress.step();
         Ok(Rendered {
@@ -167,6 +179,12 @@ impl Render {
             ending: Ending::of(&analysis),
             summary: summary(&analysis),
         })
+    }
+
+    fn kind(&self) -> figure::Kind {
+        match self.kind {
+            Kind::Forces => figure::Kind::Forces,
+        }
     }
 
     fn options(&self) -> figure::Options {
@@ -184,6 +202,7 @@ impl Render {
                 ArrowScale::Strip => figure::ArrowScale::Strip,
             },
             columns: self.columns.map(usize::from),
+            amounts: self.amounts,
             ..figure::Options::default()
         }
     }

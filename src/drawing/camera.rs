@@ -36,6 +36,12 @@ impl Camera {
         PagePoint::new(self.at.x + d.x * self.scale, self.at.y - d.y * self.scale)
     }
 
+    /// Which place of the scene lies at a place on the page.
+    pub fn back(&self, at: PagePoint) -> Point {
+        let (right, down) = (at.x - self.at.x, at.y - self.at.y);
+        self.corner + Vector::new(right, -down) / self.scale
+    }
+
     /// A displacement of the scene on the page, right and down in pixels.
     pub fn turn(&self, v: Vector) -> (f64, f64) {
         (v.x * self.scale, -v.y * self.scale)

@@ -7,6 +7,7 @@
 pub mod arrow;
 mod camera;
 mod outline;
+pub mod placement;
 mod plasma;
 mod style;
 pub mod text;

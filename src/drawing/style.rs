@@ -64,6 +64,8 @@ pub struct Theme {
     pub failure: Colour,
     /// The ground.
     pub ground: Colour,
+    /// Blocks where colours do not tell amplitudes.
+    pub block: Colour,
     /// Outlines of blocks.
     pub outline: Colour,
     /// Seams between the cells of a block.
@@ -92,6 +94,7 @@ impl Theme {
             robots: all(&[0xfaed2d, 0xffc303, 0xffa200, 0xfc7f00]),
             failure: Colour::hex(0xff0000),
             ground: Colour::hex(0x2f4f4f),
+            block: Colour::hex(0xeceef1),
             outline: Colour::hex(0x808080),
             seam: Colour::hex(0x808080),
             amplitudes: &PLASMA,

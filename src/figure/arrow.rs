@@ -32,6 +32,18 @@ pub enum ArrowKind {
 }
 
 impl ArrowKind {
+    /// The body whose own arrow is the opposite of this one, `None` where there is none.
+    pub fn partner(self) -> Option<BodyId> {
+        match self {
+            ArrowKind::Contact(from)
+            | ArrowKind::Normal(from)
+            | ArrowKind::Friction(from)
+            | ArrowKind::MissingPull(from)
+            | ArrowKind::MissingFriction(from) => Some(from),
+            _ => None,
+        }
+    }
+
     /// Whether the arrow tells what would be needed rather than what is there.
     pub fn is_failure(self) -> bool {
         matches!(

@@ -1,105 +1,297 @@
-//! Where a block's name has room: the place inside the block that is farthest from its edges, arrows and discs.
+//! [`labels`]: names of blocks and robots, and amounts on request, where they hide nothing.
+//!
+//! A name stands inside its block where there is room, beside it with a leader line where there is none. Labels lie on
+//! no arrow, outline, disc or other label; one for which nowhere is clear is left out, and their description counts those.
 
-use super::arrow::{ForceArrow, Marks};
-use super::stage::{DISC, Stage};
-use crate::drawing::arrow::{HEAD_LENGTH, HEAD_WIDTH};
-use crate::geometry::{Bounds, Point, Polygon, Vector};
-use crate::scene::{BlockId, Frame};
+use super::arrow::{ForceArrow, TurnArrow};
+use super::panel::Pen;
+use super::words::quantity;
+use crate::drawing::placement::{Ink, Placed, Wish, place};
+use crate::drawing::{
+    Anchor, Colour, Face, Group, Outline, PagePoint, PageRect, Path, Stroke, Text, text,
+};
+use crate::geometry::{Bounds, Point, Polygon};
+use crate::scene::{BlockId, BodyId};
 
-/// Above so many blocks in a frame names would be soup.
-const MOST_BLOCKS: usize = 60;
+/// Above so many blocks in a frame labels would be soup.
+pub(crate) const MOST_BLOCKS: usize = 60;
 /// Places tried along each axis of a block.
 const TRIED: usize = 13;
+/// Letters smaller than this are left out, pixels.
+const SMALLEST: f64 = 8.0;
+/// Height of a line of letters, in sizes.
+const HIGH: f64 = 0.96;
 
-/// A place for the name of each placed block, in placing order: where a bar about it is clear whose half
-/// length between its round ends and whose radius, both in metres, `room(block)` tells; `None` where nowhere is.
-pub(crate) fn places(
-    stage: &Stage<'_>,
-    frame: &Frame,
-    marks: &Marks,
-    room: impl Fn(BlockId) -> (f64, f64),
-) -> Vec<Option<Point>> {
-    if frame.placed.len() > MOST_BLOCKS {
-        return vec![None; frame.placed.len()];
-    }
-    let discs: Vec<Point> = frame.holds.iter().map(|h| h.at).collect();
-    let place = |id: &BlockId| {
-        let polygon = &stage.analysis.scene.blocks[id.0].body.polygon;
-        let (half, needed) = room(*id);
-        let near = polygon.bounds().grown(2.0 * stage.unit);
-        let arrows: Vec<&ForceArrow> = marks
-            .arrows
-            .iter()
-            .filter(|a| near.meets(reach(a)))
-            .collect();
-        let clear_at = |p: Point| {
-            if !polygon.contains(p) {
-                return f64::NEG_INFINITY;
-            }
-            let from_discs = discs.iter().map(|d| (p - d).norm() - DISC * stage.unit);
-            let from_turns = marks
-                .turns
-                .iter()
-                .map(|t| (p - t.at).norm() - 0.65 * stage.unit);
-            let from_arrows = arrows.iter().map(|a| from_arrow(a, p));
-            from_discs
-                .chain(from_turns)
-                .chain(from_arrows)
-                .fold(from_edges(polygon, p), f64::min)
-        };
-        // The middle first, then outwards, and no further once it is too narrow: most places fail at once.
-        let clear = |p: Point| {
-            let mut least = f64::INFINITY;
-            for share in [0.0, -1.0, 1.0, -0.5, 0.5] {
-                least = least.min(clear_at(p + Vector::new(half * share, 0.0)));
-                if least < needed {
-                    return f64::NEG_INFINITY;
-                }
-            }
-            least
-        };
-        // Room beyond what is comfortable counts for nothing, so that names keep near the middle.
-        let middle = stage.analysis.scene.blocks[id.0].centroid;
-        let score = |p: Point| clear(p).min(1.6 * needed) - 0.05 * (p - middle).norm();
-        let best =
-            candidates(polygon)
-                .into_iter()
-                .map(|p| (score(p), p))
-                .fold(None, |best, next| match best {
-                    Some((score, _)) if score >= next.0 => best,
-                    _ => Some(next),
-                });
-        best.filter(|(score, _)| score.is_finite()).map(|(_, p)| p)
-    };
-    frame.placed.iter().map(place).collect()
+/// A label before it has a place.
+struct Label {
+    words: String,
+    face: Face,
+    size: f64,
+    class: &'static str,
+    wish: Wish,
+    /// The colour of what it tells of; `None` for plain letters.
+    colour: Option<Colour>,
 }
 
-fn candidates(polygon: &Polygon) -> Vec<Point> {
-    let bounds = polygon.bounds();
-    let share = |i: usize| (i as f64 + 0.5) / TRIED as f64;
-    let mut points = Vec::new();
-    for row in 0..TRIED {
-        for column in 0..TRIED {
-            let x = bounds.min.x + bounds.width() * share(column);
-            let y = bounds.min.y + bounds.height() * share(row);
-            let p = Point::new(x, y);
-            if polygon.contains(p) {
-                points.push(p);
-            }
+/// The labels of a frame.
+pub(crate) fn labels(pen: &Pen<'_>, view: Bounds) -> Group {
+    let mut group = Group::of_class("labels");
+    let labels = wanted(pen);
+    if labels.is_empty() {
+        return group;
+    }
+    let mut ink = ink(pen);
+    let page = pen.camera.rect(view);
+    let wishes: Vec<Wish> = labels.iter().map(|l| l.wish.clone()).collect();
+    let places = place(&mut ink, page, &wishes);
+    let mut missing = 0;
+    for (label, placed) in labels.iter().zip(places) {
+        match placed {
+            Some(placed) => group.items.push(drawn(pen, label, placed).into()),
+            None => missing += 1,
         }
     }
+    if missing > 0 {
+        let labels = if missing == 1 {
+            "label has"
+        } else {
+            "labels have"
+        };
+        group.description = format!("{missing} {labels} no room");
+    }
+    group
+}
+
+fn wanted(pen: &Pen<'_>) -> Vec<Label> {
+    let options = pen.stage.options;
+    let frame = &pen.stage.analysis.scene.frames[pen.number];
+    let mut labels = Vec::new();
+    if frame.placed.len() > MOST_BLOCKS {
+        return labels;
+    }
+    if options.labels {
+        labels.extend(frame.placed.iter().map(|id| name(pen, *id)));
+        labels.extend(robots(pen));
+    }
+    if options.amounts {
+        labels.extend(amounts(pen));
+    }
+    labels.retain(|label| label.size >= SMALLEST && !label.words.is_empty());
+    labels
+}
+
+/// Size of a block's name, pixels.
+fn name_size(pen: &Pen<'_>) -> f64 {
+    (0.25 * pen.unit()).min(14.0)
+}
+
+fn label(words: String, face: Face, size: f64, class: &'static str, wish: Wish) -> Label {
+    let size_of = (text::width(&words, face, size), HIGH * size);
+    Label {
+        wish: Wish {
+            size: size_of,
+            ..wish
+        },
+        words,
+        face,
+        size,
+        class,
+        colour: None,
+    }
+}
+
+fn name(pen: &Pen<'_>, id: BlockId) -> Label {
+    let block = &pen.stage.analysis.scene.blocks[id.0];
+    let size = name_size(pen);
+    let wish = Wish {
+        anchor: pen.camera.place(block.centroid),
+        from: 0.4 * pen.unit(),
+        size: (0.0, 0.0),
+        preferred: inside(&block.body.polygon, block.centroid)
+            .into_iter()
+            .map(|p| pen.camera.place(p))
+            .collect(),
+        ease: 0.5 * size,
+        roams: true,
+    };
+    label(block.id.clone(), Face::SansBold, size, "name", wish)
+}
+
+fn robots(pen: &Pen<'_>) -> Vec<Label> {
+    let scene = pen.stage.analysis.scene;
+    let size = 0.9 * name_size(pen);
+    let named = |hold: &crate::scene::Hold| {
+        let wish = Wish {
+            anchor: pen.camera.place(hold.at),
+            from: pen.disc() + 2.0,
+            size: (0.0, 0.0),
+            preferred: Vec::new(),
+            ease: 0.0,
+            roams: true,
+        };
+        let id = scene.robots[hold.robot.0].id.clone();
+        label(id, Face::Sans, size, "robot-name", wish)
+    };
+    scene.frames[pen.number].holds.iter().map(named).collect()
+}
+
+fn amounts(pen: &Pen<'_>) -> Vec<Label> {
+    let marks = &pen.stage.marks[pen.number];
+    let size = (0.2 * pen.unit()).clamp(SMALLEST, 11.5);
+    // Between two blocks the same amount acts both ways: it is said once, on the block of the lower number.
+    let said = |arrow: &&ForceArrow| match (arrow.kind.partner(), arrow.on) {
+        (Some(BodyId::Block(partner)), BodyId::Block(on)) => on.0 < partner.0,
+        _ => true,
+    };
+    let straight = marks.arrows.iter().filter(said).map(|arrow| {
+        let words = quantity(arrow.force.norm(), "N");
+        let (from, along) = (pen.camera.place(arrow.at), pen.camera.turn(arrow.vector));
+        let wide = text::width(&words, Face::Sans, size);
+        let wish = Wish {
+            anchor: from.moved(0.5 * along.0, 0.5 * along.1),
+            from: 0.5 * pen.width(arrow) + 3.0,
+            size: (0.0, 0.0),
+            preferred: beside(from, along, pen.width(arrow), (wide, HIGH * size)),
+            ease: 0.0,
+            roams: true,
+        };
+        Label {
+            colour: Some(arrow.colour),
+            ..label(words, Face::Sans, size, "amount", wish)
+        }
+    });
+    let turning = marks.turns.iter().map(|turn| {
+        let wish = Wish {
+            anchor: pen.camera.place(turn.at),
+            from: pen.camera.length(0.7 * pen.stage.unit),
+            size: (0.0, 0.0),
+            preferred: Vec::new(),
+            ease: 0.0,
+            roams: true,
+        };
+        let words = quantity(turn.torque.abs(), "N·m");
+        Label {
+            colour: Some(turn.colour),
+            ..label(words, Face::Sans, size, "amount", wish)
+        }
+    });
+    straight.chain(turning).collect()
+}
+
+/// Middles of a label of this size beside an arrow's shaft, on either side, and beyond its tip.
+fn beside(
+    from: PagePoint,
+    along: (f64, f64),
+    width: f64,
+    (wide, high): (f64, f64),
+) -> Vec<PagePoint> {
+    let length = libm::hypot(along.0, along.1);
+    if length.is_nan() || length <= 0.0 {
+        return Vec::new();
+    }
+    let (ux, uy) = (along.0 / length, along.1 / length);
+    // How far a label's middle is from a line it touches from this direction.
+    let reach = |x: f64, y: f64| x.abs() * wide / 2.0 + y.abs() * high / 2.0;
+    let mut middles = Vec::new();
+    for share in [0.5, 0.7, 0.3, 0.9, 0.1] {
+        for side in [1.0, -1.0] {
+            let (nx, ny) = (-uy * side, ux * side);
+            let off = 1.5 * width + 2.5 + reach(nx, ny);
+            middles.push(from.moved(along.0 * share + nx * off, along.1 * share + ny * off));
+        }
+    }
+    let beyond = length + 4.5 * width + 3.0 + reach(ux, uy);
+    middles.push(from.moved(ux * beyond, uy * beyond));
+    middles
+}
+
+/// Places inside a polygon, those nearest to its middle first.
+fn inside(polygon: &Polygon, middle: Point) -> Vec<Point> {
+    let bounds = polygon.bounds();
+    let share = |i: usize| (i as f64 + 0.5) / TRIED as f64;
+    let mut points: Vec<Point> = (0..TRIED * TRIED)
+        .map(|i| {
+            let x = bounds.min.x + bounds.width() * share(i % TRIED);
+            let y = bounds.min.y + bounds.height() * share(i / TRIED);
+            Point::new(x, y)
+        })
+        .filter(|p| polygon.contains(*p))
+        .collect();
+    points.sort_by(|a, b| (a - middle).norm().total_cmp(&(b - middle).norm()));
     points
 }
 
-fn from_edges(polygon: &Polygon, p: Point) -> f64 {
-    polygon
-        .edges()
-        .map(|e| from_segment(e.from, e.to, p))
-        .fold(f64::INFINITY, f64::min)
+/// All that labels must keep clear of.
+fn ink(pen: &Pen<'_>) -> Ink {
+    let mut ink = Ink::default();
+    let scene = pen.stage.analysis.scene;
+    let frame = &scene.frames[pen.number];
+    let planned = frame.plans.iter().map(|p| p.block);
+    let blocks = frame.placed.iter().copied().chain(planned);
+    let polygons = blocks
+        .map(|id| &scene.blocks[id.0].body.polygon)
+        .chain(scene.ground.iter().map(|g| &g.body.polygon));
+    for edge in polygons.flat_map(Polygon::edges) {
+        let (from, to) = (pen.camera.place(edge.from), pen.camera.place(edge.to));
+        ink.line(from, to, pen.line);
+    }
+    for hold in &frame.holds {
+        ink.disc(pen.camera.place(hold.at), pen.disc());
+    }
+    let marks = &pen.stage.marks[pen.number];
+    for arrow in &marks.arrows {
+        let (from, along) = (pen.camera.place(arrow.at), pen.camera.turn(arrow.vector));
+        ink.arrow(from, along, pen.width(arrow));
+    }
+    for turn in &marks.turns {
+        turning(&mut ink, pen, turn);
+    }
+    ink
+}
+
+/// A turning arrow's outline, cut across into pieces from its inner to its outer edge.
+fn turning(ink: &mut Ink, pen: &Pen<'_>, turn: &TurnArrow) {
+    let points: Vec<PagePoint> = pen.turn(turn).outline.points().collect();
+    let centre = pen.camera.place(turn.at);
+    for pair in points.windows(2) {
+        let width = 3.0 * pen.camera.length(turn.width);
+        // Points of the head and of both edges, each joined to the next, as wide as the head: no gap between them.
+        if libm::hypot(pair[0].x - centre.x, pair[0].y - centre.y) > 0.0 {
+            ink.line(pair[0], pair[1], width);
+        }
+    }
+}
+
+fn drawn(pen: &Pen<'_>, label: &Label, placed: Placed) -> Group {
+    let theme = &pen.stage.options.theme;
+    let at = middle(placed.rect).moved(0.0, 0.36 * label.size);
+    let mut group = Group::of_class(label.class);
+    if let Some(leader) = placed.leader {
+        let line = Path::stroked(Outline::line(leader), Stroke::new(theme.faint, 0.6));
+        group = group.with(line.with_opacity(0.8));
+    }
+    // A label lies on no outline, so it lies on one fill or on the page.
+    let below = pen.below(middle(placed.rect));
+    let ink = if below.brightness() < super::panel::BRIGHT {
+        Colour::WHITE
+    } else {
+        Colour::BLACK
+    };
+    let colour = match label.colour {
+        Some(colour) => colour.mixed(ink, 0.55),
+        None => below.mixed(ink, 0.75),
+    };
+    let words = Text::new(at, label.words.as_str(), label.face, label.size, colour);
+    group.with(words.anchored(Anchor::Middle))
+}
+
+fn middle(rect: PageRect) -> PagePoint {
+    rect.at.moved(rect.width / 2.0, rect.height / 2.0)
 }
 
 /// How far a point is from an arrow's ink, metres; below 0 inside it.
 pub(crate) fn from_arrow(arrow: &ForceArrow, p: Point) -> f64 {
+    use crate::drawing::arrow::{HEAD_LENGTH, HEAD_WIDTH};
     let end = arrow.at + arrow.vector;
     let tip = end + arrow.vector.normalize() * (HEAD_LENGTH * arrow.width);
     let shaft = from_segment(arrow.at, end, p) - arrow.width / 2.0;
@@ -117,12 +309,4 @@ fn from_segment(a: Point, b: Point, p: Point) -> f64 {
         0.0
     };
     (p - (a + along * share)).norm()
-}
-
-fn reach(arrow: &ForceArrow) -> Bounds {
-    let tip = arrow.at + arrow.vector;
-    Bounds {
-        min: arrow.at.inf(&tip),
-        max: arrow.at.sup(&tip),
-    }
 }

@@ -2,7 +2,7 @@
 
 use super::stage::Stage;
 
-/// Room around a figure, pixels.
+/// Most room around a figure, pixels.
 pub(crate) const MARGIN: f64 = 36.0;
 /// Room between panels beside each other, pixels.
 pub(crate) const GAP: f64 = 44.0;
@@ -18,6 +18,8 @@ const SMALLEST_UNIT: f64 = 30.0;
 /// Where panels go.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Layout {
+    /// Room around the figure, pixels.
+    pub margin: f64,
     /// Panels beside each other.
     pub columns: usize,
     /// Width of a panel, pixels.
@@ -30,28 +32,34 @@ pub(crate) struct Layout {
 
 impl Layout {
     pub fn of(stage: &Stage<'_>) -> Layout {
+        let margin = stage.options.width.map_or(MARGIN, margin);
+        let across = stage
+            .options
+            .width
+            .map_or(ACROSS, |width| (width - 2.0 * margin).max(1.0));
         let count = stage.analysis.scene.frames.len().max(1);
+        let scale = |columns| Layout::scale(stage, across, columns, count);
         let columns = match stage.options.columns {
             Some(columns) => columns.clamp(1, count),
             None => {
-                let mut columns = match count {
+                let most = match count {
                     1..=3 => count,
                     4 => 2,
                     _ => 3,
                 };
-                while columns > 1
-                    && Layout::scale(stage, columns, count) * stage.unit < SMALLEST_UNIT
-                {
-                    columns -= 1;
-                }
-                columns
+                let fits = |columns: usize| {
+                    scale(columns) * stage.unit >= SMALLEST_UNIT
+                        && room(across, columns) >= LEAST.min(across)
+                };
+                (1..=most).rev().find(|c| fits(*c)).unwrap_or(1)
             }
         };
-        let scale = Layout::scale(stage, columns, count);
+        let scale = scale(columns);
         let least = if count == 1 { 1.6 * LEAST } else { LEAST };
-        let panel = (stage.view.width() * scale).max(least);
+        let panel = (stage.view.width() * scale).max(least.min(room(across, columns)));
         let between = (columns - 1) as f64 * GAP;
         Layout {
+            margin,
             columns,
             panel,
             content: columns as f64 * panel + between,
@@ -59,18 +67,32 @@ impl Layout {
         }
     }
 
-    fn scale(stage: &Stage<'_>, columns: usize, count: usize) -> f64 {
-        let room = ((ACROSS - (columns - 1) as f64 * GAP) / columns as f64).max(LEAST);
+    fn scale(stage: &Stage<'_>, across: f64, columns: usize, count: usize) -> f64 {
         let rows = count.div_ceil(columns);
         let high = match (count, rows) {
             (1, _) => 640.0,
             (_, 1) => 460.0,
             _ => 360.0,
         };
-        let scale = (room / stage.view.width())
+        // A page of its own width fixes the scale; otherwise panels are as wide as their captions need.
+        let wide = match stage.options.width {
+            Some(_) => room(across, columns),
+            None => room(across, columns).max(LEAST),
+        };
+        let scale = (wide / stage.view.width())
             .min(high / stage.view.height())
             .min(LARGEST_UNIT / stage.unit);
         // A scene too small for its own coordinates to tell its places apart has no scale.
         if scale.is_finite() { scale } else { 1.0 }
     }
+}
+
+/// Room around a figure on a page of this width, pixels.
+fn margin(width: f64) -> f64 {
+    (0.025 * width).min(MARGIN)
+}
+
+/// Room for one of several panels beside each other, pixels.
+fn room(across: f64, columns: usize) -> f64 {
+    ((across - (columns - 1) as f64 * GAP) / columns as f64).max(1.0)
 }

@@ -35,9 +35,19 @@ pub(crate) enum Entry {
     Amplitudes([String; 2], String),
     /// An arrow so many pixels long, so wide, of an amount.
     Scale(f64, f64, String),
+    /// A sign so many pixels wide, drawn from the middle of its left end, and what it means.
+    Sign(fn(PagePoint, &Theme) -> Vec<Item>, f64, String),
 }
 
 impl Entry {
+    /// The entry where it has `room` pixels: the colours alone where they and all names do not fit.
+    pub(crate) fn fitted(self, room: f64, theme: &Theme) -> Entry {
+        match self {
+            Entry::Blocks(_) if self.width() > room => Entry::Colours(theme.arrows.clone()),
+            entry => entry,
+        }
+    }
+
     fn width(&self) -> f64 {
         let wide = |words: &str| text::width(words, Face::Sans, SIZE);
         match self {
@@ -58,6 +68,7 @@ impl Entry {
             Entry::Scale(length, width, amount) => {
                 length + HEAD_LENGTH * width + 7.0 + wide(amount)
             }
+            Entry::Sign(_, width, meaning) => width + 7.0 + wide(meaning),
         }
     }
 
@@ -149,6 +160,11 @@ impl Entry {
                 items.push(words(beyond, what));
                 items
             }
+            Entry::Sign(sign, width, meaning) => {
+                let mut items = sign(at, theme);
+                items.push(words(width + 7.0, meaning));
+                items
+            }
             Entry::Scale(length, width, amount) => {
                 let arrow = Path::filled(straight(at, (*length, 0.0), *width), theme.faint);
                 vec![
@@ -160,7 +176,7 @@ impl Entry {
     }
 }
 
-const COLOURS: &str = "forces on a block wear the colour of its weight";
+const COLOURS: &str = "the forces on a block share a colour";
 const PLANNED: &str = "planned block";
 const MISSING: &str = "missing: what would have to stick or be given";
 const BAR: f64 = 120.0;

@@ -7,6 +7,7 @@
 mod arrow;
 mod fill;
 mod forces;
+mod kind;
 mod label;
 mod layout;
 mod legend;
@@ -15,6 +16,7 @@ mod option;
 mod panel;
 mod shapes;
 mod stage;
+mod strip;
 mod told;
 mod verdict;
 mod view;
@@ -22,6 +24,7 @@ mod words;
 
 pub use arrow::{ArrowKind, ForceArrow, Marks, TurnArrow, TurnKind};
 pub use forces::forces;
+pub use kind::{Kind, draw};
 pub use mark::{arrows, marks};
 pub use option::{ArrowScale, ForceStyle, Normalisation, Options};
 pub use shapes::shapes;

@@ -51,8 +51,12 @@ pub struct Options {
     pub captions: bool,
     /// Whether verdicts, scales and the key are shown.
     pub keys: bool,
-    /// Whether blocks bear their names, where there is room beside the arrows.
+    /// Whether blocks and robots bear their names, in frames of at most 60 blocks.
     pub labels: bool,
+    /// Whether arrows bear their amounts, in frames of at most 60 blocks.
+    pub amounts: bool,
+    /// Width of the page, pixels; chosen by what is on it where `None`. Words keep their size whatever the width.
+    pub width: Option<f64>,
 }
 
 impl Default for Options {
@@ -66,6 +70,8 @@ impl Default for Options {
             captions: true,
             keys: true,
             labels: true,
+            amounts: false,
+            width: None,
         }
     }
 }

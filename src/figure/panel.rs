@@ -8,10 +8,8 @@ use super::mark::FORCE_WIDTH;
 use super::stage::{DISC, MANY, Stage};
 use super::told;
 use crate::drawing::arrow::{head, straight, turning};
-use crate::drawing::{
-    Anchor, Camera, Colour, Face, Group, Item, Outline, Path, Stroke, Text, text,
-};
-use crate::geometry::{Bounds, Lattice, Point, Vector};
+use crate::drawing::{Camera, Colour, Group, Item, Outline, PagePoint, Path, Stroke};
+use crate::geometry::{Bounds, Lattice, Vector};
 use crate::scene::{BlockId, Body, BodyId, Rgb};
 
 /// Radius of a turning arrow in unit edges: around a robot's disc.
@@ -20,7 +18,7 @@ const TURN: f64 = 0.46;
 /// Where a unit edge is shorter than this, pixels, arrows are texture rather than signs.
 pub(crate) const TEXTURE: f64 = 20.0;
 /// A block whose fill is brighter than this wears dark seams and letters.
-const BRIGHT: f64 = 0.6;
+pub(crate) const BRIGHT: f64 = 0.6;
 /// Least width of a shaft, pixels, where blocks are large enough to bear it.
 const LEAST_SHAFT: f64 = 2.5;
 
@@ -52,6 +50,7 @@ pub(crate) fn picture(stage: &Stage<'_>, number: usize, view: Bounds, camera: &C
         group.items.push(pen.heads().into());
     }
     group.items.push(pen.arrows(true).into());
+    group.items.push(label::labels(&pen, view).into());
     group
         .items
         .retain(|item| !matches!(item, Item::Group(g) if g.items.is_empty()));
@@ -105,14 +104,16 @@ impl ByColour {
     }
 }
 
-struct Pen<'a> {
-    stage: &'a Stage<'a>,
-    number: usize,
-    camera: &'a Camera,
+/// What draws the parts of a frame's picture.
+pub(crate) struct Pen<'a> {
+    pub stage: &'a Stage<'a>,
+    /// The frame, from 0.
+    pub number: usize,
+    pub camera: &'a Camera,
     /// Place in the placing order of each block, by its number; `None` for a block that is not placed.
     places: Vec<Option<usize>>,
     /// Width of an outline, pixels.
-    line: f64,
+    pub line: f64,
     /// Width of the seam around arrows, pixels.
     casing: f64,
     /// How much wider than told arrows are drawn: at small scales, so that their colours can be told apart.
@@ -120,7 +121,7 @@ struct Pen<'a> {
 }
 
 impl<'a> Pen<'a> {
-    fn of(stage: &'a Stage<'a>, number: usize, camera: &'a Camera) -> Pen<'a> {
+    pub(crate) fn of(stage: &'a Stage<'a>, number: usize, camera: &'a Camera) -> Pen<'a> {
         let unit = camera.length(stage.unit);
         let scene = stage.analysis.scene;
         let mut places = vec![None; scene.blocks.len()];
@@ -143,11 +144,11 @@ impl<'a> Pen<'a> {
         }
     }
 
-    fn unit(&self) -> f64 {
+    pub(crate) fn unit(&self) -> f64 {
         self.camera.length(self.stage.unit)
     }
 
-    fn ground(&self, view: Bounds) -> Group {
+    pub(crate) fn ground(&self, view: Bounds) -> Group {
         let theme = &self.stage.options.theme;
         let scene = self.stage.analysis.scene;
         let mut group = Group::of_class("ground").titled("Ground");
@@ -170,12 +171,43 @@ impl<'a> Pen<'a> {
         let scene = self.stage.analysis.scene;
         match scene.blocks[id.0].body.fill {
             Some(fill) => colour(fill),
+            None if !self.stage.kind.tells_amplitudes() => self.stage.options.theme.block,
             None => self
                 .stage
                 .options
                 .theme
                 .amplitude(self.stage.fills.shares[self.number][place]),
         }
+    }
+
+    /// The colour that a block, ground or the page has at a place.
+    pub(crate) fn below(&self, at: PagePoint) -> Colour {
+        let (scene, theme) = (self.stage.analysis.scene, &self.stage.options.theme);
+        let at = self.camera.back(at);
+        let placed = &scene.frames[self.number].placed;
+        let block = placed
+            .iter()
+            .position(|id| scene.blocks[id.0].body.polygon.contains(at));
+        let ground = || scene.ground.iter().find(|g| g.body.polygon.contains(at));
+        match block {
+            Some(place) => self.fill(place, placed[place]),
+            None => ground().map_or(theme.page, |g| g.body.fill.map_or(theme.ground, colour)),
+        }
+    }
+
+    /// Radius of a robot's disc, pixels.
+    pub(crate) fn disc(&self) -> f64 {
+        DISC * self.unit()
+    }
+
+    /// Width of an arrow's shaft as it is drawn, pixels.
+    pub(crate) fn width(&self, arrow: &ForceArrow) -> f64 {
+        let wider = if arrow.kind.is_failure() {
+            1.0
+        } else {
+            self.wider
+        };
+        wider * self.camera.length(arrow.width)
     }
 
     fn seam(&self, fill: Colour) -> Stroke {
@@ -189,7 +221,7 @@ impl<'a> Pen<'a> {
         Stroke::new(fill.mixed(towards, 0.22), 0.6 * self.line)
     }
 
-    fn blocks(&self) -> Group {
+    pub(crate) fn blocks(&self) -> Group {
         let (scene, theme) = (self.stage.analysis.scene, &self.stage.options.theme);
         let frame = &scene.frames[self.number];
         let mut group = Group::of_class("blocks");
@@ -210,51 +242,11 @@ impl<'a> Pen<'a> {
                 .into(),
             );
         }
-        group.items.extend(self.names().into_iter().map(Into::into));
         group
     }
 
-    fn names(&self) -> Vec<Text> {
-        let size = (0.25 * self.unit()).clamp(0.0, 14.0);
-        if !self.stage.options.labels || size < 8.0 {
-            return Vec::new();
-        }
-        let scene = self.stage.analysis.scene;
-        let frame = &scene.frames[self.number];
-        let half = |id: BlockId| text::width(&scene.blocks[id.0].id, Face::SansBold, size) / 2.0;
-        let metres = self.stage.unit / self.unit();
-        let room = |id: BlockId| {
-            (
-                (half(id) - 0.3 * size).max(0.0) * metres,
-                0.48 * size * metres,
-            )
-        };
-        let places = label::places(self.stage, frame, &self.stage.marks[self.number], room);
-        let name = |(place, (id, at)): (usize, (&BlockId, Option<Point>))| {
-            let fill = self.fill(place, *id);
-            let ink = if fill.brightness() < BRIGHT {
-                Colour::WHITE
-            } else {
-                Colour::BLACK
-            };
-            let at = self.camera.place(at?).moved(0.0, 0.36 * size);
-            let words = scene.blocks[id.0].id.as_str();
-            Some(
-                Text::new(at, words, Face::SansBold, size, fill.mixed(ink, 0.75))
-                    .anchored(Anchor::Middle),
-            )
-        };
-        frame
-            .placed
-            .iter()
-            .zip(places)
-            .enumerate()
-            .filter_map(name)
-            .collect()
-    }
-
     /// As [`Pen::blocks`] for scenes of very many blocks: one path for all blocks of a colour.
-    fn blocks_by_colour(&self) -> Group {
+    pub(crate) fn blocks_by_colour(&self) -> Group {
         let (scene, theme) = (self.stage.analysis.scene, &self.stage.options.theme);
         let frame = &scene.frames[self.number];
         let mut group = Group::of_class("blocks").titled(format!("{} blocks", frame.placed.len()));
@@ -269,7 +261,7 @@ impl<'a> Pen<'a> {
         group
     }
 
-    fn plans(&self) -> Group {
+    pub(crate) fn plans(&self) -> Group {
         let scene = self.stage.analysis.scene;
         let mut group = Group::of_class("plans");
         for plan in &scene.frames[self.number].plans {
@@ -287,11 +279,11 @@ impl<'a> Pen<'a> {
         group
     }
 
-    fn discs(&self) -> Group {
+    pub(crate) fn discs(&self) -> Group {
         let (scene, theme) = (self.stage.analysis.scene, &self.stage.options.theme);
         let mut group = Group::of_class("robots");
         for hold in &scene.frames[self.number].holds {
-            let disc = Outline::circle(self.camera.place(hold.at), DISC * self.unit());
+            let disc = Outline::circle(self.camera.place(hold.at), self.disc());
             let title = format!(
                 "Robot {} holds block {}",
                 scene.robots[hold.robot.0].id, scene.blocks[hold.block.0].id
@@ -307,16 +299,10 @@ impl<'a> Pen<'a> {
     }
 
     fn arrow(&self, arrow: &ForceArrow) -> Path {
-        let wider = if arrow.kind.is_failure() {
-            1.0
-        } else {
-            self.wider
-        };
-        let width = wider * self.camera.length(arrow.width);
         let outline = straight(
             self.camera.place(arrow.at),
             self.camera.turn(arrow.vector),
-            width,
+            self.width(arrow),
         );
         Path::filled(outline, arrow.colour).cased(self.seam_around(arrow), self.casing)
     }
@@ -345,7 +331,7 @@ impl<'a> Pen<'a> {
         };
         let marks = &self.stage.marks[self.number];
         for arrow in marks.arrows.iter().filter(|a| !a.kind.is_failure()) {
-            let width = self.wider * self.camera.length(arrow.width);
+            let width = self.width(arrow);
             let (from, along) = (self.camera.place(arrow.at), self.camera.turn(arrow.vector));
             let head = Path::filled(head(from, along, width), arrow.colour);
             group
@@ -355,7 +341,7 @@ impl<'a> Pen<'a> {
         group
     }
 
-    fn turn(&self, turn: &TurnArrow) -> Path {
+    pub(crate) fn turn(&self, turn: &TurnArrow) -> Path {
         let radius = TURN * self.stage.unit;
         let sweep = (turn.arc.abs() / radius).clamp(0.7, 5.0) * turn.arc.signum();
         let outline = turning(
@@ -402,7 +388,7 @@ impl<'a> Pen<'a> {
     }
 
     /// The arrows of what is there, or of what is missing, each with its numbers.
-    fn arrows(&self, missing: bool) -> Group {
+    pub(crate) fn arrows(&self, missing: bool) -> Group {
         let marks = &self.stage.marks[self.number];
         let mut group = Group::of_class(if missing { "failures" } else { "forces" });
         for arrow in marks

@@ -2,6 +2,7 @@
 
 use super::arrow::Marks;
 use super::fill::Fills;
+use super::kind::Kind;
 use super::mark;
 use super::option::{ArrowScale, Options};
 use super::view;
@@ -17,6 +18,7 @@ pub(crate) const MANY: usize = 1000;
 /// What all panels of a figure share.
 pub(crate) struct Stage<'a> {
     pub analysis: &'a Analysis<'a>,
+    pub kind: Kind,
     pub options: &'a Options,
     /// The unit edge, metres.
     pub unit: f64,
@@ -30,7 +32,7 @@ pub(crate) struct Stage<'a> {
 }
 
 impl<'a> Stage<'a> {
-    pub fn of(analysis: &'a Analysis<'a>, options: &'a Options) -> Stage<'a> {
+    pub fn of(analysis: &'a Analysis<'a>, kind: Kind, options: &'a Options) -> Stage<'a> {
         let scene = analysis.scene;
         let own: Vec<f64> = scene
             .frames
@@ -46,10 +48,13 @@ impl<'a> Stage<'a> {
         let marks: Vec<Marks> = own
             .iter()
             .enumerate()
-            .map(|(i, own)| mark::marks(analysis, i, options, reference(*own)))
+            .map(|(i, own)| kind.marks(analysis, i, options, reference(*own)))
             .collect();
         let unit = unit(scene);
-        let shown = view::shown(scene, &marks, unit);
+        let reach: Vec<Option<Bounds>> = (0..marks.len())
+            .map(|frame| kind.reach(analysis, frame, unit))
+            .collect();
+        let shown = view::shown(scene, &marks, &reach, unit);
         let nothing = Bounds {
             min: Point::origin(),
             max: Point::origin(),
@@ -62,6 +67,7 @@ impl<'a> Stage<'a> {
             .unwrap_or(nothing);
         Stage {
             analysis,
+            kind,
             options,
             unit,
             shown,

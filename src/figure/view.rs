@@ -13,10 +13,16 @@ const PIECE: f64 = 3.0;
 /// Room around all that is shown, in unit edges.
 const ROOM: f64 = 0.08;
 
-/// For each frame that has `marks` a box around its blocks, plans, arrows, robots, and the ground near any frame's blocks.
-pub(crate) fn shown(scene: &Scene, marks: &[Marks], unit: f64) -> Vec<Bounds> {
+/// For each frame that has `marks` a box around its blocks, plans, arrows, robots, what its kind of picture shows beside
+/// them, and the ground near any frame's blocks.
+pub(crate) fn shown(
+    scene: &Scene,
+    marks: &[Marks],
+    reach: &[Option<Bounds>],
+    unit: f64,
+) -> Vec<Bounds> {
     let ground = ground(scene, unit);
-    let frame = |(frame, marks): (&Frame, &Marks)| {
+    let frame = |((frame, marks), reach): ((&Frame, &Marks), &Option<Bounds>)| {
         let blocks = blocks(scene, frame).map(|id| scene.blocks[id.0].body.polygon.bounds());
         let arrows = marks.arrows.iter().filter_map(|arrow| {
             let length = arrow.vector.norm();
@@ -30,12 +36,19 @@ pub(crate) fn shown(scene: &Scene, marks: &[Marks], unit: f64) -> Vec<Bounds> {
             .chain(arrows)
             .chain(turns)
             .chain(robots)
-            .chain(ground);
+            .chain(ground)
+            .chain(*reach);
         all.reduce(Bounds::union)
             .unwrap_or(around(Point::origin(), unit))
             .grown(ROOM * unit)
     };
-    scene.frames.iter().zip(marks).map(frame).collect()
+    scene
+        .frames
+        .iter()
+        .zip(marks)
+        .zip(reach)
+        .map(frame)
+        .collect()
 }
 
 /// The blocks that a frame shows, placed and planned.
