@@ -14,9 +14,11 @@ use crate::cli::picture::{Format, Picture};
 use crate::cli::progress::{Progress, Shown};
 use crate::cli::source::{self, FrameChoice, Source};
 use crate::cli::terminal::Terminal;
+use crate::drawing::Drawing;
 use crate::figure;
 use crate::output::file::Existing;
 use crate::report::result::word;
+use crate::scene::{self, BlockId, Scene};
 
 /// Draw scenes with their forces, and what fails, as SVG or PNG
 #[derive(Debug, Args)]
@@ -41,6 +43,9 @@ pub(crate) struct Render {
     /// What the figure shows
     #[arg(long, value_enum, default_value = "forces")]
     kind: Kind,
+    /// The block that a free-body diagram cuts free, by its id
+    #[arg(long, value_name = "ID")]
+    block: Option<String>,
     /// Write its amount beside every arrow
     #[arg(long)]
     amounts: bool,
@@ -61,6 +66,8 @@ pub(crate) struct Render {
 enum Kind {
     /// Every force as an arrow on the block it acts on, and what is missing
     Forces,
+    /// One block cut free, with every force that may act on it by name
+    Freebody,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -95,6 +102,10 @@ impl Render {
             .format(self.picture.asked())
             .map_err(|c| vec![c])?;
         self.picture.check(format).map_err(|c| vec![c])?;
+        if self.block.is_some() && !matches!(self.kind, Kind::Freebody) {
+            let why = "--block names the block of a free-body diagram; add --kind freebody";
+            return Err(vec![Complaint::CommandLine(why.into())]);
+        }
         self.check_count(&destination, format, terminal)
             .map_err(|c| vec![c])?;
         let sources = source::read(&self.scenes, self.frame)?;
@@ -171,7 +182,7 @@ impl Render {
         progress.doing(&source.name());
         let analysis = Analysis::with(&source.scene, &self.level.options());
         progress.step();
-        let drawing = figure::draw(&analysis, self.kind(), &self.options());
+        let drawing = self.drawing(source, &analysis)?;
         let bytes = self.picture.bytes(&drawing, format)?;
         progress.step();
         Ok(Rendered {
@@ -181,9 +192,45 @@ impl Render {
         })
     }
 
-    fn kind(&self) -> figure::Kind {
-        match self.kind {
+    fn drawing(&self, source: &Source, analysis: &Analysis<'_>) -> Result<Drawing, Complaint> {
+        let kind = match self.kind {
             Kind::Forces => figure::Kind::Forces,
+            Kind::Freebody => {
+                let (frame, block) = self
+                    .cut_free(&source.scene)
+                    .map_err(|why| Complaint::CommandLine(format!("{}: {why}", source.name())))?;
+                let drawing = figure::freebody(analysis, frame, block, &self.options());
+                return Ok(drawing.expect("the block was found in this frame"));
+            }
+        };
+        Ok(figure::draw(analysis, kind, &self.options()))
+    }
+
+    /// The block that is cut free, and the last frame in which it stands.
+    fn cut_free(&self, scene: &Scene) -> Result<(usize, BlockId), String> {
+        let placed = |id: BlockId| scene.frames.iter().rposition(|f| f.placed.contains(&id));
+        let Some(name) = &self.block else {
+            return match (scene.blocks.as_slice(), placed(BlockId(0))) {
+                ([_], Some(frame)) => Ok((frame, BlockId(0))),
+                _ => {
+                    let ids: Vec<&str> = scene.blocks.iter().map(|b| b.id.as_str()).collect();
+                    let more = if ids.len() > 12 { ", …" } else { "" };
+                    Err(format!(
+                        "a free-body diagram is of one block; choose with --block one of {}{more}",
+                        ids[..ids.len().min(12)].join(", ")
+                    ))
+                }
+            };
+        };
+        let Some(number) = scene.blocks.iter().position(|b| b.id == *name) else {
+            let known = scene.blocks.iter().map(|b| b.id.as_str());
+            let near = scene::nearest(name, known)
+                .map_or_else(String::new, |near| format!("; did you mean {near}?"));
+            return Err(format!("it has no block {name}{near}"));
+        };
+        match placed(BlockId(number)) {
+            Some(frame) => Ok((frame, BlockId(number))),
+            None => Err(format!("block {name} is not placed in the frames shown")),
         }
     }
 

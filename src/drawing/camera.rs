@@ -52,6 +52,11 @@ impl Camera {
         metres * self.scale
     }
 
+    /// A length in pixels, in metres.
+    pub fn metres(&self, pixels: f64) -> f64 {
+        pixels / self.scale
+    }
+
     /// A box of the scene on the page.
     pub fn rect(&self, bounds: Bounds) -> PageRect {
         PageRect {

@@ -6,10 +6,12 @@
 
 pub mod arrow;
 mod camera;
+pub mod hatch;
 mod outline;
 pub mod placement;
 mod plasma;
 mod style;
+pub mod symbol;
 pub mod text;
 
 pub use camera::Camera;

@@ -7,6 +7,7 @@
 mod arrow;
 mod fill;
 mod forces;
+mod freebody;
 mod kind;
 mod label;
 mod layout;
@@ -24,6 +25,7 @@ mod words;
 
 pub use arrow::{ArrowKind, ForceArrow, Marks, TurnArrow, TurnKind};
 pub use forces::forces;
+pub use freebody::freebody;
 pub use kind::{Kind, draw};
 pub use mark::{arrows, marks};
 pub use option::{ArrowScale, ForceStyle, Normalisation, Options};
