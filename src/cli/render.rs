@@ -18,13 +18,13 @@ use crate::figure;
 use crate::output::file::Existing;
 use crate::report::result::word;
 
-/// Draw scenes with their forces, and what fails, as SVG or PNG
+/// Draw scenes with their forces, and what fails, as SVG, PNG or PDF
 #[derive(Debug, Args)]
 pub(crate) struct Render {
     /// Scene files; - reads standard input
     #[arg(required = true, value_name = "SCENE")]
     scenes: Vec<PathBuf>,
-    /// Where to: a .svg or .png file, a folder (existing, or ending in a slash), or - for standard output
+    /// Where to: a .svg, .png or .pdf file, a folder (existing, or ending in a slash), or - for standard output
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
     #[command(flatten)]
@@ -142,9 +142,10 @@ impl Render {
             Destination::Stdout if self.scenes.len() > 1 => {
                 "only one picture at a time goes to standard output; give a folder".into()
             }
-            Destination::Stdout if format == Format::Png && terminal.is_watched() => {
-                "a PNG is not for reading on a terminal; send it to a file with -o".into()
-            }
+            Destination::Stdout if terminal.is_watched() => match format.unreadable() {
+                Some(why) => why,
+                None => return Ok(()),
+            },
             _ => return Ok(()),
         };
         Err(Complaint::CommandLine(why))
@@ -160,7 +161,7 @@ impl Render {
         let analysis = Analysis::with(&source.scene, &self.level.options());
         progress.step();
         let drawing = figure::forces(&analysis, &self.options());
-        let bytes = self.picture.bytes(&drawing, format)?;
+        let bytes = self.picture.bytes(drawing, format)?;
         progress.step();
         Ok(Rendered {
             bytes,

@@ -14,6 +14,7 @@ mod layers;
 mod oracle;
 mod margins;
 mod pictures;
+mod print;
 mod problems;
 mod program;
 mod scenes;
