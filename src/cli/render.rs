@@ -20,13 +20,13 @@ use crate::output::file::Existing;
 use crate::report::result::word;
 use crate::scene::{self, BlockId, Scene};
 
-/// Draw scenes with their forces, and what fails, as SVG or PNG
+/// Draw scenes with their forces, and what fails, as SVG, PNG or PDF
 #[derive(Debug, Args)]
 pub(crate) struct Render {
     /// Scene files; - reads standard input
     #[arg(required = true, value_name = "SCENE")]
     scenes: Vec<PathBuf>,
-    /// Where to: a .svg or .png file, a folder (existing, or ending in a slash), or - for standard output
+    /// Where to: a .svg, .png or .pdf file, a folder (existing, or ending in a slash), or - for standard output
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
     #[command(flatten)]
@@ -165,9 +165,10 @@ impl Render {
             Destination::Stdout if self.scenes.len() > 1 => {
                 "only one picture at a time goes to standard output; give a folder".into()
             }
-            Destination::Stdout if format == Format::Png && terminal.is_watched() => {
-                "a PNG is not for reading on a terminal; send it to a file with -o".into()
-            }
+            Destination::Stdout if terminal.is_watched() => match format.unreadable() {
+                Some(why) => why,
+                None => return Ok(()),
+            },
             _ => return Ok(()),
         };
         Err(Complaint::CommandLine(why))
@@ -183,7 +184,7 @@ impl Render {
         let analysis = Analysis::with(&source.scene, &self.level.options());
         progress.step();
         let drawing = self.drawing(source, &analysis)?;
-        let bytes = self.picture.bytes(&drawing, format)?;
+        let bytes = self.picture.bytes(drawing, format)?;
         progress.step();
         Ok(Rendered {
             bytes,
@@ -250,6 +251,7 @@ impl Render {
             },
             columns: self.columns.map(usize::from),
             amounts: self.amounts,
+            width: self.picture.page(),
             ..figure::Options::default()
         }
     }

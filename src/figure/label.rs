@@ -18,7 +18,7 @@ pub(crate) const MOST_BLOCKS: usize = 60;
 /// Places tried along each axis of a block.
 const TRIED: usize = 13;
 /// Letters smaller than this are left out, pixels.
-const SMALLEST: f64 = 8.0;
+const SMALLEST: f64 = 9.0;
 /// Height of a line of letters, in sizes.
 const HIGH: f64 = 0.96;
 

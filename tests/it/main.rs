@@ -15,6 +15,7 @@ mod layers;
 mod oracle;
 mod margins;
 mod pictures;
+mod print;
 mod problems;
 mod program;
 mod scenes;
