@@ -66,6 +66,14 @@ pub(crate) struct Render {
 enum Kind {
     /// Every force as an arrow on the block it acts on, and what is missing
     Forces,
+    /// Where it falls, how: blocks displaced along the collapse, hinges and slips
+    Mechanism,
+    /// The line of thrust through the blocks
+    Thrust,
+    /// The safe stretch of each interface, and where in it the resultant sits
+    Kernel,
+    /// Friction used of friction available, interface by interface
+    Utilisation,
     /// One block cut free, with every force that may act on it by name
     Freebody,
 }
@@ -196,6 +204,10 @@ impl Render {
     fn drawing(&self, source: &Source, analysis: &Analysis<'_>) -> Result<Drawing, Complaint> {
         let kind = match self.kind {
             Kind::Forces => figure::Kind::Forces,
+            Kind::Mechanism => figure::Kind::Mechanism,
+            Kind::Thrust => figure::Kind::Thrust,
+            Kind::Kernel => figure::Kind::Kernel,
+            Kind::Utilisation => figure::Kind::Utilisation,
             Kind::Freebody => {
                 let (frame, block) = self
                     .cut_free(&source.scene)

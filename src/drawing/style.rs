@@ -72,6 +72,10 @@ pub struct Theme {
     pub seam: Colour,
     /// 256 colours for amplitudes, as 0xrrggbb, smallest first.
     pub amplitudes: &'static [u32; 256],
+    /// What moves where a structure falls.
+    pub motion: Colour,
+    /// Where a resultant is safe.
+    pub safe: Colour,
     /// The mark of a structure that stands.
     pub stands: Colour,
     /// The mark of a structure that falls.
@@ -98,6 +102,8 @@ impl Theme {
             outline: Colour::hex(0x808080),
             seam: Colour::hex(0x808080),
             amplitudes: &PLASMA,
+            motion: Colour::hex(0x4479b4),
+            safe: Colour::hex(0x008066),
             stands: Colour::hex(0x17824f),
             falls: Colour::hex(0xc62121),
             undecided: Colour::hex(0x6b7280),

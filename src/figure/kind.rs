@@ -1,12 +1,18 @@
 //! [`Kind`]: what the panels of a figure show. One file per kind; here they meet.
 
 use super::arrow::Marks;
+use super::collapse;
+use super::displacement::{self, Displacement};
+use super::kernel;
 use super::legend::{self, Entry};
 use super::mark;
+use super::mechanism;
 use super::option::Options;
 use super::panel;
 use super::stage::Stage;
 use super::strip::strip;
+use super::thrust;
+use super::utilisation;
 use super::verdict;
 use crate::analysis::Analysis;
 use crate::drawing::{Camera, Drawing, Group};
@@ -18,6 +24,15 @@ pub enum Kind {
     /// Every force as an arrow on the block it acts on, and what is missing.
     #[default]
     Forces,
+    /// Where a frame falls, how its blocks begin to move: where they stand as dashed outlines, displaced along their
+    /// motion as rigid bodies; its hinges and slips.
+    Mechanism,
+    /// The line of thrust through the blocks, from interface to interface.
+    Thrust,
+    /// The stretch of each interface within which its resultant is safe, and where in it the resultant sits.
+    Kernel,
+    /// Friction used of friction available at each interface, and of its limits by each robot.
+    Utilisation,
 }
 
 /// A figure of this kind, one panel per frame.
@@ -32,14 +47,16 @@ impl Kind {
     pub(crate) fn title(self) -> &'static str {
         match self {
             Kind::Forces => "Forces in a dry-laid structure",
+            Kind::Mechanism => "How a dry-laid structure falls",
+            Kind::Thrust => "The line of thrust in a dry-laid structure",
+            Kind::Kernel => "Resultants in the safe stretches of interfaces",
+            Kind::Utilisation => "Friction used in a dry-laid structure",
         }
     }
 
     /// Whether blocks tell amplitudes by their colour; otherwise they are plain.
     pub(crate) fn tells_amplitudes(self) -> bool {
-        match self {
-            Kind::Forces => true,
-        }
+        self == Kind::Forces
     }
 
     /// The arrows of a frame, `newtons_per_unit` N being one unit edge long.
@@ -52,18 +69,30 @@ impl Kind {
     ) -> Marks {
         match self {
             Kind::Forces => mark::marks(analysis, frame, options, newtons_per_unit),
+            _ => Marks::default(),
         }
     }
 
     /// A box around what a frame's picture shows beside blocks, ground, robots and arrows.
     pub(crate) fn reach(
         self,
-        _analysis: &Analysis<'_>,
-        _frame: usize,
-        _unit: f64,
+        analysis: &Analysis<'_>,
+        frame: usize,
+        unit: f64,
     ) -> Option<Bounds> {
+        mechanism::reach(analysis, &self.displacements(analysis, frame, unit))
+    }
+
+    /// How each block of a frame is displaced, by its number; empty where all are drawn in their places.
+    pub(crate) fn displacements(
+        self,
+        analysis: &Analysis<'_>,
+        frame: usize,
+        unit: f64,
+    ) -> Vec<Option<Displacement>> {
         match self {
-            Kind::Forces => None,
+            Kind::Mechanism => displacement::displacements(analysis, frame, unit),
+            _ => Vec::new(),
         }
     }
 
@@ -77,6 +106,10 @@ impl Kind {
     ) -> Group {
         match self {
             Kind::Forces => panel::picture(stage, frame, view, camera),
+            Kind::Mechanism => mechanism::picture(stage, frame, view, camera),
+            Kind::Thrust => thrust::picture(stage, frame, view, camera),
+            Kind::Kernel => kernel::picture(stage, frame, view, camera),
+            Kind::Utilisation => utilisation::picture(stage, frame, view, camera),
         }
     }
 
@@ -84,6 +117,10 @@ impl Kind {
     pub(crate) fn entries(self, stage: &Stage<'_>, unit: f64) -> Vec<Entry> {
         match self {
             Kind::Forces => legend::entries(stage, unit),
+            Kind::Mechanism => mechanism::entries(stage),
+            Kind::Thrust => thrust::entries(stage, unit),
+            Kind::Kernel => kernel::entries(stage),
+            Kind::Utilisation => utilisation::entries(stage),
         }
     }
 
@@ -92,6 +129,10 @@ impl Kind {
         let (scene, found) = (stage.analysis.scene, &stage.analysis.frames[frame]);
         match self {
             Kind::Forces => verdict::reason(scene, found),
+            Kind::Mechanism => collapse::reason(stage.analysis, frame),
+            Kind::Thrust => thrust::reason(scene, found),
+            Kind::Kernel => kernel::reason(scene, found),
+            Kind::Utilisation => utilisation::reason(scene, found),
         }
     }
 }

@@ -33,14 +33,13 @@ struct Label {
     colour: Option<Colour>,
 }
 
-/// The labels of a frame.
-pub(crate) fn labels(pen: &Pen<'_>, view: Bounds) -> Group {
+/// The labels of a frame, clear of all `ink`.
+pub(crate) fn labels(pen: &Pen<'_>, view: Bounds, mut ink: Ink) -> Group {
     let mut group = Group::of_class("labels");
     let labels = wanted(pen);
     if labels.is_empty() {
         return group;
     }
-    let mut ink = ink(pen);
     let page = pen.camera.rect(view);
     let wishes: Vec<Wish> = labels.iter().map(|l| l.wish.clone()).collect();
     let places = place(&mut ink, page, &wishes);
@@ -104,12 +103,12 @@ fn name(pen: &Pen<'_>, id: BlockId) -> Label {
     let block = &pen.stage.analysis.scene.blocks[id.0];
     let size = name_size(pen);
     let wish = Wish {
-        anchor: pen.camera.place(block.centroid),
+        anchor: pen.camera.place(pen.moved(id, block.centroid)),
         from: 0.4 * pen.unit(),
         size: (0.0, 0.0),
         preferred: inside(&block.body.polygon, block.centroid)
             .into_iter()
-            .map(|p| pen.camera.place(p))
+            .map(|p| pen.camera.place(pen.moved(id, p)))
             .collect(),
         ease: 0.5 * size,
         roams: true,
@@ -122,7 +121,7 @@ fn robots(pen: &Pen<'_>) -> Vec<Label> {
     let size = 0.9 * name_size(pen);
     let named = |hold: &crate::scene::Hold| {
         let wish = Wish {
-            anchor: pen.camera.place(hold.at),
+            anchor: pen.camera.place(pen.moved(hold.block, hold.at)),
             from: pen.disc() + 2.0,
             size: (0.0, 0.0),
             preferred: Vec::new(),
@@ -221,8 +220,8 @@ fn inside(polygon: &Polygon, middle: Point) -> Vec<Point> {
     points
 }
 
-/// All that labels must keep clear of.
-fn ink(pen: &Pen<'_>) -> Ink {
+/// The ink of ground, blocks, plans, discs and arrows.
+pub(crate) fn ink(pen: &Pen<'_>) -> Ink {
     let mut ink = Ink::default();
     let scene = pen.stage.analysis.scene;
     let frame = &scene.frames[pen.number];
@@ -236,7 +235,10 @@ fn ink(pen: &Pen<'_>) -> Ink {
         ink.line(from, to, pen.line);
     }
     for hold in &frame.holds {
-        ink.disc(pen.camera.place(hold.at), pen.disc());
+        ink.disc(
+            pen.camera.place(pen.moved(hold.block, hold.at)),
+            pen.disc(),
+        );
     }
     let marks = &pen.stage.marks[pen.number];
     for arrow in &marks.arrows {

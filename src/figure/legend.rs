@@ -35,6 +35,8 @@ pub(crate) enum Entry {
     Amplitudes([String; 2], String),
     /// An arrow so many pixels long, so wide, of an amount.
     Scale(f64, f64, String),
+    /// A line of a colour, so many pixels wide, and what it means.
+    Line(Colour, f64, String),
     /// A sign so many pixels wide, drawn from the middle of its left end, and what it means.
     Sign(fn(PagePoint, &Theme) -> Vec<Item>, f64, String),
 }
@@ -68,6 +70,7 @@ impl Entry {
             Entry::Scale(length, width, amount) => {
                 length + HEAD_LENGTH * width + 7.0 + wide(amount)
             }
+            Entry::Line(_, _, meaning) => LINE + 7.0 + wide(meaning),
             Entry::Sign(_, width, meaning) => width + 7.0 + wide(meaning),
         }
     }
@@ -160,6 +163,11 @@ impl Entry {
                 items.push(words(beyond, what));
                 items
             }
+            Entry::Line(colour, width, meaning) => {
+                let line = Outline::line([at, at.moved(LINE, 0.0)]);
+                let path = Path::stroked(line, Stroke::new(*colour, *width));
+                vec![path.into(), words(LINE + 7.0, meaning)]
+            }
             Entry::Sign(sign, width, meaning) => {
                 let mut items = sign(at, theme);
                 items.push(words(width + 7.0, meaning));
@@ -228,26 +236,7 @@ pub(crate) fn entries(stage: &Stage<'_>, unit: f64) -> Vec<Entry> {
     } else if seen.len() > 1 && unit >= TEXTURE {
         entries.push(Entry::Colours(theme.arrows.clone()));
     }
-    let holds = |number: usize| {
-        scene
-            .frames
-            .iter()
-            .any(|f| f.holds.iter().any(|h| h.robot.0 == number))
-    };
-    let plans = |number: usize| {
-        scene
-            .frames
-            .iter()
-            .any(|f| f.plans.iter().any(|p| p.robot.0 == number))
-    };
-    for (number, robot) in scene.robots.iter().enumerate().take(8) {
-        if holds(number) || plans(number) {
-            entries.push(Entry::Robot(theme.robot(number), robot.id.clone()));
-        }
-    }
-    if let Some(number) = (0..scene.robots.len()).find(|n| plans(*n)) {
-        entries.push(Entry::Planned(theme.robot(number)));
-    }
+    entries.extend(robots(stage));
     let missing = stage.marks.iter().any(|m| {
         m.arrows.iter().any(|a| a.kind.is_failure())
             || m.turns
@@ -269,6 +258,33 @@ pub(crate) fn entries(stage: &Stage<'_>, unit: f64) -> Vec<Entry> {
                 "weight or largest normal force".into(),
             ),
         });
+    }
+    entries
+}
+
+/// The robots that hold or plan in any frame, and what a plan looks like.
+pub(crate) fn robots(stage: &Stage<'_>) -> Vec<Entry> {
+    let (scene, theme) = (stage.analysis.scene, &stage.options.theme);
+    let mut entries = Vec::new();
+    let holds = |number: usize| {
+        scene
+            .frames
+            .iter()
+            .any(|f| f.holds.iter().any(|h| h.robot.0 == number))
+    };
+    let plans = |number: usize| {
+        scene
+            .frames
+            .iter()
+            .any(|f| f.plans.iter().any(|p| p.robot.0 == number))
+    };
+    for (number, robot) in scene.robots.iter().enumerate().take(8) {
+        if holds(number) || plans(number) {
+            entries.push(Entry::Robot(theme.robot(number), robot.id.clone()));
+        }
+    }
+    if let Some(number) = (0..scene.robots.len()).find(|n| plans(*n)) {
+        entries.push(Entry::Planned(theme.robot(number)));
     }
     entries
 }

@@ -5,20 +5,29 @@
 //! here that a verdict rests on. One file per kind of figure: [`forces`], [`shapes`].
 
 mod arrow;
+mod bearing;
+mod collapse;
+mod displacement;
 mod fill;
 mod forces;
 mod freebody;
+mod funicular;
+mod joint;
+mod kernel;
 mod kind;
 mod label;
 mod layout;
 mod legend;
 mod mark;
+mod mechanism;
 mod option;
 mod panel;
 mod shapes;
 mod stage;
 mod strip;
+mod thrust;
 mod told;
+mod utilisation;
 mod verdict;
 mod view;
 mod words;

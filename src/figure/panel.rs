@@ -3,13 +3,15 @@
 use core::f64::consts::FRAC_PI_2;
 
 use super::arrow::{ForceArrow, TurnArrow, TurnKind};
+use super::displacement::Displacement;
 use super::label;
 use super::mark::FORCE_WIDTH;
 use super::stage::{DISC, MANY, Stage};
 use super::told;
 use crate::drawing::arrow::{head, straight, turning};
+use crate::drawing::placement::Ink;
 use crate::drawing::{Camera, Colour, Group, Item, Outline, PagePoint, Path, Stroke};
-use crate::geometry::{Bounds, Lattice, Vector};
+use crate::geometry::{Bounds, Lattice, Point, Vector};
 use crate::scene::{BlockId, Body, BodyId, Rgb};
 
 /// Radius of a turning arrow in unit edges: around a robot's disc.
@@ -19,23 +21,18 @@ const TURN: f64 = 0.46;
 pub(crate) const TEXTURE: f64 = 20.0;
 /// A block whose fill is brighter than this wears dark seams and letters.
 pub(crate) const BRIGHT: f64 = 0.6;
+/// How strongly a displaced block is coloured, 0 … 1.
+pub(crate) const MOVED: f64 = 0.38;
 /// Least width of a shaft, pixels, where blocks are large enough to bear it.
 const LEAST_SHAFT: f64 = 2.5;
 
 /// What the camera sees of frame `number`; ground is cut at the edge of `view`.
 pub(crate) fn picture(stage: &Stage<'_>, number: usize, view: Bounds, camera: &Camera) -> Group {
     let pen = Pen::of(stage, number, camera);
-    let many = stage.analysis.scene.frames[number].placed.len() > MANY;
+    let many = pen.many();
     let mut group = Group::of_class("picture");
     group.items.push(pen.ground(view).into());
-    group.items.push(
-        if many {
-            pen.blocks_by_colour()
-        } else {
-            pen.blocks()
-        }
-        .into(),
-    );
+    group.items.push(pen.blocks().into());
     group.items.push(pen.plans().into());
     group.items.push(pen.discs().into());
     group.items.push(
@@ -50,7 +47,9 @@ pub(crate) fn picture(stage: &Stage<'_>, number: usize, view: Bounds, camera: &C
         group.items.push(pen.heads().into());
     }
     group.items.push(pen.arrows(true).into());
-    group.items.push(label::labels(&pen, view).into());
+    group
+        .items
+        .push(label::labels(&pen, view, label::ink(&pen)).into());
     group
         .items
         .retain(|item| !matches!(item, Item::Group(g) if g.items.is_empty()));
@@ -85,21 +84,27 @@ pub(crate) fn seams(body: &Body, lattice: Option<Lattice>, camera: &Camera) -> O
 
 /// Outlines joined by colour, in the order in which the colours came.
 #[derive(Default)]
-struct ByColour(Vec<(Colour, Outline)>);
+pub(crate) struct ByColour(Vec<(Colour, Outline)>);
 
 impl ByColour {
-    fn add(&mut self, fill: Colour, outline: Outline) {
+    pub fn add(&mut self, fill: Colour, outline: Outline) {
         match self.0.iter_mut().find(|known| known.0 == fill) {
             Some(known) => known.1.extend(outline),
             None => self.0.push((fill, outline)),
         }
     }
 
-    fn paths(self, stroke: Option<Stroke>) -> impl Iterator<Item = Item> {
+    pub fn paths(self, stroke: Option<Stroke>) -> impl Iterator<Item = Item> {
         let path = move |(fill, outline)| Path {
             stroke: stroke.clone(),
             ..Path::filled(outline, fill)
         };
+        self.0.into_iter().map(path).map(Item::from)
+    }
+
+    /// The same as lines so many pixels wide.
+    pub fn lines(self, width: f64) -> impl Iterator<Item = Item> {
+        let path = move |(colour, outline)| Path::stroked(outline, Stroke::new(colour, width));
         self.0.into_iter().map(path).map(Item::from)
     }
 }
@@ -112,6 +117,8 @@ pub(crate) struct Pen<'a> {
     pub camera: &'a Camera,
     /// Place in the placing order of each block, by its number; `None` for a block that is not placed.
     places: Vec<Option<usize>>,
+    /// Where each block is drawn, by its number, where that is not its place in the scene.
+    displaced: Vec<Option<Displacement>>,
     /// Width of an outline, pixels.
     pub line: f64,
     /// Width of the seam around arrows, pixels.
@@ -130,6 +137,9 @@ impl<'a> Pen<'a> {
         }
         Pen {
             places,
+            displaced: stage
+                .kind
+                .displacements(stage.analysis, number, stage.unit),
             stage,
             number,
             camera,
@@ -167,8 +177,40 @@ impl<'a> Pen<'a> {
         group
     }
 
+    /// How a block is displaced, `None` where it is drawn in its place.
+    pub(crate) fn displacement(&self, id: BlockId) -> Option<&Displacement> {
+        self.displaced.get(id.0)?.as_ref()
+    }
+
+    /// Where a point of a block is drawn, metres.
+    pub(crate) fn moved(&self, id: BlockId, point: Point) -> Point {
+        self.displacement(id).map_or(point, |d| d.moved(point))
+    }
+
+    /// Whether the frame has so many blocks that its parts are joined by colour, without names.
+    pub(crate) fn many(&self) -> bool {
+        self.stage.analysis.scene.frames[self.number].placed.len() > MANY
+    }
+
+    /// A picture of plain parts: ground, these blocks, plans, robots, and the kind's own marks, labels clear of `ink`.
+    pub(crate) fn picture(&self, view: Bounds, blocks: Group, marks: Vec<Group>, ink: Ink) -> Group {
+        let mut group = Group::of_class("picture");
+        let parts = [self.ground(view), blocks, self.plans(), self.discs()];
+        let parts = parts.into_iter().chain(marks);
+        group.items.extend(parts.map(Item::from));
+        group.items.push(label::labels(self, view, ink).into());
+        group
+            .items
+            .retain(|item| !matches!(item, Item::Group(g) if g.items.is_empty()));
+        group
+    }
+
     fn fill(&self, place: usize, id: BlockId) -> Colour {
         let scene = self.stage.analysis.scene;
+        if self.displacement(id).is_some() {
+            let theme = &self.stage.options.theme;
+            return theme.page.mixed(theme.motion, MOVED);
+        }
         match scene.blocks[id.0].body.fill {
             Some(fill) => colour(fill),
             None if !self.stage.kind.tells_amplitudes() => self.stage.options.theme.block,
@@ -187,7 +229,10 @@ impl<'a> Pen<'a> {
         let placed = &scene.frames[self.number].placed;
         let block = placed
             .iter()
-            .position(|id| scene.blocks[id.0].body.polygon.contains(at));
+            .position(|id| {
+                let at = self.displacement(*id).map_or(at, |d| d.back(at));
+                scene.blocks[id.0].body.polygon.contains(at)
+            });
         let ground = || scene.ground.iter().find(|g| g.body.polygon.contains(at));
         match block {
             Some(place) => self.fill(place, placed[place]),
@@ -221,11 +266,18 @@ impl<'a> Pen<'a> {
         Stroke::new(fill.mixed(towards, 0.22), 0.6 * self.line)
     }
 
+    /// The blocks that are drawn in their places.
     pub(crate) fn blocks(&self) -> Group {
+        if self.many() {
+            return self.blocks_by_colour();
+        }
         let (scene, theme) = (self.stage.analysis.scene, &self.stage.options.theme);
         let frame = &scene.frames[self.number];
         let mut group = Group::of_class("blocks");
         for (place, id) in frame.placed.iter().enumerate() {
+            if self.displacement(*id).is_some() {
+                continue;
+            }
             let block = &scene.blocks[id.0];
             let fill = self.fill(place, *id);
             let outline = self.camera.polygon(&block.body.polygon);
@@ -246,12 +298,15 @@ impl<'a> Pen<'a> {
     }
 
     /// As [`Pen::blocks`] for scenes of very many blocks: one path for all blocks of a colour.
-    pub(crate) fn blocks_by_colour(&self) -> Group {
+    fn blocks_by_colour(&self) -> Group {
         let (scene, theme) = (self.stage.analysis.scene, &self.stage.options.theme);
         let frame = &scene.frames[self.number];
         let mut group = Group::of_class("blocks").titled(format!("{} blocks", frame.placed.len()));
         let mut colours = ByColour::default();
         for (place, id) in frame.placed.iter().enumerate() {
+            if self.displacement(*id).is_some() {
+                continue;
+            }
             let outline = self.camera.polygon(&scene.blocks[id.0].body.polygon);
             colours.add(self.fill(place, *id), outline);
         }
@@ -283,7 +338,8 @@ impl<'a> Pen<'a> {
         let (scene, theme) = (self.stage.analysis.scene, &self.stage.options.theme);
         let mut group = Group::of_class("robots");
         for hold in &scene.frames[self.number].holds {
-            let disc = Outline::circle(self.camera.place(hold.at), self.disc());
+            let at = self.moved(hold.block, hold.at);
+            let disc = Outline::circle(self.camera.place(at), self.disc());
             let title = format!(
                 "Robot {} holds block {}",
                 scene.robots[hold.robot.0].id, scene.blocks[hold.block.0].id

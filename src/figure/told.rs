@@ -4,10 +4,15 @@ use super::arrow::{ArrowKind, ForceArrow, TurnArrow, TurnKind};
 use super::fill::FillScale;
 use super::stage::Stage;
 use super::words::{force, quantity};
-use crate::scene::{Block, BodyId};
+use crate::analysis::Motion;
+use crate::scene::{Block, BodyId, Scene};
 
 /// A block's numbers in words.
 pub(crate) fn block(stage: &Stage<'_>, frame: usize, place: usize, block: &Block) -> String {
+    let weight = quantity(block.weight, "N");
+    if !stage.kind.tells_amplitudes() {
+        return format!("weight {weight}");
+    }
     let share = stage.fills.shares[frame][place];
     let fill = match stage.fills.scale {
         FillScale::Limit(limit) => {
@@ -19,16 +24,30 @@ pub(crate) fn block(stage: &Stage<'_>, frame: usize, place: usize, block: &Block
         }
         FillScale::Largest(largest) => format!("colour: {}", quantity(share * largest, "N")),
     };
-    format!("weight {}, {fill}", quantity(block.weight, "N"))
+    format!("weight {weight}, {fill}")
+}
+
+/// The two bodies of an interface: `2 and the ground`.
+pub(crate) fn pair(scene: &Scene, bodies: [BodyId; 2]) -> String {
+    let [a, b] = bodies.map(|id| match id {
+        BodyId::Ground(_) => "the ground",
+        BodyId::Block(_) => scene.name(id),
+    });
+    format!("{a} and {b}")
+}
+
+/// A body: `block 2`, `the ground`.
+pub(crate) fn named(scene: &Scene, body: BodyId) -> String {
+    match body {
+        BodyId::Ground(_) => "the ground".to_owned(),
+        BodyId::Block(_) => format!("block {}", scene.name(body)),
+    }
 }
 
 /// An arrow's numbers in words.
 pub(crate) fn arrow(stage: &Stage<'_>, arrow: &ForceArrow) -> String {
     let scene = stage.analysis.scene;
-    let named = |id: BodyId| match id {
-        BodyId::Ground(_) => "the ground".to_owned(),
-        BodyId::Block(_) => format!("block {}", scene.name(id)),
-    };
+    let named = |id: BodyId| named(scene, id);
     let robot = |id: crate::scene::RobotId| format!("robot {}", scene.robots[id.0].id);
     let (on, amount) = (named(arrow.on), force(arrow.force));
     let torque = quantity(arrow.force.norm() * stage.unit, "N·m");
@@ -82,4 +101,20 @@ pub(crate) fn turn(stage: &Stage<'_>, turn: &TurnArrow) -> String {
             )
         }
     }
+}
+
+/// A block's motion in words.
+pub(crate) fn motion(scene: &Scene, motion: &Motion) -> String {
+    let name = &scene.blocks[motion.block.0].id;
+    let degrees = libm::atan2(motion.velocity.y, motion.velocity.x).to_degrees();
+    let degrees = (degrees.round() + 360.0) % 360.0;
+    let turning = motion.spin.abs().to_degrees();
+    let sense = if motion.spin > 0.0 {
+        "anticlockwise"
+    } else {
+        "clockwise"
+    };
+    format!(
+        "Block {name} begins to move at {degrees:.0}°, turning {turning:.3}° {sense} per metre of the fastest point's way"
+    )
 }

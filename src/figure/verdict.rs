@@ -1,5 +1,6 @@
 //! The verdict at a glance: a mark, a word, and what is missing in a sentence. Never colour alone.
 
+use super::told;
 use super::words::{listed, quantity};
 use crate::analysis::{Failure, FrameAnalysis, Verdict};
 use crate::drawing::text::NO_BREAK;
@@ -88,7 +89,7 @@ pub(crate) fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
     sentences.join("; ")
 }
 
-fn shortened(mut parts: Vec<String>, most: usize) -> Vec<String> {
+pub(crate) fn shortened(mut parts: Vec<String>, most: usize) -> Vec<String> {
     if parts.len() > most {
         let left = parts.len() - most;
         parts.truncate(most);
@@ -108,11 +109,7 @@ fn amount(failure: &Failure) -> f64 {
 
 /// What is missing, in words.
 pub(crate) fn missing(scene: &Scene, failure: &Failure) -> String {
-    let named = |id: BodyId| match id {
-        BodyId::Ground(_) => "the ground",
-        BodyId::Block(_) => scene.name(id),
-    };
-    let pair = |[a, b]: &[BodyId; 2]| format!("{} and {}", named(*a), named(*b));
+    let pair = |bodies: &[BodyId; 2]| told::pair(scene, *bodies);
     match failure {
         Failure::Tension { bodies, force, .. } => {
             format!(

@@ -1,5 +1,6 @@
 //! Numbers with units and directions, as a person writes them.
 
+use crate::drawing::text::NO_BREAK;
 use crate::geometry::Vector;
 
 /// An amount with three significant digits and its unit, with a prefix that keeps the number between 1 and 1000.
@@ -73,6 +74,30 @@ pub(crate) fn force(force: Vector) -> String {
     format!("{} at {degrees:.0}°", quantity(force.norm(), "N"))
 }
 
+/// A share in whole percent: `97 %`. What is less than all of it is never called 100 %, what is more than nothing never 0 %.
+pub(crate) fn percent(share: f64) -> String {
+    let rounded = (100.0 * share).round();
+    let space = NO_BREAK;
+    match rounded {
+        _ if share >= ALL => format!("100{space}%"),
+        r if r >= 100.0 => format!("over 99{space}%"),
+        r if r <= 0.0 && share > 1.0 - ALL => format!("under 1{space}%"),
+        r => format!("{:.0}{space}%", r.max(0.0)),
+    }
+}
+
+/// A share that is no less than this is all of it: what is left is noise of the solution.
+pub(crate) const ALL: f64 = 1.0 - 1e-6;
+
+/// `1 hinge`, `2 hinges`.
+pub(crate) fn counted(count: usize, what: &str) -> String {
+    if count == 1 {
+        format!("1 {what}")
+    } else {
+        format!("{count} {what}s")
+    }
+}
+
 /// The largest of 1, 2 and 5 times a power of ten that is at most `value`, 0 for none.
 pub(crate) fn round_below(value: f64) -> f64 {
     if !(value > 0.0 && value.is_finite()) {
@@ -133,6 +158,16 @@ mod tests {
         for (value, expected) in cases {
             assert_eq!(quantity(value, "N"), expected);
         }
+    }
+
+    #[test]
+    fn only_all_of_it_is_100_percent() {
+        let plain = |share: f64| percent(share).replace(NO_BREAK, " ");
+        assert_eq!(plain(1.0 - 1e-9), "100 %");
+        assert_eq!(plain(0.9999), "over 99 %");
+        assert_eq!(plain(0.974), "97 %");
+        assert_eq!(plain(1e-4), "under 1 %");
+        assert_eq!((plain(0.0), plain(1e-12)), ("0 %".into(), "0 %".into()));
     }
 
     #[test]

@@ -1,0 +1,37 @@
+//! [`Bearing`]: what an interface bears, and how near that is to what it can: to its edge, and to sliding.
+
+use crate::analysis::{Contact, FrameAnalysis};
+use crate::interface::ContactKind;
+use crate::scene::Scene;
+
+/// Forces below this share of the largest are noise of the solution.
+const NOISE: f64 = 1e-6;
+
+/// What an interface bears.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Bearing {
+    /// The force that presses it, N, above 0.
+    pub pressed: f64,
+    /// How far its resultant is from the middle, as a share of the way to the end of the safe stretch; `None` where
+    /// that stretch is a point.
+    pub eccentricity: Option<f64>,
+    /// Friction used of friction available; `None` where none is available.
+    pub friction: Option<f64>,
+}
+
+/// What each contact of a frame bears, `None` where it bears nothing.
+pub(crate) fn bearings(scene: &Scene, found: &FrameAnalysis) -> Vec<Option<Bearing>> {
+    let pressed = |c: &Contact| c.normal_forces.iter().sum::<f64>();
+    let largest = found.contacts.iter().map(pressed).fold(0.0, f64::max);
+    let bearing = |contact: &Contact| {
+        let pressed = pressed(contact);
+        let [one, other] = contact.normal_forces;
+        let point = contact.interface.kind == ContactKind::Corner || scene.kernel >= 1.0;
+        (pressed > NOISE * largest).then(|| Bearing {
+            pressed,
+            eccentricity: (!point).then(|| (one - other).abs() / pressed),
+            friction: (contact.interface.friction > 0.0).then_some(contact.friction_used),
+        })
+    };
+    found.contacts.iter().map(bearing).collect()
+}

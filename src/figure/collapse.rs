@@ -1,0 +1,206 @@
+//! [`reason`]: a mechanism in words: which blocks turn about what, which slide, and how many hinges there are.
+
+use std::collections::BTreeMap;
+
+use super::displacement::moving;
+use super::joint::{Joint, joints};
+use super::words::{counted, listed};
+use crate::analysis::{Analysis, Motion, Verdict};
+use crate::drawing::text::NO_BREAK;
+use crate::scene::{BlockId, BodyId};
+
+/// So many rigid bodies are told one by one.
+const MOST_TOLD: usize = 3;
+/// So many blocks of a body are named.
+const MOST_NAMED: usize = 4;
+/// A body whose turning moves it by less than this share of its fastest point's speed merely shifts.
+const TURNS: f64 = 0.02;
+
+/// What is said below a panel of a mechanism.
+pub(crate) fn reason(analysis: &Analysis<'_>, frame: usize) -> String {
+    let found = &analysis.frames[frame];
+    match found.verdict {
+        Verdict::Stable => "there is no mechanism".into(),
+        Verdict::Undecided => format!("no mechanism is proved: {}", found.doubt),
+        Verdict::Unstable => collapse(analysis, frame),
+    }
+}
+
+fn collapse(analysis: &Analysis<'_>, frame: usize) -> String {
+    let joints = joints(analysis, frame);
+    let bodies = bodies(analysis, frame, &joints);
+    let teller = Teller {
+        analysis,
+        frame,
+        joints: &joints,
+        bodies: &bodies,
+    };
+    let hinges = joints.iter().filter(|j| j.hinge.is_some()).count();
+    let slips = joints.iter().filter(|j| j.slip != 0.0).count();
+    let counts: Vec<String> = [(hinges, "hinge"), (slips, "sliding interface")]
+        .into_iter()
+        .filter(|c| c.0 > 0)
+        .map(|(count, what)| counted(count, what))
+        .collect();
+    if bodies.len() <= MOST_TOLD {
+        let mut told: Vec<String> = bodies.iter().map(|body| teller.body(body)).collect();
+        if bodies.len() > 1 && !counts.is_empty() {
+            told.push(listed(&counts));
+        }
+        return told.join("; ");
+    }
+    let moving: usize = bodies.iter().map(Vec::len).sum();
+    let blocks = analysis.scene.frames[frame].placed.len();
+    let how = if counts.is_empty() {
+        String::new()
+    } else {
+        format!(" on {}", listed(&counts))
+    };
+    let bodies = bodies.len();
+    format!("{moving} of {blocks} blocks move as {bodies} rigid bodies{how}")
+}
+
+/// The blocks that move, those that stay together as one body; in the order of their first blocks.
+fn bodies(analysis: &Analysis<'_>, frame: usize, joints: &[Joint]) -> Vec<Vec<Motion>> {
+    let found = &analysis.frames[frame];
+    let motions: BTreeMap<BlockId, Motion> =
+        moving(analysis, frame).map(|m| (m.block, *m)).collect();
+    let mut parted = vec![false; found.contacts.len()];
+    for joint in joints {
+        parted[joint.contact] = true;
+    }
+    let mut next: BTreeMap<BlockId, Vec<BlockId>> = BTreeMap::new();
+    for (contact, _) in found.contacts.iter().zip(parted).filter(|c| !c.1) {
+        if let [BodyId::Block(a), BodyId::Block(b)] = contact.interface.bodies {
+            next.entry(a).or_default().push(b);
+            next.entry(b).or_default().push(a);
+        }
+    }
+    let mut seen: Vec<bool> = vec![false; analysis.scene.blocks.len()];
+    let mut bodies = Vec::new();
+    for first in motions.keys() {
+        if seen[first.0] {
+            continue;
+        }
+        let (mut body, mut left) = (Vec::new(), vec![*first]);
+        while let Some(block) = left.pop() {
+            let Some(motion) = motions.get(&block).filter(|_| !seen[block.0]) else {
+                continue;
+            };
+            seen[block.0] = true;
+            body.push(*motion);
+            left.extend(next.get(&block).into_iter().flatten());
+        }
+        body.sort_by_key(|m| m.block);
+        bodies.push(body);
+    }
+    bodies
+}
+
+struct Teller<'a> {
+    analysis: &'a Analysis<'a>,
+    frame: usize,
+    joints: &'a [Joint],
+    bodies: &'a [Vec<Motion>],
+}
+
+impl Teller<'_> {
+    /// What one rigid body does: `blocks 4 and 5 slide on block 3`.
+    fn body(&self, body: &[Motion]) -> String {
+        let scene = self.analysis.scene;
+        let names: Vec<String> = body
+            .iter()
+            .map(|m| scene.blocks[m.block.0].id.clone())
+            .collect();
+        let subject = match names.len() {
+            1 => format!("block{NO_BREAK}{}", names[0]),
+            n if n <= MOST_NAMED => format!("blocks {}", listed(&names)),
+            n => format!("{n} blocks"),
+        };
+        let (turns, slides, falls) = if body.len() == 1 {
+            ("turns", "slides", "falls")
+        } else {
+            ("turn", "slide", "fall")
+        };
+        let fastest = body
+            .iter()
+            .map(|m| m.fastest(scene))
+            .fold(0.0, f64::max);
+        let slip = self.beside(body).find(|j| j.0.slip != 0.0);
+        let on = |joint: Option<(&Joint, BodyId)>| match joint {
+            Some((_, body)) => format!(" on {}", self.named(body)),
+            None => String::new(),
+        };
+        if !self.turning(body, fastest) {
+            return match slip {
+                Some(_) => format!("{subject} {slides}{}", on(slip)),
+                None => format!("{subject} {falls}"),
+            };
+        }
+        if let Some(robot) = self.pinned(body, fastest) {
+            return format!("{subject} {turns} about the grip of robot{NO_BREAK}{robot}");
+        }
+        let hinge = self.beside(body).find(|(joint, other)| {
+            let still = !self.moves(*other);
+            still && joint.slip == 0.0 && joint.hinge.is_some()
+        });
+        match (hinge, slip) {
+            (Some((_, other)), _) => {
+                format!("{subject} {turns} about a corner on {}", self.named(other))
+            }
+            (None, Some(_)) => format!("{subject} {turns} and {slides}{}", on(slip)),
+            (None, None) => format!("{subject} {turns}"),
+        }
+    }
+
+    /// Whether turning is a part of a body's motion that is seen.
+    fn turning(&self, body: &[Motion], fastest: f64) -> bool {
+        let scene = self.analysis.scene;
+        let turned = |m: &Motion| {
+            let block = &scene.blocks[m.block.0];
+            let corners = block.body.polygon.outline().iter();
+            let reach = corners.map(|p| (p - block.centroid).norm());
+            m.spin.abs() * reach.fold(0.0, f64::max)
+        };
+        body.iter().any(|m| turned(m) > TURNS * fastest)
+    }
+
+    /// The joints of a body with others, and those others; bodies that stay first.
+    fn beside(&self, body: &[Motion]) -> impl Iterator<Item = (&Joint, BodyId)> {
+        let contacts = &self.analysis.frames[self.frame].contacts;
+        let within = |id: BodyId| matches!(id, BodyId::Block(b) if body.iter().any(|m| m.block == b));
+        let mut found: Vec<(&Joint, BodyId)> = Vec::new();
+        for joint in self.joints {
+            let [a, b] = contacts[joint.contact].interface.bodies;
+            match (within(a), within(b)) {
+                (true, false) => found.push((joint, b)),
+                (false, true) => found.push((joint, a)),
+                _ => {}
+            }
+        }
+        found.sort_by_key(|(_, other)| self.moves(*other));
+        found.into_iter()
+    }
+
+    fn moves(&self, body: BodyId) -> bool {
+        matches!(body, BodyId::Block(b) if self.bodies.iter().flatten().any(|m| m.block == b))
+    }
+
+    fn named(&self, body: BodyId) -> String {
+        match body {
+            BodyId::Ground(_) => "the ground".into(),
+            BodyId::Block(_) => format!("block{NO_BREAK}{}", self.analysis.scene.name(body)),
+        }
+    }
+
+    /// The robot about whose grip a body turns.
+    fn pinned(&self, body: &[Motion], fastest: f64) -> Option<&str> {
+        let scene = self.analysis.scene;
+        let robots = &self.analysis.frames[self.frame].robots;
+        let holding = robots.iter().find(|robot| {
+            body.iter()
+                .any(|m| m.block == robot.block && m.at(scene, robot.at).norm() < TURNS * fastest)
+        })?;
+        Some(&scene.robots[holding.robot.0].id)
+    }
+}

@@ -1,0 +1,251 @@
+//! The kernel: the stretch of each interface within which its resultant is safe, and where in it the resultant sits.
+
+use super::bearing::{Bearing, bearings};
+use super::label;
+use super::legend::{self, Entry};
+use super::panel::{ByColour, Pen};
+use super::stage::Stage;
+use super::told;
+use super::verdict;
+use super::words::{ALL, percent, quantity};
+use crate::analysis::{Contact, FrameAnalysis, Verdict};
+use crate::drawing::{
+    Camera, Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme,
+};
+use crate::geometry::Bounds;
+use crate::scene::Scene;
+
+/// Width of a safe stretch in unit edges; and between which widths it stays, pixels.
+const BOLD: (f64, f64, f64) = (0.085, 1.6, 4.6);
+
+/// What the camera sees of a frame, its safe stretches and where resultants sit.
+pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Camera) -> Group {
+    let pen = Pen::of(stage, frame, camera);
+    let found = &stage.analysis.frames[frame];
+    let bold = bold(pen.unit());
+    let mut ink = label::ink(&pen);
+    for contact in &found.contacts {
+        let [from, to] = contact.interface.ends.map(|p| camera.place(p));
+        ink.line(from, to, bold + 1.0);
+    }
+    let stretches = stretches(&pen, found);
+    let dots = dots(&pen, found, &mut |at| ink.disc(at, dot(pen.unit()) + 1.0));
+    pen.picture(view, pen.blocks(), vec![stretches, dots], ink)
+}
+
+/// What is said below a frame's verdict.
+pub(crate) fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
+    match found.verdict {
+        Verdict::Stable => {}
+        Verdict::Unstable => {
+            let missing = verdict::reason(scene, found);
+            return format!("no resultants, for nothing balances it; {missing}");
+        }
+        Verdict::Undecided => {
+            return format!("no resultants; {}", verdict::reason(scene, found));
+        }
+    }
+    if found.contacts.is_empty() {
+        return "no interfaces".into();
+    }
+    let bearings = bearings(scene, found);
+    let share = |b: &Option<Bearing>| b.and_then(|b| b.eccentricity);
+    let mut nearest: Option<(f64, &Contact)> = None;
+    for (bearing, contact) in bearings.iter().zip(&found.contacts) {
+        if let Some(share) = share(bearing).filter(|s| nearest.is_none_or(|n| *s > n.0)) {
+            nearest = Some((share, contact));
+        }
+    }
+    let Some((most, contact)) = nearest else {
+        return "every safe stretch is a point".into();
+    };
+    let at_end = bearings.iter().filter_map(share).filter(|s| *s >= ALL).count();
+    if at_end > 1 {
+        return format!("in the balance shown {at_end} resultants sit at an end of the safe stretch");
+    }
+    let pair = told::pair(scene, contact.interface.bodies);
+    if at_end == 1 {
+        return format!(
+            "in the balance shown the resultant between {pair} sits at the end of the safe stretch"
+        );
+    }
+    let most = percent(most);
+    format!(
+        "nearest to an edge: between {pair} the resultant sits at {most} of the way from the middle to the end of the safe stretch"
+    )
+}
+
+/// What the signs mean, those that occur.
+pub(crate) fn entries(stage: &Stage<'_>) -> Vec<Entry> {
+    let scene = stage.analysis.scene;
+    let frames = &stage.analysis.frames;
+    let mut entries = Vec::new();
+    if frames.iter().any(|f| !f.contacts.is_empty()) {
+        let safe = "safe stretch of an interface".to_owned();
+        entries.push(Entry::Sign(safe_sign, WIDE, safe));
+        if scene.kernel > 0.0 {
+            let unsafe_ = format!("unsafe, for the kernel of {}", scene.kernel);
+            entries.push(Entry::Sign(unsafe_sign, WIDE, unsafe_));
+        }
+    }
+    let standing = frames.iter().filter(|f| f.verdict == Verdict::Stable);
+    let bearings: Vec<Bearing> = standing
+        .flat_map(|f| bearings(scene, f))
+        .flatten()
+        .collect();
+    let (ends, within): (Vec<&Bearing>, Vec<&Bearing>) = bearings.iter().partition(|b| at_end(b));
+    if !within.is_empty() {
+        entries.push(Entry::Sign(within_sign, 9.0, "resultant".into()));
+    }
+    if !ends.is_empty() {
+        let what = "resultant at the end of the safe stretch".to_owned();
+        entries.push(Entry::Sign(end_sign, 11.0, what));
+    }
+    entries.extend(legend::robots(stage));
+    entries
+}
+
+/// Whether a resultant sits at an end of its safe stretch.
+fn at_end(bearing: &Bearing) -> bool {
+    bearing.eccentricity.is_some_and(|share| share >= ALL)
+}
+
+fn bold(unit: f64) -> f64 {
+    let (width, least, most) = BOLD;
+    (width * unit).clamp(least, most)
+}
+
+/// Radius of a dot, pixels.
+fn dot(unit: f64) -> f64 {
+    0.5 * bold(unit) + (0.045 * unit).clamp(0.8, 2.4)
+}
+
+fn rest(theme: &Theme, bold: f64) -> Stroke {
+    Stroke::new(theme.falls, 0.45 * bold).dashed([1.1 * bold, 0.9 * bold]).mitred()
+}
+
+fn stretches(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
+    let (scene, theme) = (pen.stage.analysis.scene, &pen.stage.options.theme);
+    let bold = bold(pen.unit());
+    let mut group = Group::of_class("interfaces");
+    let (mut all_safe, mut all_rests) = (Outline::default(), Outline::default());
+    let casing = |outline: Outline| {
+        Path::stroked(outline, Stroke::new(theme.page, 0.45 * bold + 2.0)).with_opacity(0.8)
+    };
+    for contact in &found.contacts {
+        let place = |points: [crate::geometry::Point; 2]| points.map(|p| pen.camera.place(p));
+        let ends = place(contact.interface.ends);
+        let points = place(contact.application_points);
+        let mut rests = Outline::default();
+        if scene.kernel > 0.0 {
+            for (end, point) in ends.into_iter().zip(points) {
+                rests.extend(Outline::line([end, point]));
+            }
+        }
+        // A stretch that is a point shows as a dot, for the ends of lines are round.
+        let safe = Outline::line(points);
+        if pen.many() {
+            all_safe.extend(safe);
+            all_rests.extend(rests);
+            continue;
+        }
+        let length = contact.interface.length();
+        let pair = told::pair(scene, contact.interface.bodies);
+        let title = format!(
+            "Between {pair}: {} of {} safe",
+            quantity((1.0 - scene.kernel) * length, "m"),
+            quantity(length, "m")
+        );
+        let mut drawn = Group::of_class("interface").titled(title);
+        if !rests.segments.is_empty() {
+            drawn = drawn
+                .with(casing(rests.clone()))
+                .with(Path::stroked(rests, rest(theme, bold)));
+        }
+        let stroke = Stroke::new(theme.safe, bold);
+        group
+            .items
+            .push(drawn.with(Path::stroked(safe, stroke)).into());
+    }
+    if !all_rests.segments.is_empty() {
+        let path = Path::stroked(all_rests, rest(theme, bold));
+        group.items.push(path.into());
+    }
+    if !all_safe.segments.is_empty() {
+        let path = Path::stroked(all_safe, Stroke::new(theme.safe, bold));
+        group.items.push(path.into());
+    }
+    group
+}
+
+/// A mark where each resultant sits, in a frame that stands.
+fn dots(pen: &Pen<'_>, found: &FrameAnalysis, ink: &mut dyn FnMut(PagePoint)) -> Group {
+    let (scene, theme) = (pen.stage.analysis.scene, &pen.stage.options.theme);
+    let mut group = Group::of_class("resultants");
+    if found.verdict != Verdict::Stable {
+        return group;
+    }
+    let radius = dot(pen.unit());
+    let mut joined = ByColour::default();
+    for (contact, bearing) in found.contacts.iter().zip(bearings(scene, found)) {
+        let Some(bearing) = bearing else { continue };
+        let at = pen.camera.place(contact.resultant.at);
+        ink(at);
+        let (fill, outline) = sign(&bearing, at, radius, theme);
+        if pen.many() {
+            joined.add(fill, outline);
+            continue;
+        }
+        let pair = told::pair(scene, contact.interface.bodies);
+        let amount = quantity(contact.resultant.force.norm(), "N");
+        let place = bearing.eccentricity.map_or(String::new(), |share| {
+            let share = percent(share);
+            format!(", {share} of the way from the middle to the end of the safe stretch")
+        });
+        let title = format!("Resultant between {pair}: {amount}{place}");
+        let path = Path::filled(outline, fill).cased(theme.page, 0.28 * radius);
+        group
+            .items
+            .push(Group::of_class("resultant").titled(title).with(path).into());
+    }
+    group.items.extend(joined.paths(None));
+    group
+}
+
+/// A disc within a safe stretch, a diamond at its end.
+fn sign(bearing: &Bearing, at: PagePoint, radius: f64, theme: &Theme) -> (Colour, Outline) {
+    if at_end(bearing) {
+        let r = 1.35 * radius;
+        let corners = [(0.0, -r), (r, 0.0), (0.0, r), (-r, 0.0)];
+        let diamond = Outline::ring(corners.map(|(x, y)| at.moved(x, y)));
+        return (theme.falls, diamond);
+    }
+    (theme.ink, Outline::circle(at, radius))
+}
+
+const WIDE: f64 = 26.0;
+
+fn safe_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    let line = Outline::line([at, at.moved(WIDE, 0.0)]);
+    vec![Path::stroked(line, Stroke::new(theme.safe, 4.0)).into()]
+}
+
+fn unsafe_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    let line = Outline::line([at, at.moved(WIDE, 0.0)]);
+    vec![Path::stroked(line, rest(theme, 4.0)).into()]
+}
+
+fn within_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    let outline = Outline::circle(at.moved(4.5, 0.0), 3.6);
+    vec![Path::filled(outline, theme.ink).into()]
+}
+
+fn end_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    let end = Bearing {
+        pressed: 1.0,
+        eccentricity: Some(1.0),
+        friction: None,
+    };
+    let (fill, outline) = sign(&end, at.moved(5.5, 0.0), 3.8, theme);
+    vec![Path::filled(outline, fill).into()]
+}

@@ -1,0 +1,273 @@
+//! The mechanism: where a structure falls, every block where its motion leads, above its own outline; hinges and slips.
+//!
+//! Blocks go along their velocities as finite rigid motions, so they keep their shapes; how far is for the eye. Where
+//! one slides, the motion that proves the fall also lifts it, by μ per metre of way: only so can nothing object to it.
+
+use super::displacement::Displacement;
+use super::joint::{Joint, joints};
+use super::label;
+use super::legend::{self, Entry};
+use super::panel::{MOVED, Pen};
+use super::stage::Stage;
+use super::told;
+use super::words::quantity;
+use crate::analysis::{Analysis, Contact, Motion, Verdict};
+use crate::drawing::placement::Ink;
+use crate::drawing::{Camera, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Theme};
+use crate::geometry::{Bounds, Point, Vector};
+use crate::scene::{BlockId, BodyId};
+
+/// Radius of a hinge's ring in unit edges.
+const RING: f64 = 0.085;
+/// Length of a half-arrow in unit edges, and how far it lies from the interface.
+const ARROW: (f64, f64) = (0.5, 0.11);
+/// Length of a half-arrow's barb in parts of the arrow.
+const BARB: f64 = 0.34;
+
+/// A box around all blocks that move, where they are drawn.
+pub(crate) fn reach(analysis: &Analysis<'_>, displaced: &[Option<Displacement>]) -> Option<Bounds> {
+    let blocks = displaced.iter().zip(&analysis.scene.blocks);
+    let moved = blocks.filter_map(|(displacement, block)| Some((displacement.as_ref()?, block)));
+    Bounds::of(moved.flat_map(|(displacement, block)| {
+        let outline = block.body.polygon.outline().iter();
+        outline.map(|p| displacement.moved(*p))
+    }))
+}
+
+/// What the camera sees of a frame and its mechanism.
+pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Camera) -> Group {
+    let pen = Pen::of(stage, frame, camera);
+    let mut ink = label::ink(&pen);
+    let mut blocks = pen.blocks();
+    blocks.items.extend(ghosts(&pen));
+    blocks.items.extend(displaced(&pen));
+    for (id, _) in moved(&pen) {
+        for edge in stage.analysis.scene.blocks[id.0].body.polygon.edges() {
+            let [from, to] = [edge.from, edge.to].map(|p| camera.place(pen.moved(id, p)));
+            ink.line(from, to, pen.line);
+        }
+    }
+    let mut slips = Group::of_class("slips");
+    let mut hinges = Group::of_class("hinges");
+    if stage.analysis.frames[frame].verdict == Verdict::Unstable {
+        for joint in joints(stage.analysis, frame) {
+            let contact = &stage.analysis.frames[frame].contacts[joint.contact];
+            if joint.slip != 0.0 {
+                slips.items.push(slip(&pen, contact, &joint, &mut ink));
+            }
+            if let Some(at) = joint.hinge {
+                hinges.items.push(hinge(&pen, contact, at, &mut ink));
+            }
+        }
+    }
+    pen.picture(view, blocks, vec![slips, hinges], ink)
+}
+
+/// What the signs of a mechanism mean, those that occur.
+pub(crate) fn entries(stage: &Stage<'_>) -> Vec<Entry> {
+    let analysis = stage.analysis;
+    let falling = (0..analysis.frames.len())
+        .filter(|f| analysis.frames[*f].verdict == Verdict::Unstable);
+    let mut entries = Vec::new();
+    let joints: Vec<Joint> = falling.clone().flat_map(|f| joints(analysis, f)).collect();
+    if falling.clone().any(|f| !analysis.frames[f].mechanism.is_empty()) {
+        let stood = "where it stands now".to_owned();
+        entries.push(Entry::Sign(ghost_sign, SIGN, stood));
+        let goes = "how it begins to move, enlarged".to_owned();
+        entries.push(Entry::Sign(moved_sign, SIGN, goes));
+    }
+    if joints.iter().any(|j| j.hinge.is_some()) {
+        entries.push(Entry::Sign(ring_sign, 10.0, "hinge".into()));
+    }
+    if joints.iter().any(|j| j.slip != 0.0) {
+        let slides = "slides, and lifts by its friction coefficient".to_owned();
+        entries.push(Entry::Sign(slip_sign, 26.0, slides));
+    }
+    entries.extend(legend::robots(stage));
+    entries
+}
+
+/// The motions of the blocks that are drawn displaced.
+fn moved<'a>(pen: &'a Pen<'_>) -> impl Iterator<Item = (BlockId, &'a Motion)> {
+    let motions = pen.stage.analysis.frames[pen.number].mechanism.iter();
+    motions
+        .map(|m| (m.block, m))
+        .filter(|m| pen.displacement(m.0).is_some())
+}
+
+/// Outlines of the blocks that move, where they stand: dashed.
+fn ghosts(pen: &Pen<'_>) -> Option<Item> {
+    let (scene, theme) = (pen.stage.analysis.scene, &pen.stage.options.theme);
+    let mut outline = Outline::default();
+    for (id, _) in moved(pen) {
+        outline.extend(pen.camera.polygon(&scene.blocks[id.0].body.polygon));
+    }
+    let dash = [3.2 * pen.line, 2.4 * pen.line];
+    let stroke = Stroke::new(theme.outline, 0.8 * pen.line).dashed(dash);
+    let path = Path::stroked(outline, stroke).with_opacity(0.75);
+    let ghosts = Group::of_class("ghosts").titled("Where the blocks that move stand now");
+    (!path.outline.segments.is_empty()).then(|| ghosts.with(path).into())
+}
+
+/// The blocks that move, where their motion leads.
+fn displaced(pen: &Pen<'_>) -> Vec<Item> {
+    let (scene, theme) = (pen.stage.analysis.scene, &pen.stage.options.theme);
+    let edge = theme.motion.mixed(theme.ink, 0.25);
+    let drawn = |group: Group, outline: Outline| -> Item {
+        let fill = Path::filled(outline.clone(), theme.motion).with_opacity(MOVED);
+        let line = Path::stroked(outline, Stroke::new(edge, pen.line));
+        group.with(fill).with(line).into()
+    };
+    let outline = |id: BlockId| {
+        let mut outline = Outline::default();
+        for ring in scene.blocks[id.0].body.polygon.rings() {
+            let corners = ring.iter().map(|p| pen.camera.place(pen.moved(id, *p)));
+            outline.extend(Outline::ring(corners));
+        }
+        outline
+    };
+    if pen.many() {
+        let mut all = Outline::default();
+        for (id, _) in moved(pen) {
+            all.extend(outline(id));
+        }
+        let group = Group::of_class("displaced").titled("The blocks that move");
+        return vec![drawn(group, all)];
+    }
+    moved(pen)
+        .map(|(id, motion)| {
+            let title = told::motion(scene, motion);
+            let mut group = Group::of_class("displaced").titled(title);
+            let weight = quantity(scene.blocks[id.0].weight, "N");
+            group.description = format!("weight {weight}");
+            drawn(group, outline(id))
+        })
+        .collect()
+}
+
+/// Where a point of an interface is drawn: half-way between where its two bodies take it.
+fn between(pen: &Pen<'_>, contact: &Contact, at: Point) -> Point {
+    let [a, b] = contact.interface.bodies.map(|body| taken(pen, body, at));
+    a + (b - a) * 0.5
+}
+
+/// Where a body takes a point.
+fn taken(pen: &Pen<'_>, body: BodyId, at: Point) -> Point {
+    match body {
+        BodyId::Ground(_) => at,
+        BodyId::Block(id) => pen.moved(id, at),
+    }
+}
+
+fn ring_radius(pen: &Pen<'_>) -> f64 {
+    (RING * pen.unit()).clamp(2.0, 6.0)
+}
+
+/// A ring at the end that keeps contact.
+fn hinge(pen: &Pen<'_>, contact: &Contact, at: Point, ink: &mut Ink) -> Item {
+    let (scene, theme) = (pen.stage.analysis.scene, &pen.stage.options.theme);
+    let (centre, radius) = (
+        pen.camera.place(between(pen, contact, at)),
+        ring_radius(pen),
+    );
+    ink.disc(centre, radius + 1.0);
+    let pair = told::pair(scene, contact.interface.bodies);
+    Group::of_class("hinge")
+        .titled(format!("Hinge between {pair}"))
+        .with(ring(centre, radius, theme))
+        .into()
+}
+
+fn ring(centre: PagePoint, radius: f64, theme: &Theme) -> Path {
+    let stroke = Stroke::new(theme.ink, (0.36 * radius).max(0.9));
+    Path::filled(Outline::circle(centre, radius), theme.page).with_stroke(stroke)
+}
+
+/// A half-arrow on each side of the interface, each the way its body slides past the other.
+fn slip(pen: &Pen<'_>, contact: &Contact, joint: &Joint, ink: &mut Ink) -> Item {
+    let (scene, theme) = (pen.stage.analysis.scene, &pen.stage.options.theme);
+    let interface = &contact.interface;
+    let unit = pen.stage.unit;
+    let length = match interface.length() {
+        l if l > 0.0 => f64::min(ARROW.0 * unit, 0.8 * l),
+        _ => ARROW.0 * unit,
+    };
+    let pair = told::pair(scene, interface.bodies);
+    let mut group = Group::of_class("slip").titled(format!("Slip between {pair}"));
+    for (side, body) in [1.0, -1.0].into_iter().zip(interface.bodies) {
+        let turned = |v: Vector| match body {
+            BodyId::Block(id) => pen.displacement(id).map_or(v, |d| d.turned(v)),
+            BodyId::Ground(_) => v,
+        };
+        let along = turned(interface.tangent()) * (side * joint.slip.signum() * length);
+        let aside = turned(interface.normal) * (side * ARROW.1 * unit);
+        let middle = taken(pen, body, interface.middle());
+        let from = middle + aside - along * 0.5;
+        let (from, along, aside) = (
+            pen.camera.place(from),
+            pen.camera.turn(along),
+            pen.camera.turn(aside),
+        );
+        ink.line(from, from.moved(along.0, along.1), 4.0);
+        let width = (0.035 * pen.unit()).clamp(0.8, 1.8);
+        group.items.extend(half_arrow(from, along, aside, width, theme));
+    }
+    group.into()
+}
+
+/// An arrow with one barb, on the side to which `aside` points, with a seam of the page's colour around it.
+fn half_arrow(
+    from: PagePoint,
+    along: (f64, f64),
+    aside: (f64, f64),
+    width: f64,
+    theme: &Theme,
+) -> [Item; 2] {
+    let tip = from.moved(along.0, along.1);
+    let reach = libm::hypot(along.0, along.1) / libm::hypot(aside.0, aside.1).max(f64::MIN_POSITIVE);
+    let barb = tip.moved(
+        BARB * (0.55 * reach * aside.0 - along.0),
+        BARB * (0.55 * reach * aside.1 - along.1),
+    );
+    let line = Outline::line([from, tip, barb]);
+    let seam = Stroke::new(theme.page, width + 2.0);
+    [
+        Path::stroked(line.clone(), seam).with_opacity(0.85).into(),
+        Path::stroked(line, Stroke::new(theme.ink, width)).into(),
+    ]
+}
+
+const SIGN: f64 = 20.0;
+
+fn ghost_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    let stroke = Stroke::new(theme.outline, 1.2).dashed([4.0, 3.0]);
+    vec![Path::stroked(Outline::rounded(swatch(at), 0.0), stroke).into()]
+}
+
+fn moved_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    let outline = Outline::rounded(swatch(at), 0.0);
+    let edge = Stroke::new(theme.motion.mixed(theme.ink, 0.25), 1.2);
+    vec![
+        Path::filled(outline.clone(), theme.motion).with_opacity(MOVED).into(),
+        Path::stroked(outline, edge).into(),
+    ]
+}
+
+fn swatch(at: PagePoint) -> PageRect {
+    PageRect {
+        at: at.moved(0.0, -6.5),
+        width: SIGN,
+        height: 13.0,
+    }
+}
+
+fn ring_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    vec![ring(at.moved(5.0, 0.0), 4.5, theme).into()]
+}
+
+fn slip_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    let mut items = Vec::new();
+    items.extend(half_arrow(at.moved(0.0, -3.5), (26.0, 0.0), (0.0, -3.5), 1.6, theme));
+    items.extend(half_arrow(at.moved(26.0, 3.5), (-26.0, 0.0), (0.0, 3.5), 1.6, theme));
+    items
+}

@@ -1,0 +1,208 @@
+//! The line of thrust: how pressure runs through the blocks, from interface to interface.
+//!
+//! What the line is in each block, [`stretches`] says.
+
+use super::bearing::bearings;
+use super::funicular::{Giver, Stretch, stretches};
+use super::label;
+use super::legend::{self, Entry};
+use super::panel::{ByColour, Pen};
+use super::stage::Stage;
+use super::told;
+use super::verdict;
+use super::words::{force, quantity};
+use crate::analysis::{FrameAnalysis, Verdict};
+use crate::drawing::{Camera, Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
+use crate::geometry::Bounds;
+use crate::scene::{BodyId, Scene};
+
+/// Width of the line of the largest force, in unit edges; and between which widths it stays, pixels.
+const WIDEST: (f64, f64, f64) = (0.13, 1.8, 6.5);
+/// Width of the line of the smallest force, as a share of the widest.
+const THINNEST: f64 = 0.22;
+/// So many widths are told apart where lines are joined.
+const STEPS: f64 = 8.0;
+/// How much of the line shows where it is not one of equilibrium.
+const FAINT: f64 = 0.35;
+
+/// What the camera sees of a frame and its line of thrust.
+pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Camera) -> Group {
+    let pen = Pen::of(stage, frame, camera);
+    let scene = stage.analysis.scene;
+    let found = &stage.analysis.frames[frame];
+    let stretches = stretches(scene, &scene.frames[frame], found);
+    let mut ink = label::ink(&pen);
+    for stretch in &stretches {
+        let [from, to] = [stretch.from, stretch.to].map(|p| camera.place(p));
+        ink.line(from, to, width(&pen, stretch) + 1.0);
+    }
+    let seams = seams(&pen, found);
+    let dots = dots(&pen, found, &mut |at, radius| ink.disc(at, radius + 1.0));
+    let lines = lines(&pen, scene, found, &stretches);
+    pen.picture(view, pen.blocks(), vec![seams, lines, dots], ink)
+}
+
+/// What is said below a frame's verdict.
+pub(crate) fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
+    let missing = verdict::reason(scene, found);
+    match found.verdict {
+        Verdict::Stable => missing,
+        Verdict::Unstable => format!("what is carried is no line of equilibrium; {missing}"),
+        Verdict::Undecided => format!("no line of equilibrium is proved; {missing}"),
+    }
+}
+
+/// What the signs of a line of thrust mean, those that occur; `unit` pixels being one unit edge.
+pub(crate) fn entries(stage: &Stage<'_>, unit: f64) -> Vec<Entry> {
+    let (scene, theme) = (stage.analysis.scene, &stage.options.theme);
+    let frames = scene.frames.iter().zip(&stage.analysis.frames);
+    let (mut several, mut carried) = (false, false);
+    for (frame, found) in frames {
+        let stretches = stretches(scene, frame, found);
+        several |= stretches.iter().any(|s| s.meeting > 2);
+        carried |= !stretches.is_empty();
+    }
+    let mut entries = Vec::new();
+    if carried {
+        let largest = quantity(largest(stage), "N");
+        let line = format!("line of thrust, the thicker the larger: {largest}");
+        entries.push(Entry::Line(colour(theme), widest(unit), line));
+        entries.push(Entry::Sign(dot_sign, 8.0, "resultant".into()));
+    }
+    if several {
+        let what = "where three or more forces meet".to_owned();
+        entries.push(Entry::Sign(meeting_sign, 26.0, what));
+    }
+    entries.extend(legend::robots(stage));
+    entries
+}
+
+/// The largest force of all panels, N.
+fn largest(stage: &Stage<'_>) -> f64 {
+    let frames = &stage.analysis.frames;
+    let contacts = frames.iter().flat_map(|f| &f.contacts);
+    let robots = frames.iter().flat_map(|f| &f.robots);
+    let forces = contacts
+        .map(|c| c.resultant.force)
+        .chain(robots.map(|r| r.force));
+    forces.map(|f| f.norm()).fold(0.0, f64::max)
+}
+
+fn colour(theme: &Theme) -> Colour {
+    theme.motion
+}
+
+fn widest(unit: f64) -> f64 {
+    let (width, least, most) = WIDEST;
+    (width * unit).clamp(least, most)
+}
+
+/// Width of a stretch, pixels.
+fn width(pen: &Pen<'_>, stretch: &Stretch) -> f64 {
+    let share = stretch.force.norm() / largest(pen.stage).max(f64::MIN_POSITIVE);
+    widest(pen.unit()) * (THINNEST + (1.0 - THINNEST) * share)
+}
+
+/// Every interface as a line.
+fn seams(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
+    let theme = &pen.stage.options.theme;
+    let mut outline = Outline::default();
+    for contact in &found.contacts {
+        outline.extend(Outline::line(
+            contact.interface.ends.map(|p| pen.camera.place(p)),
+        ));
+    }
+    let stroke = Stroke::new(theme.outline.mixed(theme.ink, 0.4), 1.3 * pen.line);
+    let seams = Group::of_class("interfaces").titled("Interfaces");
+    if outline.segments.is_empty() {
+        return Group::default();
+    }
+    seams.with(Path::stroked(outline, stroke))
+}
+
+fn lines(pen: &Pen<'_>, scene: &Scene, found: &FrameAnalysis, stretches: &[Stretch]) -> Group {
+    let theme = &pen.stage.options.theme;
+    let opacity = match found.verdict {
+        Verdict::Stable => 1.0,
+        _ => FAINT,
+    };
+    let mut group = Group::of_class("thrust");
+    let line = |s: &Stretch| Outline::line([s.from, s.to].map(|p| pen.camera.place(p)));
+    let path = |outline, width| {
+        let stroke = Stroke::new(colour(theme), width);
+        Path::stroked(outline, stroke).with_opacity(opacity)
+    };
+    if pen.many() {
+        let mut steps: Vec<Outline> = vec![Outline::default(); STEPS as usize + 1];
+        let most = widest(pen.unit());
+        for stretch in stretches {
+            let step = (STEPS * width(pen, stretch) / most).round() as usize;
+            steps[step.min(STEPS as usize)].extend(line(stretch));
+        }
+        for (step, outline) in steps.into_iter().enumerate() {
+            if !outline.segments.is_empty() {
+                let width = most * step as f64 / STEPS;
+                group.items.push(path(outline, width).into());
+            }
+        }
+        return group;
+    }
+    for stretch in stretches {
+        let on = &scene.blocks[stretch.on.0].id;
+        let by = match stretch.giver {
+            Giver::Contact(number) => {
+                let [a, b] = found.contacts[number].interface.bodies;
+                let other = if a == BodyId::Block(stretch.on) { b } else { a };
+                told::named(scene, other)
+            }
+            Giver::Robot(robot) => format!("robot {}", scene.robots[robot.0].id),
+        };
+        let title = format!("Force on block {on} from {by}: {}", force(stretch.force));
+        let drawn = Group::of_class("force").titled(title);
+        let drawn = drawn.with(path(line(stretch), width(pen, stretch)));
+        group.items.push(drawn.into());
+    }
+    group
+}
+
+/// A dot where each interface's resultant sits, and where a robot grips.
+fn dots(pen: &Pen<'_>, found: &FrameAnalysis, ink: &mut dyn FnMut(PagePoint, f64)) -> Group {
+    let (scene, theme) = (pen.stage.analysis.scene, &pen.stage.options.theme);
+    let radius = (0.06 * pen.unit()).clamp(1.1, 3.6);
+    let mut group = Group::of_class("resultants");
+    let mut joined = ByColour::default();
+    for (contact, bearing) in found.contacts.iter().zip(bearings(scene, found)) {
+        if bearing.is_none() {
+            continue;
+        }
+        let at = pen.camera.place(contact.resultant.at);
+        ink(at, radius);
+        if pen.many() {
+            joined.add(theme.ink, Outline::circle(at, radius));
+            continue;
+        }
+        let pair = told::pair(scene, contact.interface.bodies);
+        let amount = quantity(contact.resultant.force.norm(), "N");
+        let dot = Group::of_class("resultant").titled(format!("Between {pair}: {amount}"));
+        group.items.push(dot.with(dot_at(at, radius, theme)).into());
+    }
+    group.items.extend(joined.paths(None));
+    group
+}
+
+fn dot_at(at: PagePoint, radius: f64, theme: &Theme) -> Path {
+    Path::filled(Outline::circle(at, radius), theme.ink).cased(theme.page, 0.3 * radius)
+}
+
+fn dot_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    vec![dot_at(at.moved(4.0, 0.0), 3.2, theme).into()]
+}
+
+fn meeting_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    let hub = at.moved(13.0, 0.0);
+    let mut star = Outline::default();
+    for end in [at.moved(2.0, 6.0), at.moved(24.0, 6.0), at.moved(13.0, -8.0)] {
+        star.extend(Outline::line([end, hub]));
+    }
+    vec![Path::stroked(star, Stroke::new(colour(theme), 2.0)).into()]
+}

@@ -1,0 +1,280 @@
+//! Utilisation: how much of the friction available each interface uses, and of its limits each robot.
+//!
+//! The forces are those of one balance of many: another may use less here and more there.
+
+use super::bearing::{Bearing, bearings};
+use super::label;
+use super::legend::{self, Entry};
+use super::panel::{ByColour, Pen};
+use super::stage::Stage;
+use super::told;
+use super::verdict;
+use super::words::{ALL, listed, percent, quantity};
+use crate::analysis::{Contact, FrameAnalysis, Verdict};
+use crate::drawing::{Camera, Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
+use crate::geometry::Bounds;
+use crate::scene::Scene;
+
+/// Width of an interface's line in unit edges; and between which widths it stays, pixels.
+const BOLD: (f64, f64, f64) = (0.11, 1.8, 6.0);
+/// Length of the bar across an interface that uses all its friction, in widths of its line.
+const BAR: f64 = 3.2;
+
+/// What the camera sees of a frame and how its friction is used.
+pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Camera) -> Group {
+    let pen = Pen::of(stage, frame, camera);
+    let found = &stage.analysis.frames[frame];
+    let bold = bold(pen.unit());
+    let mut ink = label::ink(&pen);
+    for contact in &found.contacts {
+        let [from, to] = contact.interface.ends.map(|p| camera.place(p));
+        ink.line(from, to, bold + 2.0);
+        if contact.friction_used >= ALL {
+            let [from, to] = across(&pen, contact);
+            ink.line(from, to, 3.0);
+        }
+    }
+    let (idle, used) = interfaces(&pen, found);
+    let robots = robots(&pen, found);
+    pen.picture(view, pen.blocks(), vec![idle, used, robots], ink)
+}
+
+/// What is said below a frame's verdict.
+pub(crate) fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
+    let used = most_used(scene, found);
+    match found.verdict {
+        Verdict::Stable => format!("in the balance shown: {used}"),
+        _ => format!(
+            "of what is carried: {used}; {}",
+            verdict::reason(scene, found)
+        ),
+    }
+}
+
+/// What the signs mean, those that occur.
+pub(crate) fn entries(stage: &Stage<'_>) -> Vec<Entry> {
+    let scene = stage.analysis.scene;
+    let frames = &stage.analysis.frames;
+    let all: Vec<Option<Bearing>> = frames.iter().flat_map(|f| bearings(scene, f)).collect();
+    let robots = frames
+        .iter()
+        .flat_map(|f| &f.robots)
+        .any(|r| limited(scene, r.robot.0));
+    let mut entries = Vec::new();
+    let shared = all.iter().flatten().any(|b| b.friction.is_some());
+    if shared || robots {
+        let what = match (shared, robots) {
+            (true, false) => "friction used of friction available",
+            (false, _) => "used of a robot's limits",
+            (true, true) => "used of friction available, in discs of a robot's limits",
+        };
+        let ends = ["0".to_owned(), "100 %".to_owned()];
+        entries.push(Entry::Amplitudes(ends, what.into()));
+    }
+    if all.iter().flatten().any(full) {
+        let all = "all of it: at the edge of sliding".to_owned();
+        entries.push(Entry::Sign(full_sign, WIDE, all));
+    }
+    if all.iter().flatten().any(|b| b.friction.is_none()) {
+        let smooth = "no friction available".to_owned();
+        entries.push(Entry::Sign(smooth_sign, WIDE, smooth));
+    }
+    if all.iter().any(Option::is_none) {
+        entries.push(Entry::Sign(idle_sign, WIDE, "no force".into()));
+    }
+    entries.extend(legend::robots(stage));
+    entries
+}
+
+fn full(bearing: &Bearing) -> bool {
+    bearing.friction.is_some_and(|share| share >= ALL)
+}
+
+fn limited(scene: &Scene, robot: usize) -> bool {
+    let limits = scene.robots[robot].limits;
+    let finite = |limit: f64| limit.is_finite() && limit > 0.0;
+    finite(limits.fx) || finite(limits.fy) || finite(limits.torque)
+}
+
+/// Where most of the friction, and of the robots' limits, is used.
+fn most_used(scene: &Scene, found: &FrameAnalysis) -> String {
+    let mut said = Vec::new();
+    let bearings = bearings(scene, found);
+    let mut most: Option<(f64, &Contact)> = None;
+    for (bearing, contact) in bearings.iter().zip(&found.contacts) {
+        let share = bearing.and_then(|b| b.friction);
+        if let Some(share) = share.filter(|s| most.is_none_or(|m| *s > m.0)) {
+            most = Some((share, contact));
+        }
+    }
+    let sliding = bearings.iter().flatten().filter(|b| full(b)).count();
+    match most {
+        None => said.push("no friction".to_owned()),
+        Some(_) if sliding > 1 => {
+            said.push(format!("{sliding} interfaces use all the friction available"));
+        }
+        Some((share, contact)) => {
+            let pair = told::pair(scene, contact.interface.bodies);
+            let share = percent(share);
+            said.push(format!("most between {pair}: {share} of the friction available"));
+        }
+    }
+    let robots = found.robots.iter().filter(|r| limited(scene, r.robot.0));
+    if let Some(robot) = robots.max_by(|a, b| a.limit_used.total_cmp(&b.limit_used)) {
+        let (id, share) = (&scene.robots[robot.robot.0].id, percent(robot.limit_used));
+        said.push(format!("robot\u{a0}{id} gives {share} of its limit"));
+    }
+    listed(&said)
+}
+
+fn bold(unit: f64) -> f64 {
+    let (width, least, most) = BOLD;
+    (width * unit).clamp(least, most)
+}
+
+/// The colour of an interface's line.
+fn colour(bearing: &Bearing, theme: &Theme) -> Colour {
+    match bearing.friction {
+        Some(share) => theme.amplitude(share),
+        None => theme.page,
+    }
+}
+
+fn edge(theme: &Theme) -> Colour {
+    theme.ink
+}
+
+fn idle_stroke(theme: &Theme, bold: f64) -> Stroke {
+    let width = (0.3 * bold).max(0.6);
+    Stroke::new(theme.faint, width).dashed([3.0 * width, 2.4 * width])
+}
+
+/// Interfaces without force, and those with.
+fn interfaces(pen: &Pen<'_>, found: &FrameAnalysis) -> (Group, Group) {
+    let (scene, theme) = (pen.stage.analysis.scene, &pen.stage.options.theme);
+    let bold = bold(pen.unit());
+    let (mut idle, mut used) = (Group::of_class("idle"), Group::of_class("interfaces"));
+    let mut lines = ByColour::default();
+    let (mut edges, mut bars, mut dashes) =
+        (Outline::default(), Outline::default(), Outline::default());
+    let rim = (0.16 * bold).clamp(0.4, 0.9);
+    for (contact, bearing) in found.contacts.iter().zip(bearings(scene, found)) {
+        let line = Outline::line(contact.interface.ends.map(|p| pen.camera.place(p)));
+        let pair = told::pair(scene, contact.interface.bodies);
+        let Some(bearing) = bearing else {
+            if pen.many() {
+                dashes.extend(line);
+            } else {
+                let drawn = Group::of_class("interface").titled(format!("Between {pair}: no force"));
+                let path = Path::stroked(line, idle_stroke(theme, bold));
+                idle.items.push(drawn.with(path).into());
+            }
+            continue;
+        };
+        let bar = full(&bearing).then(|| Outline::line(across(pen, contact)));
+        if pen.many() {
+            edges.extend(line.clone());
+            lines.add(colour(&bearing, theme), line);
+            bars.extend(bar.unwrap_or_default());
+            continue;
+        }
+        let pressed = quantity(bearing.pressed, "N");
+        let title = match bearing.friction {
+            Some(share) => format!(
+                "Between {pair}: {} of the friction available, {} under {pressed}",
+                percent(share),
+                quantity(contact.friction_force.abs(), "N"),
+            ),
+            None => format!("Between {pair}: {pressed}, no friction available"),
+        };
+        let mut drawn = Group::of_class("interface")
+            .titled(title)
+            .with(rimmed(line.clone(), bold, rim, theme))
+            .with(Path::stroked(line, Stroke::new(colour(&bearing, theme), bold)));
+        if let Some(bar) = bar {
+            drawn = drawn.with(Path::stroked(bar, Stroke::new(theme.ink, bar_width(bold))));
+        }
+        used.items.push(drawn.into());
+    }
+    if !dashes.segments.is_empty() {
+        let path = Path::stroked(dashes, idle_stroke(theme, bold));
+        idle.items.push(path.into());
+    }
+    if !edges.segments.is_empty() {
+        used.items.push(rimmed(edges, bold, rim, theme).into());
+    }
+    used.items.extend(lines.lines(bold));
+    if !bars.segments.is_empty() {
+        let path = Path::stroked(bars, Stroke::new(theme.ink, bar_width(bold)));
+        used.items.push(path.into());
+    }
+    (idle, used)
+}
+
+fn bar_width(bold: f64) -> f64 {
+    (0.3 * bold).clamp(0.8, 1.6)
+}
+
+/// The rim that sets a line off from blocks of any colour.
+fn rimmed(line: Outline, bold: f64, rim: f64, theme: &Theme) -> Path {
+    Path::stroked(line, Stroke::new(edge(theme), bold + 2.0 * rim))
+}
+
+/// The ends of the bar across an interface.
+fn across(pen: &Pen<'_>, contact: &Contact) -> [PagePoint; 2] {
+    let middle = pen.camera.place(contact.interface.middle());
+    let half = 0.5 * BAR * bold(pen.unit());
+    // A unit normal is as long on the page as the scale makes it.
+    let (x, y) = (contact.interface.normal.x * half, -contact.interface.normal.y * half);
+    [middle.moved(-x, -y), middle.moved(x, y)]
+}
+
+/// The discs of robots with limits once more, filled by how far those are used.
+fn robots(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
+    let (scene, theme) = (pen.stage.analysis.scene, &pen.stage.options.theme);
+    let mut group = Group::of_class("limits");
+    for robot in found.robots.iter().filter(|r| limited(scene, r.robot.0)) {
+        let at = pen.camera.place(robot.at);
+        let radius = 0.64 * pen.disc();
+        let title = format!(
+            "Robot {}: {} of its limit",
+            scene.robots[robot.robot.0].id,
+            percent(robot.limit_used)
+        );
+        let rim = Stroke::new(edge(theme), (0.06 * pen.disc()).clamp(0.4, 1.0));
+        let disc = Path::filled(Outline::circle(at, radius), theme.amplitude(robot.limit_used));
+        let mut drawn = Group::of_class("limit").titled(title).with(disc.with_stroke(rim));
+        if robot.limit_used >= ALL {
+            let bar = Outline::line([at.moved(0.0, -1.25 * radius), at.moved(0.0, 1.25 * radius)]);
+            drawn = drawn.with(Path::stroked(bar, Stroke::new(theme.ink, 1.4)));
+        }
+        group.items.push(drawn.into());
+    }
+    group
+}
+
+const WIDE: f64 = 26.0;
+
+fn full_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    let line = Outline::line([at, at.moved(WIDE, 0.0)]);
+    let middle = at.moved(WIDE / 2.0, 0.0);
+    let bar = Outline::line([middle.moved(0.0, -7.0), middle.moved(0.0, 7.0)]);
+    vec![
+        rimmed(line.clone(), 4.5, 0.7, theme).into(),
+        Path::stroked(line, Stroke::new(theme.amplitude(1.0), 4.5)).into(),
+        Path::stroked(bar, Stroke::new(theme.ink, 1.4)).into(),
+    ]
+}
+
+fn smooth_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    let line = Outline::line([at, at.moved(WIDE, 0.0)]);
+    vec![
+        rimmed(line.clone(), 4.5, 0.7, theme).into(),
+        Path::stroked(line, Stroke::new(theme.page, 4.5)).into(),
+    ]
+}
+
+fn idle_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    let line = Outline::line([at, at.moved(WIDE, 0.0)]);
+    vec![Path::stroked(line, idle_stroke(theme, 4.5)).into()]
+}
