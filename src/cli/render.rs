@@ -10,10 +10,12 @@ use crate::cli::complaint::Complaint;
 use crate::cli::destination::{self, Destination};
 use crate::cli::ending::Ending;
 use crate::cli::level::Level;
+use crate::cli::look::Look;
 use crate::cli::picture::{Format, Picture};
 use crate::cli::progress::{Progress, Shown};
 use crate::cli::source::{self, FrameChoice, Source};
 use crate::cli::terminal::Terminal;
+use crate::drawing::Theme;
 use crate::figure;
 use crate::output::file::Existing;
 use crate::report::result::word;
@@ -29,9 +31,11 @@ pub(crate) struct Render {
     output: PathBuf,
     #[command(flatten)]
     picture: Picture,
+    #[command(flatten)]
+    look: Look,
     /// One resulting arrow per interface and block, or its normal and friction apart
     #[arg(long, value_enum, default_value = "resultant")]
-    style: Style,
+    arrows: Arrows,
     /// What is one unit long: the largest arrow drawn, or the largest single unknown as in the source
     #[arg(long, value_enum, default_value = "drawn")]
     normalise: Normalise,
@@ -64,7 +68,7 @@ enum Kind {
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
-enum Style {
+enum Arrows {
     Resultant,
     Components,
 }
@@ -97,7 +101,14 @@ impl Render {
         self.picture.check(format).map_err(|c| vec![c])?;
         self.check_count(&destination, format, terminal)
             .map_err(|c| vec![c])?;
-        let sources = source::read(&self.scenes, self.frame)?;
+        let (theme, sources) = match (self.look.theme(), source::read(&self.scenes, self.frame)) {
+            (Ok(theme), Ok(sources)) => (theme, sources),
+            (theme, sources) => {
+                let scenes = sources.err().into_iter().flatten();
+                return Err(theme.err().into_iter().chain(scenes).collect());
+            }
+        };
+        let options = self.options(theme);
         let paths = paths(&destination, &sources, format).map_err(|c| vec![c])?;
 
         let shown = if terminal.shows_progress() {
@@ -108,7 +119,7 @@ impl Render {
         let progress = Progress::begin(2 * sources.len(), shown);
         let rendered: Vec<Result<Rendered, Complaint>> = sources
             .par_iter()
-            .map(|source| self.render(source, format, &progress))
+            .map(|source| self.render(source, &options, format, &progress))
             .collect();
         drop(progress);
         let rendered = all(rendered)?;
@@ -165,13 +176,14 @@ impl Render {
     fn render(
         &self,
         source: &Source,
+        options: &figure::Options,
         format: Format,
         progress: &Progress,
     ) -> Result<Rendered, Complaint> {
         progress.doing(&source.name());
         let analysis = Analysis::with(&source.scene, &self.level.options());
         progress.step();
-        let drawing = figure::draw(&analysis, self.kind(), &self.options());
+        let drawing = figure::draw(&analysis, self.kind(), options);
         let bytes = self.picture.bytes(&drawing, format)?;
         progress.step();
         Ok(Rendered {
@@ -187,11 +199,11 @@ impl Render {
         }
     }
 
-    fn options(&self) -> figure::Options {
+    fn options(&self, theme: Theme) -> figure::Options {
         figure::Options {
-            style: match self.style {
-                Style::Resultant => figure::ForceStyle::Resultant,
-                Style::Components => figure::ForceStyle::Components,
+            style: match self.arrows {
+                Arrows::Resultant => figure::ForceStyle::Resultant,
+                Arrows::Components => figure::ForceStyle::Components,
             },
             normalisation: match self.normalise {
                 Normalise::Drawn => figure::Normalisation::Drawn,
@@ -203,6 +215,7 @@ impl Render {
             },
             columns: self.columns.map(usize::from),
             amounts: self.amounts,
+            theme,
             ..figure::Options::default()
         }
     }
