@@ -22,6 +22,7 @@ mod completions;
 mod destination;
 mod ending;
 mod level;
+mod look;
 mod new;
 mod picture;
 mod progress;
@@ -29,6 +30,7 @@ mod render;
 mod schema;
 mod shapes;
 mod source;
+mod style;
 mod table;
 mod terminal;
 
@@ -66,6 +68,7 @@ enum Command {
     Schema(schema::Schema),
     New(new::New),
     Shapes(shapes::Shapes),
+    Style(style::Style),
     Completions(completions::Completions),
 }
 
@@ -91,6 +94,7 @@ pub fn run() -> ExitCode {
         Command::Schema(schema) => schema.run(&terminal),
         Command::New(new) => new.run(&terminal),
         Command::Shapes(shapes) => shapes.run(&terminal),
+        Command::Style(style) => style.run(&terminal),
         Command::Completions(completions) => completions.run(&terminal),
     };
     let ending = ended.unwrap_or_else(|complaints| complain(&terminal, &complaints));

@@ -10,11 +10,12 @@ use crate::cli::complaint::Complaint;
 use crate::cli::destination::{self, Destination};
 use crate::cli::ending::Ending;
 use crate::cli::level::Level;
+use crate::cli::look::Look;
 use crate::cli::picture::{Format, Picture};
 use crate::cli::progress::{Progress, Shown};
 use crate::cli::source::{self, FrameChoice, Source};
 use crate::cli::terminal::Terminal;
-use crate::drawing::Drawing;
+use crate::drawing::{Drawing, Theme};
 use crate::figure;
 use crate::output::file::Existing;
 use crate::report::result::word;
@@ -31,9 +32,11 @@ pub(crate) struct Render {
     output: PathBuf,
     #[command(flatten)]
     picture: Picture,
+    #[command(flatten)]
+    look: Look,
     /// One resulting arrow per interface and block, or its normal and friction apart
     #[arg(long, value_enum, default_value = "resultant")]
-    style: Style,
+    arrows: Arrows,
     /// What is one unit long: the largest arrow drawn, or the largest single unknown as in the source
     #[arg(long, value_enum, default_value = "drawn")]
     normalise: Normalise,
@@ -79,7 +82,7 @@ enum Kind {
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
-enum Style {
+enum Arrows {
     Resultant,
     Components,
 }
@@ -116,7 +119,14 @@ impl Render {
         }
         self.check_count(&destination, format, terminal)
             .map_err(|c| vec![c])?;
-        let sources = source::read(&self.scenes, self.frame)?;
+        let (theme, sources) = match (self.look.theme(), source::read(&self.scenes, self.frame)) {
+            (Ok(theme), Ok(sources)) => (theme, sources),
+            (theme, sources) => {
+                let scenes = sources.err().into_iter().flatten();
+                return Err(theme.err().into_iter().chain(scenes).collect());
+            }
+        };
+        let options = self.options(theme);
         let paths = paths(&destination, &sources, format).map_err(|c| vec![c])?;
 
         let shown = if terminal.shows_progress() {
@@ -127,7 +137,7 @@ impl Render {
         let progress = Progress::begin(2 * sources.len(), shown);
         let rendered: Vec<Result<Rendered, Complaint>> = sources
             .par_iter()
-            .map(|source| self.render(source, format, &progress))
+            .map(|source| self.render(source, &options, format, &progress))
             .collect();
         drop(progress);
         let rendered = all(rendered)?;
@@ -185,13 +195,14 @@ impl Render {
     fn render(
         &self,
         source: &Source,
+        options: &figure::Options,
         format: Format,
         progress: &Progress,
     ) -> Result<Rendered, Complaint> {
         progress.doing(&source.name());
         let analysis = Analysis::with(&source.scene, &self.level.options());
         progress.step();
-        let drawing = self.drawing(source, &analysis)?;
+        let drawing = self.drawing(source, &analysis, options)?;
         let bytes = self.picture.bytes(drawing, format)?;
         progress.step();
         Ok(Rendered {
@@ -201,7 +212,12 @@ impl Render {
         })
     }
 
-    fn drawing(&self, source: &Source, analysis: &Analysis<'_>) -> Result<Drawing, Complaint> {
+    fn drawing(
+        &self,
+        source: &Source,
+        analysis: &Analysis<'_>,
+        options: &figure::Options,
+    ) -> Result<Drawing, Complaint> {
         let kind = match self.kind {
             Kind::Forces => figure::Kind::Forces,
             Kind::Mechanism => figure::Kind::Mechanism,
@@ -212,11 +228,11 @@ impl Render {
                 let (frame, block) = self
                     .cut_free(&source.scene)
                     .map_err(|why| Complaint::CommandLine(format!("{}: {why}", source.name())))?;
-                let drawing = figure::freebody(analysis, frame, block, &self.options());
+                let drawing = figure::freebody(analysis, frame, block, options);
                 return Ok(drawing.expect("the block was found in this frame"));
             }
         };
-        Ok(figure::draw(analysis, kind, &self.options()))
+        Ok(figure::draw(analysis, kind, options))
     }
 
     /// The block that is cut free, and the last frame in which it stands.
@@ -247,11 +263,11 @@ impl Render {
         }
     }
 
-    fn options(&self) -> figure::Options {
+    fn options(&self, theme: Theme) -> figure::Options {
         figure::Options {
-            style: match self.style {
-                Style::Resultant => figure::ForceStyle::Resultant,
-                Style::Components => figure::ForceStyle::Components,
+            style: match self.arrows {
+                Arrows::Resultant => figure::ForceStyle::Resultant,
+                Arrows::Components => figure::ForceStyle::Components,
             },
             normalisation: match self.normalise {
                 Normalise::Drawn => figure::Normalisation::Drawn,
@@ -264,6 +280,7 @@ impl Render {
             columns: self.columns.map(usize::from),
             amounts: self.amounts,
             width: self.picture.page(),
+            theme,
             ..figure::Options::default()
         }
     }

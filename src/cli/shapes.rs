@@ -7,8 +7,10 @@ use clap::Args;
 use crate::cli::complaint::Complaint;
 use crate::cli::destination::{self, Destination};
 use crate::cli::ending::Ending;
+use crate::cli::look::Look;
 use crate::cli::picture::Picture;
 use crate::cli::terminal::Terminal;
+use crate::drawing::Theme;
 use crate::figure;
 use crate::output::file::Existing;
 
@@ -20,15 +22,18 @@ pub(crate) struct Shapes {
     output: PathBuf,
     #[command(flatten)]
     picture: Picture,
+    #[command(flatten)]
+    look: Look,
 }
 
 impl Shapes {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
-        self.draw(terminal).map_err(|c| vec![c])?;
+        let theme = self.look.theme().map_err(|c| vec![c])?;
+        self.draw(&theme, terminal).map_err(|c| vec![c])?;
         Ok(Ending::Done)
     }
 
-    fn draw(&self, terminal: &Terminal) -> Result<(), Complaint> {
+    fn draw(&self, theme: &Theme, terminal: &Terminal) -> Result<(), Complaint> {
         let destination = Destination::of(&self.output);
         let format = destination.format(self.picture.asked())?;
         self.picture.check(format)?;
@@ -37,7 +42,7 @@ impl Shapes {
         {
             return Err(Complaint::CommandLine(why));
         }
-        let bytes = self.picture.bytes(figure::shapes(), format)?;
+        let bytes = self.picture.bytes(figure::shapes(theme), format)?;
         match destination {
             Destination::Stdout => terminal.print_bytes(&bytes),
             Destination::File(path) => destination::write(&[(path, bytes)], Existing::Replace),

@@ -6,18 +6,21 @@
 
 pub mod arrow;
 mod camera;
+mod colour;
+pub mod difference;
 pub mod hatch;
 mod outline;
 pub mod placement;
-mod plasma;
-mod style;
+pub mod ramp;
+pub mod style;
 pub mod symbol;
 pub mod text;
 
 pub use camera::Camera;
+pub use colour::Colour;
 pub use outline::{Outline, Segment};
-pub use plasma::PLASMA;
-pub use style::{Colour, Theme};
+pub use ramp::PLASMA;
+pub use style::{Sizes, Theme, Widths};
 pub use text::{Anchor, Face, Text};
 
 /// A place on the page in pixels, y down.

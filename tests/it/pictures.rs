@@ -1,6 +1,6 @@
 //! Pictures: the source's arrows and fills in numbers, and what every figure must hold to.
 
-use drystone::drawing::{Colour, Drawing, Group, Item, Outline};
+use drystone::drawing::{Colour, Drawing, Group, Item, Outline, Theme};
 use drystone::figure::{self, ArrowKind, ForceStyle, Normalisation, Options};
 use drystone::geometry::{Point, Vector};
 use drystone::output::{png, svg};
@@ -247,7 +247,7 @@ fn the_same_scene_gives_the_same_bytes() {
 
 #[test]
 fn shapes_come_with_their_names_and_origins() {
-    let drawing = figure::shapes();
+    let drawing = figure::shapes(&Theme::default());
     let svg = svg::write(&drawing);
     for name in drystone::scene::shape::BUILT_IN {
         assert!(svg.contains(&format!(">{name}</text>")), "{name}");
