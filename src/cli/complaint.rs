@@ -36,6 +36,8 @@ pub(crate) enum Complaint {
         /// The system's reason.
         why: String,
     },
+    /// A drawing does not become a scene, in a person's words.
+    Drawing(String),
     /// The command line asks for something that cannot be.
     CommandLine(String),
     /// An output cannot be written.
@@ -52,9 +54,10 @@ impl Complaint {
     pub(crate) fn ending(&self) -> Ending {
         match self {
             Complaint::NotWritten { .. } => Ending::NotWritten,
-            Complaint::Scene { .. } | Complaint::NotRead { .. } | Complaint::CommandLine(_) => {
-                Ending::WrongInput
-            }
+            Complaint::Scene { .. }
+            | Complaint::NotRead { .. }
+            | Complaint::Drawing(_)
+            | Complaint::CommandLine(_) => Ending::WrongInput,
         }
     }
 
@@ -67,6 +70,7 @@ impl Complaint {
             Complaint::NotRead { what, why } => {
                 format!("error: cannot read {}: {why}", visible(what))
             }
+            Complaint::Drawing(what) => what.clone(),
             Complaint::CommandLine(what) => format!(
                 "error: {}\n\nFor more information, try '--help'.",
                 visible(what)

@@ -21,6 +21,7 @@ mod complaint;
 mod completions;
 mod destination;
 mod ending;
+mod import;
 mod level;
 mod new;
 mod picture;
@@ -65,6 +66,7 @@ enum Command {
     Accuracy(accuracy::Accuracy),
     Schema(schema::Schema),
     New(new::New),
+    Import(import::Import),
     Shapes(shapes::Shapes),
     Completions(completions::Completions),
 }
@@ -90,6 +92,7 @@ pub fn run() -> ExitCode {
         Command::Accuracy(accuracy) => accuracy.run(&terminal),
         Command::Schema(schema) => schema.run(&terminal),
         Command::New(new) => new.run(&terminal),
+        Command::Import(import) => import.run(&terminal),
         Command::Shapes(shapes) => shapes.run(&terminal),
         Command::Completions(completions) => completions.run(&terminal),
     };

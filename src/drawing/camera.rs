@@ -36,6 +36,11 @@ impl Camera {
         PagePoint::new(self.at.x + d.x * self.scale, self.at.y - d.y * self.scale)
     }
 
+    /// Where the scene's origin lies on the page.
+    pub fn origin(&self) -> PagePoint {
+        self.place(Point::origin())
+    }
+
     /// A displacement of the scene on the page, right and down in pixels.
     pub fn turn(&self, v: Vector) -> (f64, f64) {
         (v.x * self.scale, -v.y * self.scale)

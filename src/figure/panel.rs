@@ -28,7 +28,10 @@ const LEAST_SHAFT: f64 = 2.5;
 pub(crate) fn picture(stage: &Stage<'_>, number: usize, view: Bounds, camera: &Camera) -> Group {
     let pen = Pen::of(stage, number, camera);
     let many = stage.analysis.scene.frames[number].placed.len() > MANY;
-    let mut group = Group::of_class("picture");
+    let mut group = Group {
+        camera: Some(*camera),
+        ..Group::of_class("picture")
+    };
     group.items.push(pen.ground(view).into());
     group.items.push(
         if many {

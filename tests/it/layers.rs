@@ -33,6 +33,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "resultant",
         ],
     ),
+    ("import", &["geometry", "scene"]),
     ("drawing", &["geometry"]),
     (
         "figure",
@@ -65,6 +66,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "output",
             "chart",
             "study",
+            "import",
         ],
     ),
     (
@@ -79,6 +81,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "output",
             "study",
             "report",
+            "import",
         ],
     ),
     ("doc", &[]),
@@ -102,6 +105,7 @@ const DOORS: &[(&str, &[&str])] = &[
             "scene/format/",
             "report/result.rs",
             "report/result/",
+            "import/geojson.rs",
         ],
     ),
     ("schemars", &["scene/format.rs", "scene/format/"]),
@@ -120,6 +124,9 @@ const DOORS: &[(&str, &[&str])] = &[
     ("tempfile", &["output/file.rs"]),
     ("plotters", &["chart/"]),
     ("maud", &["report/"]),
+    ("roxmltree", &["import/"]),
+    ("svgtypes", &["import/"]),
+    ("simplecss", &["import/"]),
 ];
 
 /// Doors that are one file, but whose file is the owning room's to choose.
