@@ -42,6 +42,7 @@
 //! | | makes | from |
 //! |---|---|---|
 //! | [`Scene::from_json`] | [`Scene`], checked | text |
+//! | [`import`](mod@import) | a scene file | a drawing: SVG, GeoJSON or WKT |
 //! | [`interface`] | what touches what | a scene |
 //! | [`effect`] | what to simulate and what to leave out | a frame of it |
 //! | [`program`] | the balance in pure numbers | those |
@@ -64,6 +65,8 @@
 pub mod geometry;
 
 pub mod scene;
+
+pub mod import;
 
 pub mod interface;
 
@@ -96,7 +99,7 @@ pub mod cli;
 pub use analysis::Analysis;
 pub use scene::Scene;
 
-/// What stands between the lines of code: why, by which conventions, how precisely, and after whom.
+/// What stands between the lines of code: why, by which conventions, how precisely, from which drawings, and after whom.
 pub mod doc {
     #[doc = include_str!("doc/design.md")]
     pub mod design {}
@@ -110,6 +113,9 @@ pub mod doc {
     #[doc = include_str!("doc/accuracy.md")]
     #[doc = include_str!("../assets/accuracy.svg")]
     pub mod accuracy {}
+
+    #[doc = include_str!("doc/import.md")]
+    pub mod import {}
 
     #[doc = include_str!("doc/references.md")]
     pub mod references {}

@@ -44,6 +44,8 @@ pub(crate) enum Complaint {
         /// The system's reason.
         why: String,
     },
+    /// A drawing does not become a scene, in a person's words.
+    Drawing(String),
     /// The command line asks for something that cannot be.
     CommandLine(String),
     /// An output cannot be written.
@@ -63,6 +65,7 @@ impl Complaint {
             Complaint::Scene { .. }
             | Complaint::Style { .. }
             | Complaint::NotRead { .. }
+            | Complaint::Drawing(_)
             | Complaint::CommandLine(_) => Ending::WrongInput,
         }
     }
@@ -87,6 +90,7 @@ impl Complaint {
             Complaint::NotRead { what, why } => {
                 format!("error: cannot read {}: {why}", visible(what))
             }
+            Complaint::Drawing(what) => what.clone(),
             Complaint::CommandLine(what) => format!(
                 "error: {}\n\nFor more information, try '--help'.",
                 visible(what)

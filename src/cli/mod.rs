@@ -21,6 +21,7 @@ mod complaint;
 mod completions;
 mod destination;
 mod ending;
+mod import;
 mod level;
 mod look;
 mod new;
@@ -67,6 +68,7 @@ enum Command {
     Accuracy(accuracy::Accuracy),
     Schema(schema::Schema),
     New(new::New),
+    Import(import::Import),
     Shapes(shapes::Shapes),
     Style(style::Style),
     Completions(completions::Completions),
@@ -93,6 +95,7 @@ pub fn run() -> ExitCode {
         Command::Accuracy(accuracy) => accuracy.run(&terminal),
         Command::Schema(schema) => schema.run(&terminal),
         Command::New(new) => new.run(&terminal),
+        Command::Import(import) => import.run(&terminal),
         Command::Shapes(shapes) => shapes.run(&terminal),
         Command::Style(style) => style.run(&terminal),
         Command::Completions(completions) => completions.run(&terminal),

@@ -42,6 +42,11 @@ impl Camera {
         self.corner + Vector::new(right, -down) / self.scale
     }
 
+    /// Where the scene's origin lies on the page.
+    pub fn origin(&self) -> PagePoint {
+        self.place(Point::origin())
+    }
+
     /// A displacement of the scene on the page, right and down in pixels.
     pub fn turn(&self, v: Vector) -> (f64, f64) {
         (v.x * self.scale, -v.y * self.scale)

@@ -213,6 +213,8 @@ pub struct Group {
     pub echo: bool,
     /// The part of the page within which it shows; everything where `None`.
     pub clip: Option<PageRect>,
+    /// How the scene that it shows lies on the page, told to programs that read the drawing back; `None` for no scene.
+    pub camera: Option<Camera>,
     /// What is in it, the lowest first.
     pub items: Vec<Item>,
 }

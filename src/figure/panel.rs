@@ -31,7 +31,10 @@ const LEAST_SHAFT: f64 = 2.5;
 pub(crate) fn picture(stage: &Stage<'_>, number: usize, view: Bounds, camera: &Camera) -> Group {
     let pen = Pen::of(stage, number, camera);
     let many = pen.many();
-    let mut group = Group::of_class("picture");
+    let mut group = Group {
+        camera: Some(*camera),
+        ..Group::of_class("picture")
+    };
     group.items.push(pen.ground(view).into());
     group.items.push(pen.blocks().into());
     group.items.push(pen.plans().into());

@@ -254,6 +254,12 @@ impl Writer<'_> {
         if let Some(id) = clip {
             self.attribute("clip-path", &format!("url(#{id})"));
         }
+        if let Some(camera) = &group.camera {
+            // Pixels per metre and the place of the scene's origin, in full: with them the scene can be read back.
+            let origin = camera.origin();
+            self.attribute("data-drystone-scale", &camera.length(1.0).to_string());
+            self.attribute("data-drystone-origin", &format!("{} {}", origin.x, origin.y));
+        }
         self.put(">");
         if !group.title.is_empty() {
             self.put(&format!("<title>{}</title>", escaped(&group.title)));

@@ -10,13 +10,13 @@
 //! and the two change for different reasons.
 
 mod accuracy;
-mod lines;
+mod import;
 mod margin;
 
 use serde::{Serialize, Serializer};
 
 pub use accuracy::accuracy_json;
-use lines::Lines;
+pub use import::import_json;
 use margin::Margins;
 
 use crate::analysis::{
@@ -24,6 +24,7 @@ use crate::analysis::{
 };
 use crate::geometry::{Point, Vector};
 use crate::interface::ContactKind;
+use crate::scene::format::Lines;
 use crate::scene::{BlockId, BodyId, RobotId, Scene};
 
 /// Whether a result tells how long it took.
@@ -70,7 +71,7 @@ pub fn to_json(analysis: &Analysis, timing: Timing, layout: Layout) -> String {
     let written = match layout {
         Layout::Lines => result.serialize(&mut serde_json::Serializer::with_formatter(
             &mut bytes,
-            Lines::default(),
+            Lines::new(2),
         )),
         Layout::OneLine => serde_json::to_writer(&mut bytes, &result),
     };

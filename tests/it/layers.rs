@@ -33,6 +33,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "resultant",
         ],
     ),
+    ("import", &["geometry", "scene"]),
     ("drawing", &["geometry"]),
     (
         "figure",
@@ -65,6 +66,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "output",
             "chart",
             "study",
+            "import",
         ],
     ),
     (
@@ -79,6 +81,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "output",
             "study",
             "report",
+            "import",
         ],
     ),
     ("doc", &[]),
@@ -104,6 +107,7 @@ const DOORS: &[(&str, &[&str])] = &[
             "report/result.rs",
             "report/result/",
             "drawing/style/format.rs",
+            "import/geojson.rs",
         ],
     ),
     ("toml", &["drawing/style/format.rs"]),
@@ -136,6 +140,9 @@ const DOORS: &[(&str, &[&str])] = &[
     ("tempfile", &["output/file.rs"]),
     ("plotters", &["chart/"]),
     ("maud", &["report/"]),
+    ("roxmltree", &["import/"]),
+    ("svgtypes", &["import/"]),
+    ("simplecss", &["import/"]),
 ];
 
 /// Doors that are one file, but whose file is the owning room's to choose.

@@ -9,6 +9,7 @@
 mod accuracy;
 mod gallery;
 mod hard;
+mod import;
 mod labels;
 mod laws;
 mod layers;
