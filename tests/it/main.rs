@@ -9,6 +9,7 @@
 mod accuracy;
 mod gallery;
 mod hard;
+mod kinds;
 mod laws;
 mod layers;
 mod oracle;
