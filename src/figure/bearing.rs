@@ -2,10 +2,12 @@
 
 use crate::analysis::{Contact, FrameAnalysis};
 use crate::interface::ContactKind;
-use crate::scene::Scene;
+use crate::scene::{BodyId, Scene};
 
-/// Forces below this share of the largest are noise of the solution.
+/// Forces below this share of the largest may be noise of the solution …
 const NOISE: f64 = 1e-6;
+/// … unless they are more than this share of a block's own weight: a feather under a mountain is carried too.
+const SHARE: f64 = 1e-3;
 
 /// What an interface bears.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,11 +29,27 @@ pub(crate) fn bearings(scene: &Scene, found: &FrameAnalysis) -> Vec<Option<Beari
         let pressed = pressed(contact);
         let [one, other] = contact.normal_forces;
         let point = contact.interface.kind == ContactKind::Corner || scene.kernel >= 1.0;
-        (pressed > NOISE * largest).then(|| Bearing {
+        let weights = contact.interface.bodies.iter().map(|body| match body {
+            BodyId::Block(id) => scene.blocks[id.0].weight,
+            BodyId::Ground(_) => f64::INFINITY,
+        });
+        let lighter = weights.fold(f64::INFINITY, f64::min);
+        (pressed > noise(largest, lighter)).then(|| Bearing {
             pressed,
             eccentricity: (!point).then(|| (one - other).abs() / pressed),
             friction: (contact.interface.friction > 0.0).then_some(contact.friction_used),
         })
     };
     found.contacts.iter().map(bearing).collect()
+}
+
+/// The force up to which one on a block of this weight may be noise where the largest force is so large, N.
+pub(crate) fn noise(largest: f64, weight: f64) -> f64 {
+    if weight > 0.0 {
+        f64::min(NOISE * largest, SHARE * weight)
+    } else if largest.is_finite() {
+        NOISE * largest
+    } else {
+        0.0
+    }
 }

@@ -122,10 +122,7 @@ impl Teller<'_> {
         } else {
             ("turn", "slide", "fall")
         };
-        let fastest = body
-            .iter()
-            .map(|m| m.fastest(scene))
-            .fold(0.0, f64::max);
+        let fastest = body.iter().map(|m| m.fastest(scene)).fold(0.0, f64::max);
         let slip = self.beside(body).find(|j| j.0.slip != 0.0);
         let on = |joint: Option<(&Joint, BodyId)>| match joint {
             Some((_, body)) => format!(" on {}", self.named(body)),
@@ -146,7 +143,13 @@ impl Teller<'_> {
         });
         match (hinge, slip) {
             (Some((_, other)), _) => {
-                format!("{subject} {turns} about a corner on {}", self.named(other))
+                // The kernel moves what a block turns about away from its corners.
+                let about = if scene.kernel > 0.0 {
+                    "hinge"
+                } else {
+                    "corner"
+                };
+                format!("{subject} {turns} about a {about} on {}", self.named(other))
             }
             (None, Some(_)) => format!("{subject} {turns} and {slides}{}", on(slip)),
             (None, None) => format!("{subject} {turns}"),
@@ -168,7 +171,8 @@ impl Teller<'_> {
     /// The joints of a body with others, and those others; bodies that stay first.
     fn beside(&self, body: &[Motion]) -> impl Iterator<Item = (&Joint, BodyId)> {
         let contacts = &self.analysis.frames[self.frame].contacts;
-        let within = |id: BodyId| matches!(id, BodyId::Block(b) if body.iter().any(|m| m.block == b));
+        let within =
+            |id: BodyId| matches!(id, BodyId::Block(b) if body.iter().any(|m| m.block == b));
         let mut found: Vec<(&Joint, BodyId)> = Vec::new();
         for joint in self.joints {
             let [a, b] = contacts[joint.contact].interface.bodies;

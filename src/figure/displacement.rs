@@ -68,23 +68,33 @@ pub(crate) fn displacements(
     frame: usize,
     unit: f64,
 ) -> Vec<Option<Displacement>> {
-    let (scene, found) = (analysis.scene, &analysis.frames[frame]);
-    let moving: Vec<&Motion> = moving(analysis, frame).collect();
-    if found.verdict != Verdict::Unstable || moving.is_empty() {
-        return Vec::new();
+    match analysis.frames[frame].verdict {
+        Verdict::Unstable => followed(analysis, frame, amplitude(analysis, frame, unit)),
+        _ => Vec::new(),
     }
-    let fastest = moving
-        .iter()
-        .map(|m| m.fastest(scene))
-        .fold(0.0, f64::max);
+}
+
+/// How far the mechanism is followed: the way in metres of a point of speed 1.
+fn amplitude(analysis: &Analysis<'_>, frame: usize, unit: f64) -> f64 {
+    let scene = analysis.scene;
+    let moving: Vec<&Motion> = moving(analysis, frame).collect();
+    let fastest = moving.iter().map(|m| m.fastest(scene)).fold(0.0, f64::max);
     let all = moving
         .iter()
         .map(|m| scene.blocks[m.block.0].body.polygon.bounds())
         .reduce(Bounds::union)
         .map_or(0.0, Bounds::diagonal);
-    let amplitude = f64::max(LEAST * unit, SHARE * all) / fastest;
+    if fastest > 0.0 {
+        f64::max(LEAST * unit, SHARE * all) / fastest
+    } else {
+        0.0
+    }
+}
+
+fn followed(analysis: &Analysis<'_>, frame: usize, amplitude: f64) -> Vec<Option<Displacement>> {
+    let scene = analysis.scene;
     let mut displacements = vec![None; scene.blocks.len()];
-    for motion in moving {
+    for motion in moving(analysis, frame) {
         let centroid = scene.blocks[motion.block.0].centroid;
         displacements[motion.block.0] = Some(Displacement::of(motion, centroid, amplitude));
     }
@@ -107,7 +117,82 @@ pub(crate) fn moving<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::BlockId;
+    use crate::figure::stage::unit;
+    use crate::geometry::{Pieces, Polygon, overlap};
+    use crate::scene::{BlockId, Scene};
+
+    fn falling() -> Vec<Scene> {
+        [
+            include_str!("../../assets/study/arch-27-thin.json"),
+            include_str!("../../assets/study/stack-harmonic-falls.json"),
+            include_str!("../../assets/thesis/figure-8-right.json"),
+        ]
+        .map(|text| Scene::from_json(text).unwrap_or_else(|problems| panic!("{problems}")))
+        .into()
+    }
+
+    fn moved(block: &crate::scene::Block, displacement: &Displacement) -> Polygon {
+        let corners = block.body.polygon.outline().iter();
+        let corners = corners.map(|p| displacement.moved(*p)).collect();
+        Polygon::new(corners, Vec::new()).expect("a rigid motion keeps an outline simple")
+    }
+
+    #[test]
+    fn displaced_blocks_keep_their_areas_and_sides() {
+        for scene in falling() {
+            let analysis = Analysis::of(&scene);
+            let displaced = displacements(&analysis, 0, unit(&scene));
+            let mut count = 0;
+            for (block, displacement) in scene.blocks.iter().zip(&displaced) {
+                let Some(displacement) = displacement else {
+                    continue;
+                };
+                let (before, after) = (&block.body.polygon, moved(block, displacement));
+                assert!((before.area() - after.area()).abs() < 1e-9 * before.area());
+                for (a, b) in before.edges().zip(after.edges()) {
+                    assert!((a.length() - b.length()).abs() < 1e-9 * a.length());
+                }
+                count += 1;
+            }
+            assert!(count > 4, "{count} blocks move");
+        }
+    }
+
+    /// How much displaced blocks lie in each other, m².
+    fn shared(analysis: &Analysis<'_>, amplitude: f64) -> f64 {
+        let displaced = followed(analysis, 0, amplitude);
+        let blocks: Vec<Polygon> = analysis
+            .scene
+            .blocks
+            .iter()
+            .zip(&displaced)
+            .filter_map(|(block, displacement)| Some(moved(block, displacement.as_ref()?)))
+            .collect();
+        let mut area = 0.0;
+        for (i, a) in blocks.iter().enumerate() {
+            for b in &blocks[..i] {
+                area += overlap(&Pieces::of(a), &Pieces::of(b), 0.0).map_or(0.0, |o| o.area);
+            }
+        }
+        area
+    }
+
+    #[test]
+    fn displaced_blocks_lie_in_each_other_by_no_more_than_the_square_of_their_way() {
+        for scene in falling() {
+            let analysis = Analysis::of(&scene);
+            let amplitude = amplitude(&analysis, 0, unit(&scene));
+            // Where the way is short the square is all there is.
+            let (short, half) = (
+                shared(&analysis, amplitude / 4.0),
+                shared(&analysis, amplitude / 8.0),
+            );
+            let size: f64 = scene.blocks.iter().map(|b| b.body.polygon.area()).sum();
+            assert!(half <= 0.28 * short + 1e-9 * size, "{half} of {short} m²");
+            let whole = shared(&analysis, amplitude);
+            assert!(whole < 0.03 * size, "{whole} of {size} m²");
+        }
+    }
 
     #[test]
     fn a_rotation_leaves_its_centre_and_all_distances_and_can_be_taken_back() {

@@ -10,7 +10,7 @@ use crate::scene::{BlockId, BodyId};
 /// Speeds below this share of the largest between two bodies are noise of the solution.
 const NOISE: f64 = 2e-3;
 
-/// How the two bodies of an interface move against each other.
+/// How the two bodies of an interface move against each other; they part where it neither is a hinge nor slips.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Joint {
     /// The contact's number in the frame.
@@ -19,13 +19,6 @@ pub(crate) struct Joint {
     pub hinge: Option<Point>,
     /// Speed of the first body past the second along (−n_y, n_x), 0 where it does not slide or no longer touches.
     pub slip: f64,
-}
-
-impl Joint {
-    /// Whether the bodies part without touching.
-    pub fn opens(&self) -> bool {
-        self.hinge.is_none() && self.slip == 0.0
-    }
 }
 
 /// Every interface of a frame whose bodies move against each other.
@@ -70,7 +63,8 @@ pub(crate) fn joints(analysis: &Analysis<'_>, frame: usize) -> Vec<Joint> {
 fn joint(contact: &Contact, relative: [Vector; 2], turning: f64, noise: f64) -> Option<Joint> {
     let interface = &contact.interface;
     let along = relative.map(|v| v.dot(&interface.tangent()));
-    let free = [0, 1].map(|k| relative[k].dot(&interface.normal) - interface.friction * along[k].abs());
+    let free =
+        [0, 1].map(|k| relative[k].dot(&interface.normal) - interface.friction * along[k].abs());
     let touches = free.map(|speed| speed <= noise);
     let points = contact.application_points;
     let hinge = match touches {
@@ -112,5 +106,55 @@ fn velocity(
     match body {
         BodyId::Ground(_) => Vector::zeros(),
         BodyId::Block(id) => motions[id.0].map_or(Vector::zeros(), |m| m.at(analysis.scene, at)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Scene;
+
+    fn of(text: &str) -> (Scene, Vec<Joint>) {
+        let scene = Scene::from_json(text).unwrap_or_else(|problems| panic!("{problems}"));
+        let joints = joints(&Analysis::of(&scene), 0);
+        (scene, joints)
+    }
+
+    #[test]
+    fn the_hinges_of_a_thin_arch_alternate_between_its_two_faces() {
+        let (_, joints) = of(include_str!("../../assets/study/arch-27-thin.json"));
+        assert!(joints.iter().all(|j| j.slip == 0.0));
+        let mut hinges: Vec<Point> = joints.iter().filter_map(|j| j.hinge).collect();
+        // From one springing to the other; the arch is a half circle about the origin with a centreline of radius 1.
+        let angle = |p: &Point| libm::atan2(p.y, -p.x);
+        hinges.sort_by(|a, b| angle(a).total_cmp(&angle(b)));
+        let mut outside: Vec<bool> = hinges.iter().map(|p| p.coords.norm() > 1.0).collect();
+        outside.dedup();
+        assert_eq!(outside, [true, false, true, false, true], "{hinges:?}");
+    }
+
+    #[test]
+    fn a_block_on_a_steep_slope_slips_and_a_tall_one_turns() {
+        let on_slope = |high: f64| {
+            format!(
+                r#"{{ "drystone": 1, "friction": 0.4,
+                     "shapes": {{ "slope": {{ "polygon": [[-9,-1],[9,-1],[9,0],[-9,0]] }},
+                                  "block": {{ "polygon": [[0,0],[1,0],[1,{high}],[0,{high}]] }} }},
+                     "ground": [ {{ "shape": "slope", "angle": 30 }} ],
+                     "blocks": [ {{ "id": "a", "shape": "block", "angle": 30, "weight": 5 }} ] }}"#
+            )
+        };
+        let (_, slides) = of(&on_slope(0.5));
+        let [joint] = slides[..] else {
+            panic!("{slides:?}")
+        };
+        assert_eq!(joint.hinge, None);
+        assert!(joint.slip != 0.0);
+        let (_, turns) = of(&on_slope(8.0).replace("0.4", "2.0"));
+        let [joint] = turns[..] else {
+            panic!("{turns:?}")
+        };
+        let hinge = joint.hinge.expect("it turns about its lower corner");
+        assert!(hinge.coords.norm() < 1e-9 && joint.slip == 0.0, "{joint:?}");
     }
 }

@@ -9,10 +9,8 @@ use super::told;
 use super::verdict;
 use super::words::{ALL, percent, quantity};
 use crate::analysis::{Contact, FrameAnalysis, Verdict};
-use crate::drawing::{
-    Camera, Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme,
-};
-use crate::geometry::Bounds;
+use crate::drawing::{Camera, Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
+use crate::geometry::{Bounds, Point};
 use crate::scene::Scene;
 
 /// Width of a safe stretch in unit edges; and between which widths it stays, pixels.
@@ -37,10 +35,7 @@ pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Ca
 pub(crate) fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
     match found.verdict {
         Verdict::Stable => {}
-        Verdict::Unstable => {
-            let missing = verdict::reason(scene, found);
-            return format!("no resultants, for nothing balances it; {missing}");
-        }
+        Verdict::Unstable => return "no resultants, for no forces balance it".into(),
         Verdict::Undecided => {
             return format!("no resultants; {}", verdict::reason(scene, found));
         }
@@ -59,15 +54,24 @@ pub(crate) fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
     let Some((most, contact)) = nearest else {
         return "every safe stretch is a point".into();
     };
-    let at_end = bearings.iter().filter_map(share).filter(|s| *s >= ALL).count();
+    let at_end = bearings
+        .iter()
+        .filter_map(share)
+        .filter(|s| *s >= ALL)
+        .count();
     if at_end > 1 {
-        return format!("in the balance shown {at_end} resultants sit at an end of the safe stretch");
+        return format!(
+            "in the balance shown {at_end} resultants sit at an end of the safe stretch"
+        );
     }
     let pair = told::pair(scene, contact.interface.bodies);
     if at_end == 1 {
         return format!(
             "in the balance shown the resultant between {pair} sits at the end of the safe stretch"
         );
+    }
+    if most < 0.005 {
+        return "in the balance shown every resultant sits in the middle".into();
     }
     let most = percent(most);
     format!(
@@ -84,8 +88,8 @@ pub(crate) fn entries(stage: &Stage<'_>) -> Vec<Entry> {
         let safe = "safe stretch of an interface".to_owned();
         entries.push(Entry::Sign(safe_sign, WIDE, safe));
         if scene.kernel > 0.0 {
-            let unsafe_ = format!("unsafe, for the kernel of {}", scene.kernel);
-            entries.push(Entry::Sign(unsafe_sign, WIDE, unsafe_));
+            let rest = format!("unsafe, for the kernel of {}", scene.kernel);
+            entries.push(Entry::Sign(rest_sign, WIDE, rest));
         }
     }
     let standing = frames.iter().filter(|f| f.verdict == Verdict::Stable);
@@ -121,7 +125,9 @@ fn dot(unit: f64) -> f64 {
 }
 
 fn rest(theme: &Theme, bold: f64) -> Stroke {
-    Stroke::new(theme.falls, 0.45 * bold).dashed([1.1 * bold, 0.9 * bold]).mitred()
+    Stroke::new(theme.falls, 0.45 * bold)
+        .dashed([1.1 * bold, 0.9 * bold])
+        .mitred()
 }
 
 fn stretches(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
@@ -133,7 +139,7 @@ fn stretches(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
         Path::stroked(outline, Stroke::new(theme.page, 0.45 * bold + 2.0)).with_opacity(0.8)
     };
     for contact in &found.contacts {
-        let place = |points: [crate::geometry::Point; 2]| points.map(|p| pen.camera.place(p));
+        let place = |points: [Point; 2]| points.map(|p| pen.camera.place(p));
         let ends = place(contact.interface.ends);
         let points = place(contact.application_points);
         let mut rests = Outline::default();
@@ -142,10 +148,8 @@ fn stretches(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
                 rests.extend(Outline::line([end, point]));
             }
         }
-        // A stretch that is a point shows as a dot, for the ends of lines are round.
-        let safe = Outline::line(points);
         if pen.many() {
-            all_safe.extend(safe);
+            all_safe.extend(Outline::line(points));
             all_rests.extend(rests);
             continue;
         }
@@ -162,10 +166,14 @@ fn stretches(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
                 .with(casing(rests.clone()))
                 .with(Path::stroked(rests, rest(theme, bold)));
         }
-        let stroke = Stroke::new(theme.safe, bold);
-        group
-            .items
-            .push(drawn.with(Path::stroked(safe, stroke)).into());
+        // A line that is no longer than a point shows as a dot only where its ends are round.
+        let path = if scene.kernel < 1.0 && length > 0.0 {
+            let stroke = Stroke::new(theme.safe, bold).mitred();
+            Path::stroked(Outline::line(points), stroke)
+        } else {
+            Path::filled(Outline::circle(points[0], 0.9 * bold), theme.safe)
+        };
+        group.items.push(drawn.with(path).into());
     }
     if !all_rests.segments.is_empty() {
         let path = Path::stroked(all_rests, rest(theme, bold));
@@ -230,7 +238,7 @@ fn safe_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
     vec![Path::stroked(line, Stroke::new(theme.safe, 4.0)).into()]
 }
 
-fn unsafe_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+fn rest_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
     let line = Outline::line([at, at.moved(WIDE, 0.0)]);
     vec![Path::stroked(line, rest(theme, 4.0)).into()]
 }

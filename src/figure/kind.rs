@@ -74,12 +74,7 @@ impl Kind {
     }
 
     /// A box around what a frame's picture shows beside blocks, ground, robots and arrows.
-    pub(crate) fn reach(
-        self,
-        analysis: &Analysis<'_>,
-        frame: usize,
-        unit: f64,
-    ) -> Option<Bounds> {
+    pub(crate) fn reach(self, analysis: &Analysis<'_>, frame: usize, unit: f64) -> Option<Bounds> {
         mechanism::reach(analysis, &self.displacements(analysis, frame, unit))
     }
 

@@ -237,10 +237,7 @@ pub(crate) fn ink(pen: &Pen<'_>) -> Ink {
         ink.line(from, to, pen.line);
     }
     for hold in &frame.holds {
-        ink.disc(
-            pen.camera.place(pen.moved(hold.block, hold.at)),
-            pen.disc(),
-        );
+        ink.disc(pen.camera.place(pen.moved(hold.block, hold.at)), pen.disc());
     }
     let marks = &pen.stage.marks[pen.number];
     for arrow in &marks.arrows {

@@ -7,7 +7,7 @@ use super::displacement::Displacement;
 use super::joint::{Joint, joints};
 use super::label;
 use super::legend::{self, Entry};
-use super::panel::{MOVED, Pen};
+use super::panel::{MOVED, Pen, TEXTURE};
 use super::stage::Stage;
 use super::told;
 use super::words::quantity;
@@ -66,11 +66,14 @@ pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Ca
 /// What the signs of a mechanism mean, those that occur.
 pub(crate) fn entries(stage: &Stage<'_>) -> Vec<Entry> {
     let analysis = stage.analysis;
-    let falling = (0..analysis.frames.len())
-        .filter(|f| analysis.frames[*f].verdict == Verdict::Unstable);
+    let falling =
+        (0..analysis.frames.len()).filter(|f| analysis.frames[*f].verdict == Verdict::Unstable);
     let mut entries = Vec::new();
     let joints: Vec<Joint> = falling.clone().flat_map(|f| joints(analysis, f)).collect();
-    if falling.clone().any(|f| !analysis.frames[f].mechanism.is_empty()) {
+    if falling
+        .clone()
+        .any(|f| !analysis.frames[f].mechanism.is_empty())
+    {
         let stood = "where it stands now".to_owned();
         entries.push(Entry::Sign(ghost_sign, SIGN, stood));
         let goes = "how it begins to move, enlarged".to_owned();
@@ -102,9 +105,11 @@ fn ghosts(pen: &Pen<'_>) -> Option<Item> {
     for (id, _) in moved(pen) {
         outline.extend(pen.camera.polygon(&scene.blocks[id.0].body.polygon));
     }
-    let dash = [3.2 * pen.line, 2.4 * pen.line];
-    let stroke = Stroke::new(theme.outline, 0.8 * pen.line).dashed(dash);
-    let path = Path::stroked(outline, stroke).with_opacity(0.75);
+    let width = pen.line.clamp(0.6, 1.1);
+    let stroke = Stroke::new(theme.outline, width).dashed([3.6 * width, 2.8 * width]);
+    // Many small outlines are a texture that must not drown what moves.
+    let opacity = if pen.unit() < TEXTURE { 0.6 } else { 1.0 };
+    let path = Path::stroked(outline, stroke).with_opacity(opacity);
     let ghosts = Group::of_class("ghosts").titled("Where the blocks that move stand now");
     (!path.outline.segments.is_empty()).then(|| ghosts.with(path).into())
 }
@@ -160,7 +165,7 @@ fn taken(pen: &Pen<'_>, body: BodyId, at: Point) -> Point {
 }
 
 fn ring_radius(pen: &Pen<'_>) -> f64 {
-    (RING * pen.unit()).clamp(2.0, 6.0)
+    (RING * pen.unit()).clamp(2.6, 6.0)
 }
 
 /// A ring at the end that keeps contact.
@@ -210,7 +215,9 @@ fn slip(pen: &Pen<'_>, contact: &Contact, joint: &Joint, ink: &mut Ink) -> Item 
         );
         ink.line(from, from.moved(along.0, along.1), 4.0);
         let width = (0.035 * pen.unit()).clamp(0.8, 1.8);
-        group.items.extend(half_arrow(from, along, aside, width, theme));
+        group
+            .items
+            .extend(half_arrow(from, along, aside, width, theme));
     }
     group.into()
 }
@@ -224,7 +231,8 @@ fn half_arrow(
     theme: &Theme,
 ) -> [Item; 2] {
     let tip = from.moved(along.0, along.1);
-    let reach = libm::hypot(along.0, along.1) / libm::hypot(aside.0, aside.1).max(f64::MIN_POSITIVE);
+    let reach =
+        libm::hypot(along.0, along.1) / libm::hypot(aside.0, aside.1).max(f64::MIN_POSITIVE);
     let barb = tip.moved(
         BARB * (0.55 * reach * aside.0 - along.0),
         BARB * (0.55 * reach * aside.1 - along.1),
@@ -248,7 +256,9 @@ fn moved_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
     let outline = Outline::rounded(swatch(at), 0.0);
     let edge = Stroke::new(theme.motion.mixed(theme.ink, 0.25), 1.2);
     vec![
-        Path::filled(outline.clone(), theme.motion).with_opacity(MOVED).into(),
+        Path::filled(outline.clone(), theme.motion)
+            .with_opacity(MOVED)
+            .into(),
         Path::stroked(outline, edge).into(),
     ]
 }
@@ -267,7 +277,19 @@ fn ring_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
 
 fn slip_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
     let mut items = Vec::new();
-    items.extend(half_arrow(at.moved(0.0, -3.5), (26.0, 0.0), (0.0, -3.5), 1.6, theme));
-    items.extend(half_arrow(at.moved(26.0, 3.5), (-26.0, 0.0), (0.0, 3.5), 1.6, theme));
+    items.extend(half_arrow(
+        at.moved(0.0, -3.5),
+        (26.0, 0.0),
+        (0.0, -3.5),
+        1.6,
+        theme,
+    ));
+    items.extend(half_arrow(
+        at.moved(26.0, 3.5),
+        (-26.0, 0.0),
+        (0.0, 3.5),
+        1.6,
+        theme,
+    ));
     items
 }

@@ -2,7 +2,7 @@
 //!
 //! Mechanics knows nothing of pictures and pictures know nothing of forces; here the numbers of an
 //! [`Analysis`](crate::analysis::Analysis) become shapes of a [`Drawing`](crate::drawing::Drawing). Nothing is computed
-//! here that a verdict rests on. One file per kind of figure: [`forces`], [`shapes`].
+//! here that a verdict rests on. What a figure shows is its [`Kind`]; one file per kind.
 
 mod arrow;
 mod bearing;

@@ -141,9 +141,7 @@ impl<'a> Pen<'a> {
         }
         Pen {
             places,
-            displaced: stage
-                .kind
-                .displacements(stage.analysis, number, stage.unit),
+            displaced: stage.kind.displacements(stage.analysis, number, stage.unit),
             stage,
             number,
             camera,
@@ -197,7 +195,13 @@ impl<'a> Pen<'a> {
     }
 
     /// A picture of plain parts: ground, these blocks, plans, robots, and the kind's own marks, labels clear of `ink`.
-    pub(crate) fn picture(&self, view: Bounds, blocks: Group, marks: Vec<Group>, ink: Ink) -> Group {
+    pub(crate) fn picture(
+        &self,
+        view: Bounds,
+        blocks: Group,
+        marks: Vec<Group>,
+        ink: Ink,
+    ) -> Group {
         let mut group = Group::of_class("picture");
         let parts = [self.ground(view), blocks, self.plans(), self.discs()];
         let parts = parts.into_iter().chain(marks);
@@ -231,12 +235,10 @@ impl<'a> Pen<'a> {
         let (scene, theme) = (self.stage.analysis.scene, &self.stage.options.theme);
         let at = self.camera.back(at);
         let placed = &scene.frames[self.number].placed;
-        let block = placed
-            .iter()
-            .position(|id| {
-                let at = self.displacement(*id).map_or(at, |d| d.back(at));
-                scene.blocks[id.0].body.polygon.contains(at)
-            });
+        let block = placed.iter().position(|id| {
+            let at = self.displacement(*id).map_or(at, |d| d.back(at));
+            scene.blocks[id.0].body.polygon.contains(at)
+        });
         let ground = || scene.ground.iter().find(|g| g.body.polygon.contains(at));
         match block {
             Some(place) => self.fill(place, placed[place]),

@@ -44,11 +44,11 @@ pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Ca
 
 /// What is said below a frame's verdict.
 pub(crate) fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
-    let missing = verdict::reason(scene, found);
+    let why = verdict::reason(scene, found);
     match found.verdict {
-        Verdict::Stable => missing,
-        Verdict::Unstable => format!("what is carried is no line of equilibrium; {missing}"),
-        Verdict::Undecided => format!("no line of equilibrium is proved; {missing}"),
+        Verdict::Stable => why,
+        Verdict::Unstable => "faint, what is carried: it is no line of equilibrium".into(),
+        Verdict::Undecided => format!("no line of equilibrium is proved; {why}"),
     }
 }
 
@@ -65,7 +65,7 @@ pub(crate) fn entries(stage: &Stage<'_>, unit: f64) -> Vec<Entry> {
     let mut entries = Vec::new();
     if carried {
         let largest = quantity(largest(stage), "N");
-        let line = format!("line of thrust, the thicker the larger: {largest}");
+        let line = format!("line of thrust, this thick for {largest}");
         entries.push(Entry::Line(colour(theme), widest(unit), line));
         entries.push(Entry::Sign(dot_sign, 8.0, "resultant".into()));
     }
@@ -201,7 +201,11 @@ fn dot_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
 fn meeting_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
     let hub = at.moved(13.0, 0.0);
     let mut star = Outline::default();
-    for end in [at.moved(2.0, 6.0), at.moved(24.0, 6.0), at.moved(13.0, -8.0)] {
+    for end in [
+        at.moved(2.0, 6.0),
+        at.moved(24.0, 6.0),
+        at.moved(13.0, -8.0),
+    ] {
         star.extend(Outline::line([end, hub]));
     }
     vec![Path::stroked(star, Stroke::new(colour(theme), 2.0)).into()]

@@ -9,7 +9,7 @@ use super::panel::{ByColour, Pen};
 use super::stage::Stage;
 use super::told;
 use super::verdict;
-use super::words::{ALL, listed, percent, quantity};
+use super::words::{ALL, percent, quantity};
 use crate::analysis::{Contact, FrameAnalysis, Verdict};
 use crate::drawing::{Camera, Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
 use crate::geometry::Bounds;
@@ -44,8 +44,9 @@ pub(crate) fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
     let used = most_used(scene, found);
     match found.verdict {
         Verdict::Stable => format!("in the balance shown: {used}"),
-        _ => format!(
-            "of what is carried: {used}; {}",
+        Verdict::Unstable => format!("of what is carried beside what is missing: {used}"),
+        Verdict::Undecided => format!(
+            "in what was found: {used}; {}",
             verdict::reason(scene, found)
         ),
     }
@@ -64,15 +65,23 @@ pub(crate) fn entries(stage: &Stage<'_>) -> Vec<Entry> {
     let shared = all.iter().flatten().any(|b| b.friction.is_some());
     if shared || robots {
         let what = match (shared, robots) {
-            (true, false) => "friction used of friction available",
-            (false, _) => "used of a robot's limits",
-            (true, true) => "used of friction available, in discs of a robot's limits",
+            (true, false) => "of the friction available",
+            (false, _) => "of a robot's limits",
+            (true, true) => "of the friction available; in discs, of a robot's limits",
         };
         let ends = ["0".to_owned(), "100 %".to_owned()];
         entries.push(Entry::Amplitudes(ends, what.into()));
     }
-    if all.iter().flatten().any(full) {
-        let all = "all of it: at the edge of sliding".to_owned();
+    let spent = frames
+        .iter()
+        .flat_map(|f| &f.robots)
+        .any(|r| r.limit_used >= ALL);
+    if spent || all.iter().flatten().any(full) {
+        let all = if spent {
+            "all of it".to_owned()
+        } else {
+            "all of it: at the edge of sliding".to_owned()
+        };
         entries.push(Entry::Sign(full_sign, WIDE, all));
     }
     if all.iter().flatten().any(|b| b.friction.is_none()) {
@@ -109,14 +118,19 @@ fn most_used(scene: &Scene, found: &FrameAnalysis) -> String {
     }
     let sliding = bearings.iter().flatten().filter(|b| full(b)).count();
     match most {
-        None => said.push("no friction".to_owned()),
+        None => {}
+        Some((share, _)) if share < 1e-6 => said.push("no interface uses friction".to_owned()),
         Some(_) if sliding > 1 => {
-            said.push(format!("{sliding} interfaces use all the friction available"));
+            said.push(format!(
+                "{sliding} interfaces use all the friction available"
+            ));
         }
         Some((share, contact)) => {
             let pair = told::pair(scene, contact.interface.bodies);
             let share = percent(share);
-            said.push(format!("most between {pair}: {share} of the friction available"));
+            said.push(format!(
+                "most between {pair}: {share} of the friction available"
+            ));
         }
     }
     let robots = found.robots.iter().filter(|r| limited(scene, r.robot.0));
@@ -124,7 +138,11 @@ fn most_used(scene: &Scene, found: &FrameAnalysis) -> String {
         let (id, share) = (&scene.robots[robot.robot.0].id, percent(robot.limit_used));
         said.push(format!("robot\u{a0}{id} gives {share} of its limit"));
     }
-    listed(&said)
+    if said.is_empty() {
+        "nothing is limited".to_owned()
+    } else {
+        said.join("; ")
+    }
 }
 
 fn bold(unit: f64) -> f64 {
@@ -165,7 +183,8 @@ fn interfaces(pen: &Pen<'_>, found: &FrameAnalysis) -> (Group, Group) {
             if pen.many() {
                 dashes.extend(line);
             } else {
-                let drawn = Group::of_class("interface").titled(format!("Between {pair}: no force"));
+                let drawn =
+                    Group::of_class("interface").titled(format!("Between {pair}: no force"));
                 let path = Path::stroked(line, idle_stroke(theme, bold));
                 idle.items.push(drawn.with(path).into());
             }
@@ -190,7 +209,10 @@ fn interfaces(pen: &Pen<'_>, found: &FrameAnalysis) -> (Group, Group) {
         let mut drawn = Group::of_class("interface")
             .titled(title)
             .with(rimmed(line.clone(), bold, rim, theme))
-            .with(Path::stroked(line, Stroke::new(colour(&bearing, theme), bold)));
+            .with(Path::stroked(
+                line,
+                Stroke::new(colour(&bearing, theme), bold),
+            ));
         if let Some(bar) = bar {
             drawn = drawn.with(Path::stroked(bar, Stroke::new(theme.ink, bar_width(bold))));
         }
@@ -225,7 +247,10 @@ fn across(pen: &Pen<'_>, contact: &Contact) -> [PagePoint; 2] {
     let middle = pen.camera.place(contact.interface.middle());
     let half = 0.5 * BAR * bold(pen.unit());
     // A unit normal is as long on the page as the scale makes it.
-    let (x, y) = (contact.interface.normal.x * half, -contact.interface.normal.y * half);
+    let (x, y) = (
+        contact.interface.normal.x * half,
+        -contact.interface.normal.y * half,
+    );
     [middle.moved(-x, -y), middle.moved(x, y)]
 }
 
@@ -242,8 +267,13 @@ fn robots(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
             percent(robot.limit_used)
         );
         let rim = Stroke::new(edge(theme), (0.06 * pen.disc()).clamp(0.4, 1.0));
-        let disc = Path::filled(Outline::circle(at, radius), theme.amplitude(robot.limit_used));
-        let mut drawn = Group::of_class("limit").titled(title).with(disc.with_stroke(rim));
+        let disc = Path::filled(
+            Outline::circle(at, radius),
+            theme.amplitude(robot.limit_used),
+        );
+        let mut drawn = Group::of_class("limit")
+            .titled(title)
+            .with(disc.with_stroke(rim));
         if robot.limit_used >= ALL {
             let bar = Outline::line([at.moved(0.0, -1.25 * radius), at.moved(0.0, 1.25 * radius)]);
             drawn = drawn.with(Path::stroked(bar, Stroke::new(theme.ink, 1.4)));

@@ -11,6 +11,7 @@ mod gallery;
 mod hard;
 mod import;
 mod labels;
+mod kinds;
 mod laws;
 mod layers;
 mod oracle;

@@ -219,3 +219,48 @@ fn command_lines_that_make_no_sense_are_refused_with_a_way_out() {
     }
     assert_eq!(bench.made(), Vec::<String>::new());
 }
+
+#[test]
+fn every_kind_of_figure_says_what_it_shows() {
+    let bench = Bench::new();
+    for (kind, falls, stands) in [
+        (
+            "mechanism",
+            "turns about a corner on block\u{a0}left",
+            "there is no mechanism",
+        ),
+        (
+            "thrust",
+            "it is no line of equilibrium",
+            "line of thrust, this thick for",
+        ),
+        (
+            "kernel",
+            "no forces balance it",
+            "safe stretch of an interface",
+        ),
+        (
+            "utilisation",
+            "beside what is missing",
+            "in the balance shown",
+        ),
+    ] {
+        let ran = bench.run(&format!("render falls.json -o - --kind {kind}"));
+        assert_eq!(ran.code, 0, "{kind}: {}", ran.err);
+        let said = ran.out.replace('\u{a0}', " ");
+        assert!(
+            said.contains(&falls.replace('\u{a0}', " ")),
+            "{kind}: {said}"
+        );
+        let ran = bench.run(&format!("render stands.json -o - --kind {kind}"));
+        assert!(ran.out.contains(stands), "{kind}: {}", ran.out);
+    }
+    let ran = bench.run("render stands.json -o out.svg --kind stress");
+    assert_eq!(ran.code, 2);
+    assert!(
+        ran.err.contains("mechanism") && ran.err.contains("utilisation"),
+        "{}",
+        ran.err
+    );
+    assert_eq!(bench.made(), Vec::<String>::new());
+}

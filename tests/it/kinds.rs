@@ -1,0 +1,220 @@
+//! Kinds of figure: mechanism, thrust, kernel, utilisation: that what they show is what was found.
+
+use drystone::analysis::Verdict;
+use drystone::drawing::{Drawing, Group, Item, Outline, Path, Theme};
+use drystone::figure::{self, Kind, Options};
+use drystone::output::svg;
+use drystone::{Analysis, Scene};
+use serde_json::json;
+
+use super::structure;
+
+const KINDS: [Kind; 4] = [
+    Kind::Mechanism,
+    Kind::Thrust,
+    Kind::Kernel,
+    Kind::Utilisation,
+];
+
+fn scene(path: &str) -> Scene {
+    let full = format!("{}/assets/{path}", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(&full).expect("the scene is there");
+    Scene::from_json(&text).unwrap_or_else(|problems| panic!("{path}:\n{problems}"))
+}
+
+fn draw(analysis: &Analysis<'_>, kind: Kind) -> Drawing {
+    figure::draw(analysis, kind, &Options::default())
+}
+
+/// Every group of a class.
+fn of_class<'a>(items: &'a [Item], class: &str, found: &mut Vec<&'a Group>) {
+    for item in items {
+        if let Item::Group(group) = item {
+            if group.class == class {
+                found.push(group);
+            }
+            of_class(&group.items, class, found);
+        }
+    }
+}
+
+fn all<'a>(drawing: &'a Drawing, class: &str) -> Vec<&'a Group> {
+    let mut found = Vec::new();
+    of_class(&drawing.items, class, &mut found);
+    found
+}
+
+fn paths(group: &Group) -> impl Iterator<Item = &Path> {
+    group.items.iter().filter_map(|item| match item {
+        Item::Path(path) => Some(path),
+        _ => None,
+    })
+}
+
+fn outlines(items: &[Item], visit: &mut dyn FnMut(&Outline)) {
+    for item in items {
+        match item {
+            Item::Path(path) => visit(&path.outline),
+            // What is clipped may reach out of the page.
+            Item::Group(group) if group.clip.is_none() => outlines(&group.items, visit),
+            _ => {}
+        }
+    }
+}
+
+#[test]
+fn nothing_of_any_kind_lies_beyond_the_page() {
+    for name in [
+        "thesis/figure-4.json",
+        "thesis/figure-6-kernel-05.json",
+        "thesis/figure-8-left.json",
+        "thesis/figure-8-right.json",
+        "thesis/figure-9b.json",
+        "study/arch-27-thin.json",
+        "study/stack-harmonic-falls.json",
+        "study/robot-at-its-limit.json",
+        "study/feather-falls.json",
+    ] {
+        let scene = scene(name);
+        let analysis = Analysis::of(&scene);
+        for kind in KINDS {
+            let drawing = draw(&analysis, kind);
+            outlines(&drawing.items, &mut |outline| {
+                for p in outline.points() {
+                    let inside = (0.0..=drawing.width).contains(&p.x)
+                        && (0.0..=drawing.height).contains(&p.y);
+                    assert!(inside, "{name}, {kind:?}: {p:?}");
+                }
+            });
+        }
+    }
+}
+
+#[test]
+fn what_stands_has_no_mechanism_and_what_falls_shows_every_block_that_moves() {
+    let scene = scene("thesis/figure-4.json");
+    let analysis = Analysis::of(&scene);
+    let drawing = draw(&analysis, Kind::Mechanism);
+    let frames = all(&drawing, "frame");
+    for (found, frame) in analysis.frames.iter().zip(frames) {
+        let mut moved = Vec::new();
+        of_class(&frame.items, "displaced", &mut moved);
+        let falls = found.verdict == Verdict::Unstable;
+        assert_eq!(moved.is_empty(), !falls);
+        assert!(moved.len() <= found.mechanism.len());
+    }
+    let svg = svg::write(&drawing);
+    assert!(svg.contains("there is no mechanism"));
+    assert!(svg.contains("turns about the grip of robot"), "{svg}");
+}
+
+#[test]
+fn a_safe_stretch_is_as_long_as_the_kernel_leaves_it() {
+    for (name, kernel) in [
+        ("thesis/figure-6-kernel-0.json", 0.0),
+        ("thesis/figure-6-kernel-02.json", 0.2),
+        ("thesis/figure-6-kernel-05.json", 0.5),
+    ] {
+        let scene = scene(name);
+        let drawing = draw(&Analysis::of(&scene), Kind::Kernel);
+        let interfaces = all(&drawing, "interface");
+        assert!(interfaces.len() >= 2, "{name}");
+        for interface in interfaces {
+            let (mut safe, mut rest) = (0.0, 0.0);
+            for path in paths(interface) {
+                let stroke = path.stroke.as_ref().expect("a line");
+                let points: Vec<_> = path.outline.points().collect();
+                let length: f64 = points
+                    .chunks(2)
+                    .map(|ends| libm::hypot(ends[1].x - ends[0].x, ends[1].y - ends[0].y))
+                    .sum();
+                if stroke.colour == Theme::paper().safe {
+                    safe += length;
+                } else if !stroke.dash.is_empty() {
+                    rest += length;
+                }
+            }
+            let share = safe / (safe + rest);
+            assert!((share - (1.0 - kernel)).abs() < 1e-9, "{name}: {share}");
+        }
+    }
+}
+
+#[test]
+fn a_kernel_of_one_leaves_a_point() {
+    let file = json!({ "drystone": 1, "friction": 0.7, "kernel": 1.0,
+        "ground": [{ "polygon": structure::rectangle(-5.0, -1.0, 10.0, 1.0) }],
+        "blocks": [structure::block("a", structure::rectangle(0.0, 0.0, 2.0, 1.0), 6.0)] });
+    let scene = structure::scene(&file);
+    let svg = svg::write(&draw(&Analysis::of(&scene), Kind::Kernel));
+    assert!(svg.contains("every safe stretch is a point"), "{svg}");
+    assert!(
+        svg.contains("Between a and the ground: 0 m of 2 m safe"),
+        "{svg}"
+    );
+}
+
+#[test]
+fn marks_of_all_friction_stand_exactly_where_all_of_it_is_used() {
+    let mut marked = 0;
+    for name in [
+        "thesis/figure-8-left.json",
+        "thesis/figure-3b.json",
+        "study/slope-exact.json",
+    ] {
+        let scene = scene(name);
+        let analysis = Analysis::of(&scene);
+        let drawing = draw(&analysis, Kind::Utilisation);
+        // A rim, a line, and a bar across where all friction is used.
+        let bars = all(&drawing, "interface")
+            .into_iter()
+            .filter(|group| paths(group).count() == 3);
+        let titles: Vec<&str> = bars.map(|group| group.title.as_str()).collect();
+        let used = analysis.frames[0]
+            .contacts
+            .iter()
+            .filter(|c| c.friction_used >= 1.0 - 1e-6)
+            .count();
+        assert_eq!(titles.len(), used, "{name}: {titles:?}");
+        assert!(
+            titles
+                .iter()
+                .all(|t| t.contains(": 100\u{a0}% of the friction"))
+        );
+        marked += used;
+    }
+    assert!(marked >= 2, "{marked}");
+}
+
+#[test]
+fn a_thousand_blocks_and_more_are_few_paths() {
+    // Shelves of single blocks: many, and quickly examined.
+    let blocks: Vec<_> = (0..1100)
+        .map(|i| {
+            let (x, y) = (2.0 * f64::from(i % 40), 3.0 * f64::from(i / 40));
+            structure::block(&format!("{i}"), structure::rectangle(x, y, 1.0, 1.0), 6.0)
+        })
+        .collect();
+    let ground: Vec<_> = (0..28)
+        .map(|i| json!({ "polygon": structure::rectangle(-5.0, 3.0 * f64::from(i) - 1.0, 100.0, 1.0) }))
+        .collect();
+    let file = json!({ "drystone": 1, "friction": 0.7, "ground": ground, "blocks": blocks });
+    let scene = structure::scene(&file);
+    let analysis = Analysis::of(&scene);
+    for kind in KINDS {
+        let svg = svg::write(&draw(&analysis, kind));
+        assert!(svg.matches("<path").count() < 40, "{kind:?}");
+        assert!(svg.len() < 600_000, "{kind:?}: {} bytes", svg.len());
+    }
+}
+
+#[test]
+fn the_same_scene_gives_the_same_bytes_whatever_the_kind() {
+    for kind in KINDS {
+        let text = || {
+            let scene = scene("thesis/figure-4.json");
+            svg::write(&draw(&Analysis::of(&scene), kind))
+        };
+        assert_eq!(text(), text(), "{kind:?}");
+    }
+}
