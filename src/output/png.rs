@@ -111,7 +111,7 @@ fn encode(pixels: &Pixmap, per_metre: Option<u32>) -> Result<Vec<u8>, PngError> 
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, pixels.width(), pixels.height());
     encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_compression(png::Compression::High);
+    encoder.set_compression(png::Compression::Balanced);
     encoder.set_pixel_dims(per_metre.map(|n| png::PixelDimensions {
         xppu: n,
         yppu: n,
@@ -210,9 +210,9 @@ mod tests {
     /// Share of dark pixels.
     fn ink(svg: &str) -> f64 {
         let bytes = render(svg, Size::Natural).expect("a picture");
-        let mut reader = png::Decoder::new(std::io::Cursor::new(bytes))
-            .read_info()
-            .expect("png");
+        let mut decoder = png::Decoder::new(std::io::Cursor::new(bytes));
+        decoder.set_transformations(png::Transformations::EXPAND);
+        let mut reader = decoder.read_info().expect("png");
         let mut data = vec![0; reader.output_buffer_size().expect("size")];
         reader.next_frame(&mut data).expect("frame");
         data.chunks_exact(3).filter(|p| p[0] < 128).count() as f64 / (data.len() as f64 / 3.0)

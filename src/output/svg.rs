@@ -408,7 +408,7 @@ fn fold(text: &str) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drawing::{Colour, Face, PageRect};
+    use crate::drawing::{Colour, Outline, PagePoint, PageRect};
 
     fn page(items: Vec<Item>) -> Drawing {
         Drawing {
