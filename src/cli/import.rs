@@ -123,7 +123,9 @@ impl Import {
         }
         self.tell(terminal, &name, &imported);
         if self.json {
-            terminal.print(&import_json(&imported)).map_err(|c| vec![c])?;
+            terminal
+                .print(&import_json(&imported))
+                .map_err(|c| vec![c])?;
         }
         Ok(Ending::Done)
     }
@@ -136,7 +138,10 @@ impl Import {
                 WrittenIn::Wkt => Format::Wkt,
             });
         }
-        let ending = self.drawing.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
+        let ending = self
+            .drawing
+            .extension()
+            .map(|e| e.to_string_lossy().to_ascii_lowercase());
         match ending.as_deref() {
             Some("svg") => Ok(Format::Svg),
             Some("geojson" | "json") => Ok(Format::GeoJson),
@@ -165,7 +170,10 @@ impl Import {
         })?;
         String::from_utf8(bytes).map_err(|error| Complaint::NotRead {
             what: name.into(),
-            why: format!("it is no UTF-8 text, from byte {} on; save it as plain UTF-8", error.utf8_error().valid_up_to()),
+            why: format!(
+                "it is no UTF-8 text, from byte {} on; save it as plain UTF-8",
+                error.utf8_error().valid_up_to()
+            ),
         })
     }
 
@@ -200,7 +208,11 @@ impl Import {
             "{}: {}, {}, {}\n",
             visible(name),
             count(scene.blocks.len(), "block", "blocks"),
-            count(scene.ground.len(), "part of the ground", "parts of the ground"),
+            count(
+                scene.ground.len(),
+                "part of the ground",
+                "parts of the ground"
+            ),
             count(scene.robots.len(), "robot", "robots"),
         );
         for note in &imported.notes {
@@ -217,8 +229,14 @@ impl Import {
         }
         if imported.snapped.len() > LISTED {
             let more = imported.snapped.len() - LISTED;
-            let most = imported.snapped.iter().map(|s| s.distance).fold(0.0, f64::max);
-            text += &format!("  snapped {more} more; of all, the farthest by {most:.2e} m; --json lists them\n");
+            let most = imported
+                .snapped
+                .iter()
+                .map(|s| s.distance)
+                .fold(0.0, f64::max);
+            text += &format!(
+                "  snapped {more} more; of all, the farthest by {most:.2e} m; --json lists them\n"
+            );
         }
         terminal.note(&text);
     }

@@ -10,9 +10,9 @@ mod polygon;
 mod tolerance;
 
 pub(crate) use lattice::boundary;
-pub(crate) use polygon::sin_cos_degrees;
 pub use lattice::{Cell, Half, Lattice, LatticeKind};
 pub use overlap::{Overlap, Pieces, overlap};
+pub(crate) use polygon::sin_cos_degrees;
 pub use polygon::{Bounds, Edge, Flaw, Polygon};
 pub use tolerance::Tolerance;
 

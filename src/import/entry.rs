@@ -24,7 +24,10 @@ pub(super) fn scene(
 ) -> SceneFile {
     let round = Rounding::to(DIGITS * size);
     let ground = outlines.ground();
-    let fills: BTreeSet<[u8; 3]> = outlines.bodies[ground..].iter().filter_map(|b| b.fill).collect();
+    let fills: BTreeSet<[u8; 3]> = outlines.bodies[ground..]
+        .iter()
+        .filter_map(|b| b.fill)
+        .collect();
     let mut blocks: Vec<BlockEntry> = Vec::new();
     for (body, name) in outlines.bodies.iter().zip(&names.bodies).skip(ground) {
         blocks.push(BlockEntry {
@@ -56,7 +59,11 @@ pub(super) fn scene(
         (material(fill), entry)
     });
     SceneFile {
-        title: given.title.clone().or(Some(title)).filter(|t| !t.is_empty()),
+        title: given
+            .title
+            .clone()
+            .or(Some(title))
+            .filter(|t| !t.is_empty()),
         gravity: given.gravity,
         friction: given.friction,
         kernel: given.kernel,
@@ -71,7 +78,12 @@ pub(super) fn scene(
 }
 
 /// Each robot with the block in which its centre lies.
-fn robots(outlines: &Outlines, names: &Names, draft: &mut Draft, round: &Rounding) -> Vec<RobotEntry> {
+fn robots(
+    outlines: &Outlines,
+    names: &Names,
+    draft: &mut Draft,
+    round: &Rounding,
+) -> Vec<RobotEntry> {
     let polygons: Vec<(usize, Polygon)> = outlines
         .bodies
         .iter()
@@ -88,7 +100,11 @@ fn robots(outlines: &Outlines, names: &Names, draft: &mut Draft, round: &Roundin
                 short(robot.at.x),
                 short(robot.at.y)
             );
-            draft.remark(&robot.element, message, "draw its centre where it grips a block");
+            draft.remark(
+                &robot.element,
+                message,
+                "draw its centre where it grips a block",
+            );
         }
         entries.push(RobotEntry {
             id: Some(name.clone()),
@@ -110,7 +126,15 @@ fn material(fill: [u8; 3]) -> String {
 
 /// A length with three digits.
 pub(super) fn short(x: f64) -> String {
-    let text = format!("{x:.2e}");
+    rounded(format!("{x:.2e}"))
+}
+
+/// A scale with six digits.
+pub(super) fn digits(x: f64) -> String {
+    rounded(format!("{x:.5e}"))
+}
+
+fn rounded(text: String) -> String {
     text.parse::<f64>().map_or(text, |x| x.to_string())
 }
 
@@ -136,7 +160,11 @@ impl Rounding {
     fn number(&self, x: f64) -> f64 {
         let rounded = (x * self.factor).round() / self.factor;
         // A −0 reads badly, and adding 0 makes it 0.
-        if self.factor > 0.0 { rounded + 0.0 } else { x + 0.0 }
+        if self.factor > 0.0 {
+            rounded + 0.0
+        } else {
+            x + 0.0
+        }
     }
 
     fn pair(&self, p: Point) -> Pair {

@@ -16,6 +16,9 @@ pub(super) fn read(text: &str, scale: f64) -> Result<Draft, String> {
     let Value::Object(object) = &value else {
         return Err("its outermost value is no object".into());
     };
+    if object.contains_key("drystone") {
+        return Err("it is a scene file already, and no GeoJSON".into());
+    }
     let mut reader = Reader {
         draft: Draft::default(),
         scale,
@@ -47,7 +50,10 @@ impl Reader {
             "Feature" => {
                 let about = self.about(object, at);
                 if about.kind == Some(Kind::Ignored) {
-                    let note = format!("{} is left out: it asks for it by its name", told(at, &about.name));
+                    let note = format!(
+                        "{} is left out: it asks for it by its name",
+                        told(at, &about.name)
+                    );
                     self.draft.notes.push(note);
                     return;
                 }
@@ -84,7 +90,11 @@ impl Reader {
                 self.remark(at, about, &format!("a {kind} encloses nothing; left out"));
             }
             "" => self.remark(at, about, "it has no type; left out"),
-            _ => self.remark(at, about, &format!("{kind} is no type of GeoJSON; left out")),
+            _ => self.remark(
+                at,
+                about,
+                &format!("{kind} is no type of GeoJSON; left out"),
+            ),
         }
     }
 
@@ -129,7 +139,9 @@ impl Reader {
             Some(word) => match Kind::of(word) {
                 Some(kind) => about.kind = Some(kind),
                 None => {
-                    let why = format!("its kind `{word}` is none of block, ground, robot and ignore; not taken");
+                    let why = format!(
+                        "its kind `{word}` is none of block, ground, robot and ignore; not taken"
+                    );
                     self.remark(at, &about, &why);
                 }
             },
@@ -142,7 +154,11 @@ impl Reader {
             let value = properties.get(key).filter(|v| !v.is_null())?;
             let number = value.as_f64();
             if number.is_none() {
-                self.draft.remark(told(at, &about.name), format!("its {key} is no number; not taken"), "");
+                self.draft.remark(
+                    told(at, &about.name),
+                    format!("its {key} is no number; not taken"),
+                    "",
+                );
             }
             number
         };
@@ -191,7 +207,11 @@ impl Reader {
     }
 
     fn unreadable(&mut self, at: &str, about: &About) {
-        self.remark(at, about, "its coordinates are no lists of numbers as its type has them; left out");
+        self.remark(
+            at,
+            about,
+            "its coordinates are no lists of numbers as its type has them; left out",
+        );
     }
 
     fn remark(&mut self, at: &str, about: &About, message: &str) {

@@ -140,7 +140,9 @@ pub fn import(text: &str, format: Format, options: &Options) -> Result<Imported,
     };
     let scale = options.scale.unwrap_or(1.0);
     if format != Format::Svg && options.frame.is_some() {
-        return Err(refused("only a figure that drystone drew has frames".into()));
+        return Err(refused(
+            "only a figure that drystone drew has frames".into(),
+        ));
     }
     let draft = match format {
         Format::Svg => svg::read(text, options.scale, options.frame).map_err(refused)?,
@@ -159,7 +161,12 @@ fn wrong_options(options: &Options) -> Vec<Remark> {
             problems.push(Remark {
                 element: format!("--{name}"),
                 message: format!("{value} is no length"),
-                help: if zero { "give 0 or more" } else { "give more than 0" }.into(),
+                help: if zero {
+                    "give 0 or more"
+                } else {
+                    "give more than 0"
+                }
+                .into(),
             });
         }
     };
@@ -189,11 +196,16 @@ fn made(mut draft: Draft, options: &Options) -> Result<Imported, Refusal> {
             remarks: draft.remarks,
         });
     }
-    let gap = options.gap.unwrap_or_else(|| (1e-3 * size).min(0.25 * outlines.thinnest()));
+    let gap = options
+        .gap
+        .unwrap_or_else(|| (1e-3 * size).min(0.25 * outlines.thinnest()));
     let names = name::given(&mut outlines);
     let snapped = outlines.snap(&mut draft, &names, gap);
     if gap > 0.0 {
-        draft.notes.push(format!("what lies within {} m of each other is made to touch", entry::short(gap)));
+        draft.notes.push(format!(
+            "what lies within {} m of each other is made to touch",
+            entry::short(gap)
+        ));
     }
     let scene = entry::scene(&outlines, &names, &mut draft, title, size, &options.scene);
     match Scene::from_json(&scene.to_json()) {

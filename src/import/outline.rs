@@ -5,11 +5,14 @@ use super::name::Names;
 use super::region::{Rings, polygon, regions};
 use super::track::{Corner, Track};
 use super::{Remark, Snapped, snap};
-use crate::geometry::{Bounds, Flaw, Point, Polygon};
+use crate::geometry::{Bounds, Flaw, Point, Polygon, Tolerance};
 use crate::scene::Problem;
 
 /// Places farther from the origin than this, in metres, are no places.
 const FARTHEST: f64 = 1e12;
+
+/// More bodies than this are not named one by one.
+const MANY: usize = 12;
 
 /// What a draft comes to.
 pub(super) struct Outlines {
@@ -47,7 +50,10 @@ pub(super) fn size(draft: &mut Draft) -> f64 {
     for part in std::mem::take(&mut draft.parts) {
         let hull = hull(&part);
         // Written so that NaN is far.
-        if hull.iter().all(|p| p.x.abs() <= FARTHEST && p.y.abs() <= FARTHEST) {
+        if hull
+            .iter()
+            .all(|p| p.x.abs() <= FARTHEST && p.y.abs() <= FARTHEST)
+        {
             if part.kind == Kind::Block {
                 let own = Bounds::of(hull);
                 around = around.into_iter().chain(own).reduce(Bounds::union);
@@ -134,8 +140,24 @@ impl Outlines {
             return Vec::new();
         }
         let rings: Vec<Rings> = self.bodies.iter().map(|b| b.rings.clone()).collect();
-        let outcome = snap::snapped(&rings, gap);
-        for body in outcome.kept {
+        let outcome = snap::snapped(&rings, gap, 0.5 * self.tolerance());
+        if outcome.kept.len() > MANY {
+            let message = format!(
+                "{} bodies would lose their shape, or lie deeper in their neighbours, if they were snapped; left as they are drawn",
+                outcome.kept.len()
+            );
+            draft.remark(
+                "",
+                message,
+                "draw them closer to what they touch, or give another --gap",
+            );
+        }
+        for body in outcome
+            .kept
+            .iter()
+            .copied()
+            .filter(|_| outcome.kept.len() <= MANY)
+        {
             draft.remark(
                 &self.bodies[body].element,
                 "snapped to its neighbours it would lose its shape or lie deeper in them; left as it is drawn",
@@ -156,9 +178,25 @@ impl Outlines {
         snapped
     }
 
+    /// How deep an overlap a scene of these blocks takes for noise, in metres.
+    fn tolerance(&self) -> f64 {
+        let blocks = self.bodies.iter().filter(|b| b.kind == Kind::Block);
+        let boxes: Vec<Bounds> = blocks
+            .filter_map(|b| Bounds::of(b.rings.iter().flatten().map(|c| c.at)))
+            .collect();
+        let mut sizes: Vec<f64> = boxes.iter().map(|b| b.diagonal()).collect();
+        sizes.sort_by(f64::total_cmp);
+        let typical = sizes.get(sizes.len() / 2).copied().unwrap_or(0.0);
+        let all = boxes.into_iter().reduce(Bounds::union);
+        Tolerance::of(all.map_or(0.0, Bounds::diagonal), typical).gap
+    }
+
     /// The parts of the ground.
     pub(super) fn ground(&self) -> usize {
-        self.bodies.iter().filter(|b| b.kind == Kind::Ground).count()
+        self.bodies
+            .iter()
+            .filter(|b| b.kind == Kind::Ground)
+            .count()
     }
 
     /// A problem of the scene, told of the elements it comes from.
@@ -173,11 +211,18 @@ impl Outlines {
             .or_else(|| number("ground"))
             .and_then(|i| self.bodies.get(i))
             .map(|b| b.element.clone());
-        let robot = || number("robots").and_then(|i| self.robots.get(i)).map(|r| r.element.clone());
+        let robot = || {
+            number("robots")
+                .and_then(|i| self.robots.get(i))
+                .map(|r| r.element.clone())
+        };
         let mut message = problem.message.clone();
         for (i, body) in self.bodies[..ground].iter().enumerate() {
             // The drawing knows no numbers.
-            message = message.replace(&format!("ground[{i}]"), &format!("the ground's {}", body.element));
+            message = message.replace(
+                &format!("ground[{i}]"),
+                &format!("the ground's {}", body.element),
+            );
         }
         Remark {
             element: body.or_else(robot).unwrap_or_else(|| problem.path.clone()),
@@ -226,7 +271,10 @@ fn flawed(draft: &mut Draft, part: &Part, flaws: &[Flaw]) {
                 n => format!(", and in {} more places", n - 1),
             };
             (
-                format!("its outline crosses or touches itself at {}{more}; left out", point(at)),
+                format!(
+                    "its outline crosses or touches itself at {}{more}; left out",
+                    point(at)
+                ),
                 "draw it without crossings, or in parts",
             )
         }
@@ -245,4 +293,3 @@ impl Body {
         polygon(&self.rings).ok()
     }
 }
-

@@ -4,8 +4,10 @@ use super::*;
 use crate::geometry::Point;
 
 fn svg(body: &str) -> String {
-    format!("<svg xmlns='http://www.w3.org/2000/svg' xmlns:inkscape='http://www.inkscape.org/namespaces/inkscape' \
-             xmlns:xlink='http://www.w3.org/1999/xlink' viewBox='0 0 20 10'>\n{body}\n</svg>")
+    format!(
+        "<svg xmlns='http://www.w3.org/2000/svg' xmlns:inkscape='http://www.inkscape.org/namespaces/inkscape' \
+             xmlns:xlink='http://www.w3.org/1999/xlink' viewBox='0 0 20 10'>\n{body}\n</svg>"
+    )
 }
 
 fn taken(body: &str) -> Imported {
@@ -13,7 +15,12 @@ fn taken(body: &str) -> Imported {
 }
 
 fn ids(imported: &Imported) -> Vec<&str> {
-    imported.scene.blocks.iter().filter_map(|b| b.id.as_deref()).collect()
+    imported
+        .scene
+        .blocks
+        .iter()
+        .filter_map(|b| b.id.as_deref())
+        .collect()
 }
 
 fn bounds(imported: &Imported, block: usize) -> [f64; 4] {
@@ -38,12 +45,22 @@ fn layers_and_names_say_what_things_are() {
     let (file, robot) = (&imported.scene, &imported.scene.robots[0]);
     assert_eq!(file.ground[0].fill.as_deref(), Some("#777777"));
     assert_eq!(robot.id.as_deref(), Some("robot-a"));
-    assert_eq!((robot.holds.as_deref(), robot.at), (Some("left"), Some([2.0, 2.0])));
+    assert_eq!(
+        (robot.holds.as_deref(), robot.at),
+        (Some("left"), Some([2.0, 2.0]))
+    );
     let materials: Vec<&str> = file.materials.0.iter().map(|m| m.0.as_str()).collect();
     assert_eq!(materials, ["fill-0000ff", "fill-8b6b3d"]);
     assert_eq!(file.blocks[2].material.as_deref(), Some("fill-0000ff"));
     assert_eq!(imported.remarks, []);
-    assert!(imported.notes.iter().any(|n| n.contains("g \"guides\" is left out")), "{:?}", imported.notes);
+    assert!(
+        imported
+            .notes
+            .iter()
+            .any(|n| n.contains("g \"guides\" is left out")),
+        "{:?}",
+        imported.notes
+    );
 }
 
 #[test]
@@ -77,20 +94,31 @@ fn everything_that_cannot_be_taken_is_told_at_once() {
     let told: Vec<(&str, &str)> = imported
         .remarks
         .iter()
-        .map(|r| (r.element.as_str(), r.message.split([';', ':']).next().unwrap_or("")))
+        .map(|r| {
+            (
+                r.element.as_str(),
+                r.message.split([';', ':']).next().unwrap_or(""),
+            )
+        })
         .collect();
     let expected = [
         ("rect \"good\"", "its clip path is not followed"),
         ("rect \"good\"", "its mask is not followed"),
         ("rect \"good\"", "a gradient or pattern is no material"),
-        ("<path> in line 3", "its path data cannot be read (unexpected end of stream)"),
+        (
+            "<path> in line 3",
+            "its path data cannot be read (unexpected end of stream)",
+        ),
         ("text \"words\"", "a text is no block"),
         ("image \"photo\"", "an image has no outlines"),
         ("rect \"none\"", "its width is 0"),
         ("use \"lost\"", "it copies #nowhere, which is not there"),
         ("<use> in line 7", "it copies itself"),
         ("path \"open\"", "it is open"),
-        ("polygon \"bow\"", "its outline crosses or touches itself at (11.0000, 8.0000) m"),
+        (
+            "polygon \"bow\"",
+            "its outline crosses or touches itself at (11.0000, 8.0000) m",
+        ),
         ("polygon \"flat\"", "it encloses no area"),
         ("circle \"robot\"", "its centre (19, 1) m lies in no block"),
     ];
@@ -118,7 +146,9 @@ fn blocks_in_each_other_are_refused_with_their_elements() {
     assert_eq!(refusal.problems.len(), 1);
     assert_eq!(refusal.problems[0].element, "rect \"a\"");
     assert!(
-        refusal.problems[0].message.contains("block `a` and the ground's rect \"ground\" overlap by 3 m²"),
+        refusal.problems[0]
+            .message
+            .contains("block `a` and the ground's rect \"ground\" overlap by 3 m²"),
         "{}",
         refusal.problems[0].message
     );
@@ -127,17 +157,34 @@ fn blocks_in_each_other_are_refused_with_their_elements() {
 
 #[test]
 fn an_empty_drawing_and_wrong_options_are_refused() {
-    let empty = import(&svg("<g id='ground'><rect width='3' height='3'/></g>"), Format::Svg, &Options::default());
-    assert!(empty.expect_err("no block").problems[0].message.contains("nothing in the drawing becomes a block"));
+    let empty = import(
+        &svg("<g id='ground'><rect width='3' height='3'/></g>"),
+        Format::Svg,
+        &Options::default(),
+    );
+    assert!(
+        empty.expect_err("no block").problems[0]
+            .message
+            .contains("nothing in the drawing becomes a block")
+    );
     let options = Options {
         scale: Some(0.0),
         flatten: Some(f64::NAN),
         gap: Some(-1.0),
         ..Options::default()
     };
-    assert_eq!(import("", Format::Wkt, &options).expect_err("wrong").problems.len(), 3);
+    assert_eq!(
+        import("", Format::Wkt, &options)
+            .expect_err("wrong")
+            .problems
+            .len(),
+        3
+    );
     for text in ["", "<svg", "<html/>"] {
-        assert!(import(text, Format::Svg, &Options::default()).is_err(), "{text}");
+        assert!(
+            import(text, Format::Svg, &Options::default()).is_err(),
+            "{text}"
+        );
     }
 }
 
@@ -159,8 +206,17 @@ fn copies_of_copies_come_to_an_end() {
     body += "</defs><path d='M0 0 1 1'/><use href='#g11' x='5'/>";
     let document = svg(&body);
     let draft = svg::read(&document, None, None).expect("XML");
-    assert!(draft.remarks.iter().any(|r| r.message.contains("copies included")));
-    let deep = format!("{}<rect width='3' height='3'/>{}", "<g>".repeat(5000), "</g>".repeat(5000));
+    assert!(
+        draft
+            .remarks
+            .iter()
+            .any(|r| r.message.contains("copies included"))
+    );
+    let deep = format!(
+        "{}<rect width='3' height='3'/>{}",
+        "<g>".repeat(5000),
+        "</g>".repeat(5000)
+    );
     let draft = svg::read(&svg(&deep), None, None).expect("XML");
     assert!(draft.parts.is_empty() && draft.remarks[0].message.contains("deep in each other"));
 }
@@ -175,7 +231,10 @@ fn curves_of_neighbours_meet() {
     );
     let scene = Scene::from_json(&imported.scene.to_json()).expect("sound");
     let area: f64 = scene.blocks.iter().map(|b| b.body.polygon.area()).sum();
-    assert!((area - 50.0).abs() < 1e-6, "they fill the box between them: {area}");
+    assert!(
+        (area - 50.0).abs() < 1e-6,
+        "they fill the box between them: {area}"
+    );
     let bowl = scene.blocks[1].body.polygon.bounds();
     assert!((bowl.min - Point::new(4.0, 2.0)).norm() < 0.02, "{bowl:?}");
 }

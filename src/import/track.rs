@@ -109,10 +109,8 @@ impl Track {
                 Piece::Line(to) => points.push(*to),
                 Piece::Cubic(a, b, to) => points.extend([*a, *b, *to]),
                 Piece::Arc(arc) => {
-                    let reach = Vector::new(
-                        libm::hypot(arc.u.x, arc.v.x),
-                        libm::hypot(arc.u.y, arc.v.y),
-                    );
+                    let reach =
+                        Vector::new(libm::hypot(arc.u.x, arc.v.x), libm::hypot(arc.u.y, arc.v.y));
                     points.extend([arc.centre - reach, arc.centre + reach]);
                 }
             }
@@ -270,8 +268,10 @@ mod tests {
 
     #[test]
     fn an_open_track_is_none_unless_its_ends_nearly_meet() {
-        let mut track = Track::closed(&[(0.0, 0.0), (3.0, 0.0), (0.0, 2.0), (0.0, 0.001)].map(|p| Point::new(p.0, p.1)))
-            .expect("corners");
+        let mut track = Track::closed(
+            &[(0.0, 0.0), (3.0, 0.0), (0.0, 2.0), (0.0, 0.001)].map(|p| Point::new(p.0, p.1)),
+        )
+        .expect("corners");
         assert_eq!(track.flattened(0.1, 1e-6).map(|c| c.len()), Some(4));
         track.closed = false;
         assert_eq!(track.flattened(0.1, 1e-6), None);

@@ -23,28 +23,45 @@ pub(super) fn read(text: &str, scale: f64) -> Draft {
         }
         let kind = Kind::of(name);
         if kind == Some(Kind::Ignored) {
-            draft.notes.push(format!("{element} is left out: it asks for it by its name"));
+            draft
+                .notes
+                .push(format!("{element} is left out: it asks for it by its name"));
             continue;
         }
-        let mut reader = Reader { rest, scale, robot: kind == Some(Kind::Robot), found: Vec::new() };
+        let mut reader = Reader {
+            rest,
+            scale,
+            robot: kind == Some(Kind::Robot),
+            found: Vec::new(),
+        };
         let read = reader.geometry(0).and_then(|()| {
-            if reader.rest.trim().is_empty() { Ok(()) } else { Err(reader.stuck("the end of the line")) }
+            if reader.rest.trim().is_empty() {
+                Ok(())
+            } else {
+                Err(reader.stuck("the end of the line"))
+            }
         });
         if let Err(why) = read {
-            draft.remark(element, format!("{why}; left out"), "write a line as: name; POLYGON ((0 0, 2 0, 2 1, 0 0))");
+            draft.remark(
+                element,
+                format!("{why}; left out"),
+                "write a line as: name; POLYGON ((0 0, 2 0, 2 1, 0 0))",
+            );
             continue;
         }
         if reader.found.is_empty() {
             draft.remark(&element, "it is empty; left out", "");
         }
-        draft.parts.extend(reader.found.into_iter().map(|form| Part {
-            kind: kind.unwrap_or(Kind::Block),
-            name: name.to_owned(),
-            element: element.clone(),
-            form,
-            fill: None,
-            values: Values::default(),
-        }));
+        draft
+            .parts
+            .extend(reader.found.into_iter().map(|form| Part {
+                kind: kind.unwrap_or(Kind::Block),
+                name: name.to_owned(),
+                element: element.clone(),
+                form,
+                fill: None,
+                values: Values::default(),
+            }));
     }
     draft
 }
@@ -55,8 +72,17 @@ fn named(line: &str) -> (&str, &str) {
     match line[..geometry].rfind([';', '\t']) {
         Some(end) => {
             let name = line[..end].trim_matches(|c: char| c.is_whitespace() || c == ';');
-            let is_system = name.get(..5).is_some_and(|s| s.eq_ignore_ascii_case("srid="));
-            (if is_system { "" } else { name.trim_matches('"') }, &line[end + 1..])
+            let is_system = name
+                .get(..5)
+                .is_some_and(|s| s.eq_ignore_ascii_case("srid="));
+            (
+                if is_system {
+                    ""
+                } else {
+                    name.trim_matches('"')
+                },
+                &line[end + 1..],
+            )
         }
         None => ("", line),
     }
@@ -73,7 +99,9 @@ struct Reader<'t> {
 impl Reader<'_> {
     fn geometry(&mut self, depth: usize) -> Result<(), String> {
         if depth > DEEPEST {
-            return Err(format!("collections lie more than {DEEPEST} deep in each other"));
+            return Err(format!(
+                "collections lie more than {DEEPEST} deep in each other"
+            ));
         }
         let mut word = self.word();
         if word.is_empty() {
@@ -83,7 +111,10 @@ impl Reader<'_> {
             self.word();
         }
         for ending in ["ZM", "Z", "M"] {
-            if let Some(plain) = word.strip_suffix(ending).filter(|p| p.ends_with(['N', 'T'])) {
+            if let Some(plain) = word
+                .strip_suffix(ending)
+                .filter(|p| p.ends_with(['N', 'T']))
+            {
                 word = plain.to_owned();
             }
         }
@@ -123,7 +154,10 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn list(&mut self, mut entry: impl FnMut(&mut Self) -> Result<(), String>) -> Result<(), String> {
+    fn list(
+        &mut self,
+        mut entry: impl FnMut(&mut Self) -> Result<(), String>,
+    ) -> Result<(), String> {
         self.expect('(')?;
         loop {
             entry(self)?;
@@ -184,7 +218,11 @@ impl Reader<'_> {
     }
 
     fn expect(&mut self, mark: char) -> Result<(), String> {
-        if self.accept(mark) { Ok(()) } else { Err(self.stuck(&format!("`{mark}`"))) }
+        if self.accept(mark) {
+            Ok(())
+        } else {
+            Err(self.stuck(&format!("`{mark}`")))
+        }
     }
 
     fn stuck(&self, wanted: &str) -> String {
@@ -209,7 +247,11 @@ mod tests {
             robot-1; POINT (0.2 0.3)\n\nGEOMETRYCOLLECTION(POLYGONZ((0 0 1,1 0 1,0 1 1)),POLYGON EMPTY)\n\
             guide; POLYGON((0 0,1 0,0 1))\nb; LINESTRING (0 0, 1 1)\nPOLYGON ((0 0, 1 x))\nPOLYGON EMPTY\nPOLYGON((0 0,1 0,0 1)) x\n(";
         let draft = read(text, 1.0);
-        let found: Vec<(&str, Kind)> = draft.parts.iter().map(|p| (p.name.as_str(), p.kind)).collect();
+        let found: Vec<(&str, Kind)> = draft
+            .parts
+            .iter()
+            .map(|p| (p.name.as_str(), p.kind))
+            .collect();
         assert_eq!(
             found,
             [
@@ -226,7 +268,10 @@ mod tests {
         let remarks: Vec<&str> = draft.remarks.iter().map(|r| r.message.as_str()).collect();
         assert_eq!(remarks.len(), 5, "{remarks:?}");
         assert_eq!(remarks[0], "a LINESTRING encloses nothing; left out");
-        assert_eq!(remarks[1], "there is `x))` where a number should be; left out");
+        assert_eq!(
+            remarks[1],
+            "there is `x))` where a number should be; left out"
+        );
         assert_eq!(draft.remarks[0].element, "line 9 \"b\"");
         assert_eq!(draft.notes.len(), 1);
     }

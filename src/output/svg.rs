@@ -258,7 +258,10 @@ impl Writer<'_> {
             // Pixels per metre and the place of the scene's origin, in full: with them the scene can be read back.
             let origin = camera.origin();
             self.attribute("data-drystone-scale", &camera.length(1.0).to_string());
-            self.attribute("data-drystone-origin", &format!("{} {}", origin.x, origin.y));
+            self.attribute(
+                "data-drystone-origin",
+                &format!("{} {}", origin.x, origin.y),
+            );
         }
         self.put(">");
         if !group.title.is_empty() {

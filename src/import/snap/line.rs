@@ -76,7 +76,8 @@ impl Lines {
         let mut lines = Vec::new();
         for members in joined.into_values() {
             let line = |members: &[usize]| {
-                let all: BTreeSet<usize> = members.iter().flat_map(|m| &sets[*m]).copied().collect();
+                let all: BTreeSet<usize> =
+                    members.iter().flat_map(|m| &sets[*m]).copied().collect();
                 let sides: Vec<[usize; 2]> = members.iter().map(|m| sides[*m]).collect();
                 Line::of(nodes, all.into_iter().collect(), &sides, gap)
             };
@@ -97,7 +98,8 @@ impl Lines {
             }
         }
         lines_of.retain(|node, _| !nodes.all[*node].fixed);
-        let begun: BTreeMap<usize, Point> = lines_of.keys().map(|n| (*n, nodes.all[*n].at)).collect();
+        let begun: BTreeMap<usize, Point> =
+            lines_of.keys().map(|n| (*n, nodes.all[*n].at)).collect();
         for _ in 0..ROUNDS {
             let fits: Vec<Fit> = self.0.iter().map(|line| line.fit(nodes)).collect();
             let mut farthest = 0.0_f64;
@@ -155,7 +157,9 @@ impl Line {
         let normal = closest.fit(nodes).normal;
         let spread = |axis: usize| {
             let all = members.iter().map(|n| place(*n)[axis]);
-            let (low, high) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+            let (low, high) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
+                (l.min(x), h.max(x))
+            });
             high - low
         };
         if normal.x.abs() * spread(0) <= 2.0 * off {

@@ -14,7 +14,7 @@ use rstar::{AABB, RTree, RTreeObject};
 
 use super::region::{Rings, area, polygon};
 use super::track::Corner;
-use crate::geometry::{Bounds, Pieces, Polygon, Tolerance, overlap};
+use crate::geometry::{Bounds, Pieces, Polygon, overlap};
 use line::Lines;
 use node::Nodes;
 
@@ -41,12 +41,13 @@ pub(super) struct Moved {
     pub(super) to: BTreeSet<usize>,
 }
 
-/// The bodies with what lies within `gap` of each other brought together. The earlier body stays where two meet.
-pub(super) fn snapped(bodies: &[Rings], gap: f64) -> Outcome {
+/// The bodies with what lies within `gap` of each other brought together. The earlier body stays where two meet. An
+/// overlap of up to `noise` is none.
+pub(super) fn snapped(bodies: &[Rings], gap: f64, noise: f64) -> Outcome {
     let mut kept = vec![false; bodies.len()];
     for _ in 0..ROUNDS {
         let outcome = attempt(bodies, gap, &kept);
-        let wrong = spoilt(bodies, &outcome.bodies);
+        let wrong = spoilt(bodies, &outcome.bodies, noise);
         let fresh: Vec<usize> = wrong.into_iter().filter(|b| !kept[*b]).collect();
         if fresh.is_empty() {
             let kept = (0..bodies.len()).filter(|b| kept[*b]).collect();
@@ -140,9 +141,12 @@ fn sides(bodies: &[Rings], nodes: &Nodes) -> Vec<Side> {
     for (body, rings) in bodies.iter().enumerate() {
         for (ring, corners) in rings.iter().enumerate() {
             for corner in 0..corners.len() {
-                let ends = [corner, (corner + 1) % corners.len()].map(|c| nodes.number(body, ring, c));
+                let ends =
+                    [corner, (corner + 1) % corners.len()].map(|c| nodes.number(body, ring, c));
                 let places = ends.map(|n| nodes.all[n].at);
-                let Some(bounds) = Bounds::of(places) else { continue };
+                let Some(bounds) = Bounds::of(places) else {
+                    continue;
+                };
                 sides.push(Side {
                     body,
                     ring,
@@ -211,7 +215,7 @@ fn rebuilt(
 }
 
 /// Bodies that came out worse than they were drawn.
-fn spoilt(before: &[Rings], after: &[Rings]) -> BTreeSet<usize> {
+fn spoilt(before: &[Rings], after: &[Rings], noise: f64) -> BTreeSet<usize> {
     let mut wrong = BTreeSet::new();
     let mut polygons: Vec<Option<Polygon>> = Vec::new();
     for (body, (old, new)) in before.iter().zip(after).enumerate() {
@@ -226,12 +230,10 @@ fn spoilt(before: &[Rings], after: &[Rings]) -> BTreeSet<usize> {
         }
         polygons.push(made);
     }
-    let boxes: Vec<Bounds> = polygons.iter().flatten().map(Polygon::bounds).collect();
-    let Some(all) = boxes.iter().copied().reduce(Bounds::union) else {
-        return wrong;
-    };
-    let noise = Tolerance::of(all.diagonal(), all.diagonal()).gap;
-    let pieces: Vec<Option<Pieces>> = polygons.iter().map(|p| p.as_ref().map(Pieces::of)).collect();
+    let pieces: Vec<Option<Pieces>> = polygons
+        .iter()
+        .map(|p| p.as_ref().map(Pieces::of))
+        .collect();
     let drawn = |body: usize| polygon(&before[body]).ok().map(|p| Pieces::of(&p));
     let entries = polygons
         .iter()

@@ -45,7 +45,10 @@ impl Nodes {
         let mut clusters: Vec<Vec<usize>> = (0..corners.len()).map(|i| vec![i]).collect();
         let mut cluster_of: Vec<usize> = (0..corners.len()).collect();
         for (_, i, j) in near(&corners, gap) {
-            let (a, b) = (cluster_of[i].min(cluster_of[j]), cluster_of[i].max(cluster_of[j]));
+            let (a, b) = (
+                cluster_of[i].min(cluster_of[j]),
+                cluster_of[i].max(cluster_of[j]),
+            );
             if a == b {
                 continue;
             }
@@ -69,7 +72,9 @@ impl Nodes {
         let mut all = Vec::new();
         for (cluster, mut members) in clusters.into_iter().enumerate() {
             members.sort_unstable();
-            let Some(first) = members.first() else { continue };
+            let Some(first) = members.first() else {
+                continue;
+            };
             let fixed = members.iter().find(|k| kept[corners[**k].body]);
             number[cluster] = all.len();
             all.push(Node {

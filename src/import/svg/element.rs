@@ -44,13 +44,18 @@ pub(super) fn tracks(node: Node<'_, '_>, viewport: Viewport) -> Result<Vec<Track
                 (r, r)
             } else {
                 let (rx, ry) = (across("rx"), down("ry"));
-                (positive("radius rx", rx.or(ry))?, positive("radius ry", ry.or(rx))?)
+                (
+                    positive("radius rx", rx.or(ry))?,
+                    positive("radius ry", ry.or(rx))?,
+                )
             };
             Ok(vec![Track::ellipse(centre, rx, ry)])
         }
         "polygon" | "polyline" => {
             let text = node.attribute("points").unwrap_or("");
-            let points: Vec<Point> = PointsParser::from(text).map(|p| Point::new(p.0, p.1)).collect();
+            let points: Vec<Point> = PointsParser::from(text)
+                .map(|p| Point::new(p.0, p.1))
+                .collect();
             let Some(track) = Track::closed(&points) else {
                 return Err("it has no points".into());
             };
@@ -60,7 +65,11 @@ pub(super) fn tracks(node: Node<'_, '_>, viewport: Viewport) -> Result<Vec<Track
         "line" => {
             let place = |x, y| Point::new(across(x).unwrap_or(0.0), down(y).unwrap_or(0.0));
             let pieces = vec![Piece::Line(place("x2", "y2"))];
-            Ok(vec![Track { start: place("x1", "y1"), pieces, closed: false }])
+            Ok(vec![Track {
+                start: place("x1", "y1"),
+                pieces,
+                closed: false,
+            }])
         }
         _ => path::tracks(node.attribute("d").unwrap_or(""))
             .map_err(|why| format!("its path data cannot be read ({why})")),
@@ -70,7 +79,12 @@ pub(super) fn tracks(node: Node<'_, '_>, viewport: Viewport) -> Result<Vec<Track
 fn rectangle(at: Point, size: Vector, radii: Vector) -> Track {
     let corner = |x: f64, y: f64| at + Vector::new(x * size.x, y * size.y);
     if !(radii.x > 0.0 && radii.y > 0.0) {
-        let corners = [corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)];
+        let corners = [
+            corner(0.0, 0.0),
+            corner(1.0, 0.0),
+            corner(1.0, 1.0),
+            corner(0.0, 1.0),
+        ];
         return Track {
             start: corners[0],
             pieces: corners[1..].iter().map(|p| Piece::Line(*p)).collect(),
@@ -111,7 +125,11 @@ mod tests {
 
     fn shape(element: &str) -> Result<Vec<Track>, String> {
         let document = roxmltree::Document::parse(element).expect("XML");
-        let viewport = Viewport { width: 200.0, height: 100.0, copied: (None, None) };
+        let viewport = Viewport {
+            width: 200.0,
+            height: 100.0,
+            copied: (None, None),
+        };
         tracks(document.root_element(), viewport)
     }
 
@@ -125,8 +143,14 @@ mod tests {
         let quarter = core::f64::consts::FRAC_PI_4;
         for (element, expected) in [
             ("<rect x='1' y='2' width='4' height='3'/>", 12.0),
-            ("<rect width='4' height='3' rx='1'/>", 12.0 - 4.0 + 4.0 * quarter),
-            ("<rect width='4' height='3' rx='9' ry='0.5'/>", 12.0 - 4.0 + 4.0 * quarter),
+            (
+                "<rect width='4' height='3' rx='1'/>",
+                12.0 - 4.0 + 4.0 * quarter,
+            ),
+            (
+                "<rect width='4' height='3' rx='9' ry='0.5'/>",
+                12.0 - 4.0 + 4.0 * quarter,
+            ),
             ("<rect width='10%' height='10%'/>", 200.0),
             ("<circle cx='3' r='2'/>", 16.0 * quarter),
             ("<ellipse rx='2' ry='1'/>", 8.0 * quarter),
@@ -134,7 +158,10 @@ mod tests {
             ("<path d='M0 0h4v3z'/>", 6.0),
         ] {
             let found = shape_area(element);
-            assert!((found - expected).abs() < 2e-3, "{element}: {found} {expected}");
+            assert!(
+                (found - expected).abs() < 2e-3,
+                "{element}: {found} {expected}"
+            );
         }
     }
 

@@ -15,7 +15,9 @@ const ORIGIN: &str = "data-drystone-origin";
 pub(super) fn pictures<'a, 'd>(root: Node<'a, 'd>) -> Option<Vec<Node<'a, 'd>>> {
     let found: Vec<Node<'a, 'd>> = root
         .descendants()
-        .filter(|n| n.node_type() == NodeType::Element && n.has_attribute(SCALE) && n.has_attribute(ORIGIN))
+        .filter(|n| {
+            n.node_type() == NodeType::Element && n.has_attribute(SCALE) && n.has_attribute(ORIGIN)
+        })
         .collect();
     (!found.is_empty()).then_some(found)
 }
@@ -31,17 +33,25 @@ impl<'a, 'd> Walk<'a, 'd> {
         let count = pictures.len();
         let number = frame.unwrap_or(count - 1);
         let Some(picture) = pictures.get(number).copied() else {
-            let has = if count == 1 { "one frame".into() } else { format!("{count} frames") };
+            let has = if count == 1 {
+                "one frame".into()
+            } else {
+                format!("{count} frames")
+            };
             return Err(format!("there is no frame {}: it has {has}", number + 1));
         };
         let numbers = |name: &str| -> Option<Vec<f64>> {
             let text = picture.attribute(name)?;
-            let all = text.split_whitespace().map(|t| t.parse::<f64>().ok().filter(|x| x.is_finite()));
+            let all = text
+                .split_whitespace()
+                .map(|t| t.parse::<f64>().ok().filter(|x| x.is_finite()));
             all.collect()
         };
         let (pixels, origin) = (numbers(SCALE), numbers(ORIGIN));
         let (Some([pixels]), Some([x, y])) = (pixels.as_deref(), origin.as_deref()) else {
-            return Err(format!("its {SCALE} and {ORIGIN} are not the three numbers that drystone writes"));
+            return Err(format!(
+                "its {SCALE} and {ORIGIN} are not the three numbers that drystone writes"
+            ));
         };
         let metres = scale.unwrap_or(1.0 / pixels);
         if !(metres.is_finite() && metres > 0.0) {
@@ -50,7 +60,10 @@ impl<'a, 'd> Walk<'a, 'd> {
         let note = if count == 1 {
             "a figure by drystone".into()
         } else {
-            format!("a figure by drystone; taken from its frame {} of {count}", number + 1)
+            format!(
+                "a figure by drystone; taken from its frame {} of {count}",
+                number + 1
+            )
         };
         self.draft.notes.push(format!(
             "{note}: colours and arrows tell forces and are not taken, and weights, friction and limits are not in it"
@@ -58,7 +71,11 @@ impl<'a, 'd> Walk<'a, 'd> {
         let around = Around {
             map: Affine([metres, 0.0, 0.0, -metres, -metres * x, metres * y]),
             style: Style::ROOT,
-            viewport: Viewport { width: 0.0, height: 0.0, copied: (None, None) },
+            viewport: Viewport {
+                width: 0.0,
+                height: 0.0,
+                copied: (None, None),
+            },
             kind: None,
             group: None,
             copy: None,
@@ -80,7 +97,11 @@ impl<'a, 'd> Walk<'a, 'd> {
                 depth: around.depth + 1,
                 ..around.clone()
             };
-            let title = child.children().find(|n| is(*n, "title")).map(words).unwrap_or_default();
+            let title = child
+                .children()
+                .find(|n| is(*n, "title"))
+                .map(words)
+                .unwrap_or_default();
             match child.attribute("class").unwrap_or("") {
                 "ground" => {
                     for path in child.children().filter(|n| is(*n, "path")) {
@@ -130,7 +151,10 @@ impl<'a, 'd> Walk<'a, 'd> {
                 kind,
                 name: name.to_owned(),
                 element,
-                form: Form::Tracks(tracks.iter().map(|t| t.mapped(&map)).collect(), Rule::NonZero),
+                form: Form::Tracks(
+                    tracks.iter().map(|t| t.mapped(&map)).collect(),
+                    Rule::NonZero,
+                ),
                 fill: None,
                 values: Values::default(),
             }),

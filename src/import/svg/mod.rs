@@ -21,6 +21,7 @@ use self::style::{Fill, Style};
 use self::viewport::Viewport;
 use super::affine::Affine;
 use super::draft::{Draft, Form, Kind, Part, Values};
+use super::entry;
 
 const SVG: &str = "http://www.w3.org/2000/svg";
 const XLINK: &str = "http://www.w3.org/1999/xlink";
@@ -123,7 +124,10 @@ impl<'a, 'd> Walk<'a, 'd> {
                 scale
             }
             (None, Some((unit, said))) => {
-                let note = format!("a unit of the drawing is {unit} m, since it is {said} wide");
+                let note = format!(
+                    "a unit of the drawing is {} m, since it is {said}",
+                    entry::digits(unit)
+                );
                 self.draft.notes.push(note);
                 unit
             }
@@ -134,7 +138,14 @@ impl<'a, 'd> Walk<'a, 'd> {
             }
         };
         // The lower left corner of the page becomes the origin, as in Inkscape's rulers.
-        let map = Affine([scale, 0.0, 0.0, -scale, -scale * page.left, scale * page.bottom]);
+        let map = Affine([
+            scale,
+            0.0,
+            0.0,
+            -scale,
+            -scale * page.left,
+            scale * page.bottom,
+        ]);
         let around = Around {
             map,
             style: Style::ROOT.of(root, &self.sheet),
@@ -199,7 +210,7 @@ impl<'a, 'd> Walk<'a, 'd> {
         };
         match tag {
             "g" | "a" | "switch" | "svg" | "symbol" => {
-                if let Some(name) = name::any(node).filter(|_| !name::is_layer(node)) {
+                if let Some(name) = name::given(node).filter(|_| !name::is_layer(node)) {
                     inner.group = Some(name);
                 }
                 match tag {
@@ -252,7 +263,10 @@ impl<'a, 'd> Walk<'a, 'd> {
             .and_then(|r| r.trim().strip_prefix('#'))
             .and_then(|id| self.ids.get(id).copied());
         let Some(target) = target else {
-            let why = format!("it copies {}, which is not there; left out", reference.unwrap_or("nothing"));
+            let why = format!(
+                "it copies {}, which is not there; left out",
+                reference.unwrap_or("nothing")
+            );
             self.remark("copy", node, &inner, &why, "");
             return;
         };
@@ -264,7 +278,9 @@ impl<'a, 'd> Walk<'a, 'd> {
             viewport::length(node, "x", inner.viewport.width),
             viewport::length(node, "y", inner.viewport.height),
         );
-        inner.map = inner.map.after(&Affine::moving(x.unwrap_or(0.0), y.unwrap_or(0.0)));
+        inner.map = inner
+            .map
+            .after(&Affine::moving(x.unwrap_or(0.0), y.unwrap_or(0.0)));
         if inner.copy.is_none() {
             inner.copy = Some(Copy {
                 element: self.lines.element(node),
@@ -358,8 +374,12 @@ impl<'a, 'd> Walk<'a, 'd> {
     }
 
     fn skip(&mut self, node: Node<'a, 'd>, around: &Around, why: &str) {
-        let note = format!("{} is left out: it {why}", self.told_as(node, around));
-        self.draft.notes.push(note);
+        let times = self.told.entry("skip").or_default();
+        *times += 1;
+        if *times <= TOLD {
+            let note = format!("{} is left out: it {why}", self.told_as(node, around));
+            self.draft.notes.push(note);
+        }
     }
 
     fn remark(
@@ -381,7 +401,12 @@ impl<'a, 'd> Walk<'a, 'd> {
     /// What was remarked on too often to be told each time is counted.
     fn count_untold(&mut self) {
         for (sort, times) in &self.told {
-            if *times > TOLD {
+            if *times > TOLD && *sort == "skip" {
+                self.draft.notes.push(format!(
+                    "{} more elements are left out likewise",
+                    times - TOLD
+                ));
+            } else if *times > TOLD {
                 let message = match *sort {
                     "deep" => "groups too deep in each other",
                     "many" => "elements too many",

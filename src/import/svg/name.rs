@@ -39,8 +39,9 @@ fn label(node: Node<'_, '_>) -> Option<String> {
 
 /// Whether an id is the tag and a number, as Inkscape numbers what it draws.
 fn is_made_up(node: Node<'_, '_>, id: &str) -> bool {
-    id.strip_prefix(node.tag_name().name())
-        .is_some_and(|rest| !rest.is_empty() && rest.bytes().all(|b| b.is_ascii_digit() || b == b'-'))
+    id.strip_prefix(node.tag_name().name()).is_some_and(|rest| {
+        !rest.is_empty() && rest.bytes().all(|b| b.is_ascii_digit() || b == b'-')
+    })
 }
 
 /// An id without Illustrator's escapes: `_x30_` is a 0, and a number between underscores at the end tells twins apart.
@@ -49,7 +50,10 @@ fn unescaped(id: &str) -> String {
     let mut rest = id.trim();
     if let Some(body) = rest.strip_suffix('_') {
         let name = body.trim_end_matches(|c: char| c.is_ascii_digit());
-        if let Some(name) = name.strip_suffix('_').filter(|n| !n.is_empty() && name.len() < body.len()) {
+        if let Some(name) = name
+            .strip_suffix('_')
+            .filter(|n| !n.is_empty() && name.len() < body.len())
+        {
             rest = name;
         }
     }
@@ -123,7 +127,11 @@ mod tests {
             <path id='path12-3' inkscape:label='keystone'/><path id='path12'/><path id='arch'/>\n<path/></svg>";
         let document = roxmltree::Document::parse(text).expect("XML");
         let lines = Lines::of(text);
-        let nodes: Vec<_> = document.root_element().children().filter(Node::is_element).collect();
+        let nodes: Vec<_> = document
+            .root_element()
+            .children()
+            .filter(Node::is_element)
+            .collect();
         let names: Vec<_> = nodes.iter().map(|n| (given(*n), any(*n))).collect();
         let some = |s: &str| Some(s.to_owned());
         assert_eq!(names[0], (some("keystone"), some("keystone")));

@@ -235,13 +235,24 @@ mod tests {
                 assert!((reach - 1.0).abs() < 1e-12, "{d}: {p:?}");
             }
             // A quarter of an ellipse, or three.
-            let area = crate::import::region::area(&tracks(&d).expect("data")[0].flattened(1e-4, 1e-9).expect("closed"));
+            let area = crate::import::region::area(
+                &tracks(&d).expect("data")[0]
+                    .flattened(1e-4, 1e-9)
+                    .expect("closed"),
+            );
             let expected = 12.0 * core::f64::consts::PI / 4.0 * if large == 1 { 3.0 } else { 1.0 };
             let triangle = if large == 1 { 6.0 } else { -6.0 };
-            assert!((area.abs() - expected - triangle).abs() < 1e-2, "{d}: {area}");
+            assert!(
+                (area.abs() - expected - triangle).abs() < 1e-2,
+                "{d}: {area}"
+            );
         }
         // Radii too small for their chord grow, a turned ellipse turns, none at all is a line.
-        assert!(corners("M0 0A1 1 0 0 1 10 0Z").iter().all(|p| (libm::hypot(p.0 - 5.0, p.1) - 5.0).abs() < 1e-12));
+        assert!(
+            corners("M0 0A1 1 0 0 1 10 0Z")
+                .iter()
+                .all(|p| (libm::hypot(p.0 - 5.0, p.1) - 5.0).abs() < 1e-12)
+        );
         assert_eq!(corners("M0 0A0 1 0 0 1 10 0L3 3Z").len(), 3);
     }
 

@@ -181,12 +181,28 @@ mod tests {
         let cases = [
             ("<g/>", "", [255, 0, 0]),
             ("<g fill='#0f0'/>", "", [0, 255, 0]),
-            ("<g fill='#0f0' class='a'/>", ".a { fill: blue }", [0, 0, 255]),
-            ("<g class='a' style='fill:#8b6b3d'/>", ".a { fill: blue }", [0x8b, 0x6b, 0x3d]),
-            ("<g class='a' style='fill:#000'/>", ".a { fill: blue !important }", [0, 0, 255]),
+            (
+                "<g fill='#0f0' class='a'/>",
+                ".a { fill: blue }",
+                [0, 0, 255],
+            ),
+            (
+                "<g class='a' style='fill:#8b6b3d'/>",
+                ".a { fill: blue }",
+                [0x8b, 0x6b, 0x3d],
+            ),
+            (
+                "<g class='a' style='fill:#000'/>",
+                ".a { fill: blue !important }",
+                [0, 0, 255],
+            ),
             ("<g style='fill: inherit'/>", "", [255, 0, 0]),
             ("<g fill='currentColor'/>", "", [1, 2, 3]),
-            ("<g fill='currentColor' style='color:rgb(4,5,6)'/>", "", [4, 5, 6]),
+            (
+                "<g fill='currentColor' style='color:rgb(4,5,6)'/>",
+                "",
+                [4, 5, 6],
+            ),
             ("<g fill='url(#a) #070809'/>", "", [7, 8, 9]),
         ];
         for (element, css, fill) in cases {

@@ -23,15 +23,20 @@ pub(super) struct Page {
     /// Left and lower edge in user units.
     pub(super) left: f64,
     pub(super) bottom: f64,
-    /// Metres per user unit and the width that tells it, where there is a physical size.
+    /// Metres per user unit and the size that tells it, where there is a physical size.
     pub(super) unit: Option<(f64, String)>,
 }
 
 /// What the root element says of its size.
 pub(super) fn page(root: Node<'_, '_>) -> Page {
-    let sizes = ["width", "height"].map(|name| root.attribute(name).and_then(|t| Length::from_str(t).ok()));
+    let sizes =
+        ["width", "height"].map(|name| root.attribute(name).and_then(|t| Length::from_str(t).ok()));
     let view = view_box(root);
-    let pixels = |i: usize| sizes[i].and_then(|l| in_pixels(l, None)).filter(|p| *p > 0.0);
+    let pixels = |i: usize| {
+        sizes[i]
+            .and_then(|l| in_pixels(l, None))
+            .filter(|p| *p > 0.0)
+    };
     let view = view.or_else(|| Some(ViewBox::new(0.0, 0.0, pixels(0)?, pixels(1)?)));
     let metres = |i: usize| sizes[i].and_then(physical).filter(|m| *m > 0.0);
     let mut unit = None;
@@ -44,10 +49,11 @@ pub(super) fn page(root: Node<'_, '_>) -> Page {
             (w, h) => w.or(h),
         };
         if let Some(scale) = scale.filter(|s| s.is_finite() && *s > 0.0) {
-            let told = if per_width.is_some() { "width" } else { "height" };
-            let said = root.attribute(told).unwrap_or("").trim().to_owned();
-            unit = Some((neat(scale), said));
+            unit = Some((neat(scale), told(root, per_width.is_some())));
         }
+    } else if metres(0).or(metres(1)).is_some() {
+        // Without a view box a unit is a pixel of 1/96 in.
+        unit = Some((0.0254 / 96.0, told(root, metres(0).is_some())));
     }
     let shown = view.unwrap_or(ViewBox::new(0.0, 0.0, 0.0, 0.0));
     Page {
@@ -62,6 +68,16 @@ pub(super) fn page(root: Node<'_, '_>) -> Page {
     }
 }
 
+/// The size that told the scale, in words.
+fn told(root: Node<'_, '_>, by_width: bool) -> String {
+    let (name, way) = if by_width {
+        ("width", "wide")
+    } else {
+        ("height", "high")
+    };
+    format!("{} {way}", root.attribute(name).unwrap_or("").trim())
+}
+
 /// The map and percentages within a nested `<svg>` or a `<symbol>`.
 pub(super) fn enter(node: Node<'_, '_>, inner: &mut Around) {
     let (copied_width, copied_height) = inner.viewport.copied;
@@ -74,7 +90,10 @@ pub(super) fn enter(node: Node<'_, '_>, inner: &mut Around) {
         size.0 = size.0.or(length(node, "width", outer.width));
         size.1 = size.1.or(length(node, "height", outer.height));
     }
-    let (width, height) = (size.0.unwrap_or(outer.width), size.1.unwrap_or(outer.height));
+    let (width, height) = (
+        size.0.unwrap_or(outer.width),
+        size.1.unwrap_or(outer.height),
+    );
     inner.map = inner.map.after(&Affine::moving(x, y));
     inner.viewport = Viewport {
         width,
@@ -85,8 +104,12 @@ pub(super) fn enter(node: Node<'_, '_>, inner: &mut Around) {
         && width > 0.0
         && height > 0.0
     {
-        let ratio = node.attribute("preserveAspectRatio").and_then(|t| AspectRatio::from_str(t).ok());
-        inner.map = inner.map.after(&fitted(view, width, height, ratio.unwrap_or_default()));
+        let ratio = node
+            .attribute("preserveAspectRatio")
+            .and_then(|t| AspectRatio::from_str(t).ok());
+        inner.map = inner
+            .map
+            .after(&fitted(view, width, height, ratio.unwrap_or_default()));
         inner.viewport.width = view.w;
         inner.viewport.height = view.h;
     }
@@ -100,7 +123,10 @@ pub(super) fn length(node: Node<'_, '_>, name: &str, whole: f64) -> Option<f64> 
 fn view_box(node: Node<'_, '_>) -> Option<ViewBox> {
     let text = node.attribute("viewBox")?;
     let view = ViewBox::from_str(text).ok()?;
-    [view.x, view.y, view.w, view.h].iter().all(|v| v.is_finite()).then_some(view)
+    [view.x, view.y, view.w, view.h]
+        .iter()
+        .all(|v| v.is_finite())
+        .then_some(view)
 }
 
 /// The map of a view box into a viewport of its own.
@@ -155,7 +181,7 @@ fn physical(length: Length) -> Option<f64> {
 
 /// A scale without the noise of its division: 0.001 for 210 mm over 210 units.
 fn neat(scale: f64) -> f64 {
-    format!("{scale:.12e}").parse().unwrap_or(scale)
+    format!("{scale:.14e}").parse().unwrap_or(scale)
 }
 
 #[cfg(test)]
@@ -170,11 +196,25 @@ mod tests {
 
     #[test]
     fn a_drawing_of_a_physical_size_tells_its_unit() {
-        assert_eq!(unit("width='210mm' height='297mm' viewBox='0 0 210 297'"), Some(0.001));
+        assert_eq!(
+            unit("width='210mm' height='297mm' viewBox='0 0 210 297'"),
+            Some(0.001)
+        );
         assert_eq!(unit("width='20cm' viewBox='0 0 50 10'"), Some(0.004));
-        assert_eq!(unit("width='10in' height='5in'"), Some(0.0254 / 96.0));
-        assert_eq!(unit("width='72pt' height='72pt' viewBox='0 0 2 1'"), Some(0.0127));
-        for none in ["width='800px' height='600px'", "width='100%' viewBox='0 0 5 5'", "viewBox='0 0 5 5'", "width='5mm'", ""] {
+        for pixels in ["width='10in' height='5in'", "width='5mm'"] {
+            let found = unit(pixels).expect("a size");
+            assert!((found / 0.0254 * 96.0 - 1.0).abs() < 1e-13, "{found}");
+        }
+        assert_eq!(
+            unit("width='72pt' height='72pt' viewBox='0 0 2 1'"),
+            Some(0.0127)
+        );
+        for none in [
+            "width='800px' height='600px'",
+            "width='100%' viewBox='0 0 5 5'",
+            "viewBox='0 0 5 5'",
+            "",
+        ] {
             assert_eq!(unit(none), None, "{none}");
         }
     }
