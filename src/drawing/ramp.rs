@@ -1,4 +1,4 @@
-//! [`ramp`]: rows of colours that tell an amount, and the well-known ones by name.
+//! Rows of colours that tell an amount: the well-known ones by [name](named), and own ones [through stops](between).
 
 mod cividis;
 mod plasma;
