@@ -21,6 +21,7 @@ mod complaint;
 mod completions;
 mod destination;
 mod ending;
+mod figures;
 mod import;
 mod level;
 mod look;
@@ -64,6 +65,7 @@ struct CommandLine {
 #[derive(Debug, Subcommand)]
 enum Command {
     Render(render::Render),
+    Figures(figures::Figures),
     Check(check::Check),
     Accuracy(accuracy::Accuracy),
     Schema(schema::Schema),
@@ -91,6 +93,7 @@ pub fn run() -> ExitCode {
     let terminal = Terminal::new(line.voice);
     let ended = match line.command {
         Command::Render(render) => render.run(&terminal),
+        Command::Figures(figures) => figures.run(&terminal),
         Command::Check(check) => check.run(&terminal),
         Command::Accuracy(accuracy) => accuracy.run(&terminal),
         Command::Schema(schema) => schema.run(&terminal),

@@ -29,6 +29,14 @@ impl Camera {
         }
     }
 
+    /// The same camera with the scene moved right by `x` and down by `y` pixels.
+    pub fn moved(self, x: f64, y: f64) -> Camera {
+        Camera {
+            at: self.at.moved(x, y),
+            ..self
+        }
+    }
+
     /// Where a place of the scene lies on the page.
     pub fn place(&self, p: Point) -> PagePoint {
         // The difference first: far from the origin it is exact, the products are not.
