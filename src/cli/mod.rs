@@ -25,6 +25,7 @@ mod figures;
 mod import;
 mod level;
 mod look;
+mod mdbook;
 mod new;
 mod picture;
 mod progress;
@@ -71,6 +72,8 @@ enum Command {
     Schema(schema::Schema),
     New(new::New),
     Import(import::Import),
+    #[command(name = "mdbook")]
+    MdBook(mdbook::MdBook),
     Shapes(shapes::Shapes),
     Style(style::Style),
     Completions(completions::Completions),
@@ -99,6 +102,7 @@ pub fn run() -> ExitCode {
         Command::Schema(schema) => schema.run(&terminal),
         Command::New(new) => new.run(&terminal),
         Command::Import(import) => import.run(&terminal),
+        Command::MdBook(mdbook) => mdbook.run(&terminal),
         Command::Shapes(shapes) => shapes.run(&terminal),
         Command::Style(style) => style.run(&terminal),
         Command::Completions(completions) => completions.run(&terminal),

@@ -5,7 +5,7 @@ use drystone::drawing::{Anchor, Drawing, Group, Item, PagePoint, Segment, Text, 
 use drystone::figure::{self, Options};
 use drystone::scene::BlockId;
 
-use crate::scenes::{gallery, scene};
+use crate::pictures::{gallery, scene};
 
 /// An upright box: left, top, right, bottom.
 type Box4 = [f64; 4];

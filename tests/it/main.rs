@@ -7,6 +7,7 @@
 )]
 
 mod accuracy;
+mod book;
 mod gallery;
 mod hard;
 mod import;

@@ -7,13 +7,13 @@ use drystone::output::{png, svg};
 use drystone::{Analysis, Scene};
 use serde_json::Value;
 
-fn scene(path: &str) -> Scene {
+pub(crate) fn scene(path: &str) -> Scene {
     let full = format!("{}/{path}", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(&full).expect("the scene is there");
     Scene::from_json(&text).unwrap_or_else(|problems| panic!("{path}:\n{problems}"))
 }
 
-fn gallery() -> Vec<(String, Scene)> {
+pub(crate) fn gallery() -> Vec<(String, Scene)> {
     let folder = format!("{}/assets/thesis", env!("CARGO_MANIFEST_DIR"));
     let mut names: Vec<String> = std::fs::read_dir(folder)
         .expect("the gallery")
