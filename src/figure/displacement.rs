@@ -179,7 +179,8 @@ mod tests {
 
     #[test]
     fn displaced_blocks_lie_in_each_other_by_no_more_than_the_square_of_their_way() {
-        for scene in falling() {
+        // A kernel lets blocks turn about points within an interface, so that what lies beyond dips in at once.
+        for scene in falling().into_iter().filter(|s| s.kernel == 0.0) {
             let analysis = Analysis::of(&scene);
             let amplitude = amplitude(&analysis, 0, unit(&scene));
             // Where the way is short the square is all there is.

@@ -164,7 +164,7 @@ fn between(from: Point, to: Point, over: Point) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Analysis;
+    use crate::analysis::Analysis;
 
     fn scene(text: &str) -> Scene {
         Scene::from_json(text).unwrap_or_else(|problems| panic!("{problems}"))

@@ -112,7 +112,7 @@ fn velocity(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Scene;
+    use crate::scene::Scene;
 
     fn of(text: &str) -> (Scene, Vec<Joint>) {
         let scene = Scene::from_json(text).unwrap_or_else(|problems| panic!("{problems}"));

@@ -2,6 +2,8 @@
 //!
 //! Blocks go along their velocities as finite rigid motions, so they keep their shapes; how far is for the eye. Where
 //! one slides, the motion that proves the fall also lifts it, by μ per metre of way: only so can nothing object to it.
+//! With a kernel a block turns about the end of the safe stretch, and what lies beyond dips into its neighbour: the figure
+//! shows the mechanism of the structure that was examined.
 
 use super::displacement::Displacement;
 use super::joint::{Joint, joints};

@@ -203,7 +203,8 @@ fn a_thousand_blocks_and_more_are_few_paths() {
     let analysis = Analysis::of(&scene);
     for kind in KINDS {
         let svg = svg::write(&draw(&analysis, kind));
-        assert!(svg.matches("<path").count() < 40, "{kind:?}");
+        // The bar of colours in a key alone is more than a hundred.
+        assert!(svg.matches("<path").count() < 300, "{kind:?}");
         assert!(svg.len() < 600_000, "{kind:?}: {} bytes", svg.len());
     }
 }

@@ -253,7 +253,7 @@ fn every_kind_of_figure_says_what_it_shows() {
     for (kind, falls, stands) in [
         (
             "mechanism",
-            "turns about a corner on block\u{a0}left",
+            "block left turns about a corner on the ground",
             "there is no mechanism",
         ),
         (
