@@ -7,6 +7,7 @@
 )]
 
 mod accuracy;
+mod edge;
 mod gallery;
 mod hard;
 mod laws;
