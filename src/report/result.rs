@@ -189,7 +189,16 @@ enum ProofNumbers {
     Mechanism {
         power: Number,
         worst_violation: Number,
+        no_balance_below: Below,
     },
+}
+
+/// Below which sum of forces, in heaviest loads, none balance: a number, or `"unbounded"` where none do at all.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Below {
+    Sum(Number),
+    Unbounded(&'static str),
 }
 
 #[derive(Serialize)]
@@ -413,6 +422,10 @@ impl ProofNumbers {
             } => ProofNumbers::Mechanism {
                 power: Number(power),
                 worst_violation: Number(worst_violation),
+                no_balance_below: match proof.rules_out() {
+                    sum if sum.is_finite() => Below::Sum(Number(sum)),
+                    _ => Below::Unbounded("unbounded"),
+                },
             },
         }
     }

@@ -8,6 +8,7 @@
 
 mod accuracy;
 mod book;
+mod edge;
 mod gallery;
 mod hard;
 mod import;

@@ -67,7 +67,10 @@ fn sound(svg: &str, what: &str) {
 #[test]
 fn every_svg_is_sound_in_every_form() {
     let mut drawings: Vec<(&str, Drawing)> = SCENES.map(|name| (name, figure(name))).into();
-    drawings.push(("shapes", figure::shapes(&drystone::drawing::Theme::default())));
+    drawings.push((
+        "shapes",
+        figure::shapes(&drystone::drawing::Theme::default()),
+    ));
     drawings.push(("hostile", hostile()));
     for (name, drawing) in drawings {
         for words in [Words::Names, Words::Embedded, Words::Outlines] {
@@ -116,8 +119,12 @@ fn outlines_stand_where_the_words_stood() {
             pixels(&png.expect("a picture")).0
         };
         let (names, outlines) = (picture(Words::Names), picture(Words::Outlines));
-        let apart: Vec<u8> = names.iter().zip(&outlines).map(|(a, b)| a.abs_diff(*b)).collect();
-        let mean = apart.clone().map(f64::from).sum::<f64>() / names.len() as f64;
+        let apart: Vec<u8> = names
+            .iter()
+            .zip(&outlines)
+            .map(|(a, b)| a.abs_diff(*b))
+            .collect();
+        let mean = apart.iter().map(|a| f64::from(*a)).sum::<f64>() / names.len() as f64;
         assert!(mean < 0.1, "{name}: {mean} of 255 on average");
         let most = apart.iter().copied().max();
         assert!(most < Some(64), "{name}: {most:?}");
@@ -271,7 +278,10 @@ fn a_pdf_without_a_width_has_three_quarters_of_a_point_per_pixel() {
 
 #[test]
 fn odd_drawings_become_pdf_too() {
-    for drawing in [hostile(), figure::shapes(&drystone::drawing::Theme::default())] {
+    for drawing in [
+        hostile(),
+        figure::shapes(&drystone::drawing::Theme::default()),
+    ] {
         assert!(pdf::write(&drawing, None).is_ok());
     }
 }

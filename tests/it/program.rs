@@ -1,5 +1,6 @@
 //! The command line as a person runs it: exit codes, streams, files, and what is said.
 
+mod accuracy;
 mod check;
 mod import;
 mod render;
