@@ -68,8 +68,8 @@ fn moved(item: Item, right: f64, mark: &str) -> Item {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Colour, Path};
     use super::*;
+    use crate::drawing::{Colour, Path};
 
     #[test]
     fn everything_of_the_second_moves_and_names_stay_apart() {

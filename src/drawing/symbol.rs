@@ -12,7 +12,7 @@ const ABOVE: f64 = 0.42;
 /// How far a superscript stands to the right, clear of an arrow above its letter, in sizes.
 const RAISED: f64 = 0.2;
 /// How far a symbol reaches above and below its base line, in sizes.
-const REACH: (f64, f64) = (0.98, 0.36);
+const REACH: (f64, f64) = (0.98, 0.42);
 
 /// What stands above a letter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -195,6 +195,7 @@ fn accent(letter: &Letter, at: PagePoint, size: f64, ink: Colour) -> Option<Path
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::drawing::Item;
 
     #[test]
     fn small_signs_widen_a_symbol_and_stand_one_above_the_other() {
@@ -220,16 +221,16 @@ mod tests {
         };
         for item in symbol.draw(rect, 20.0, Colour::BLACK).items {
             match item {
-                super::super::Item::Text(text) => {
+                Item::Text(text) => {
                     let wide = text::width(&text.words, text.face, text.size);
                     assert!(text.at.x >= 3.0 && text.at.x + wide <= 3.0 + width + 0.5);
                     assert!(text.at.y - 0.7 * text.size >= 6.9, "{text:?}");
                     assert!(text.at.y + 0.25 * text.size <= 7.1 + height, "{text:?}");
                 }
-                super::super::Item::Path(path) => {
+                Item::Path(path) => {
                     assert!(path.outline.points().all(|p| p.y >= 7.0 && p.x >= 3.0));
                 }
-                super::super::Item::Group(_) => {}
+                Item::Group(_) => {}
             }
         }
     }

@@ -48,10 +48,9 @@ pub fn illustrate(input: &str) -> Result<String, BookProblems> {
     let root = PathBuf::from(input[0]["root"].as_str().unwrap_or("."));
     let source = input[0]["config"]["book"]["src"].as_str().unwrap_or("src");
     let source = root.join(source);
-    let Some(book) = input.get_mut(1).map(Value::take) else {
+    let Some(mut book) = input.get_mut(1).map(Value::take) else {
         return Err(no_book("it has no second part"));
     };
-    let mut book = book;
     let mut problems = Vec::new();
     // mdBook 0.5 calls the chapters items, its forerunners sections.
     let key = if book["items"].is_array() {
@@ -59,11 +58,11 @@ pub fn illustrate(input: &str) -> Result<String, BookProblems> {
     } else {
         "sections"
     };
-    let Some(items) = book[key].as_array_mut() else {
+    let Some(items) = book.get_mut(key).and_then(Value::as_array_mut) else {
         return Err(no_book("the book has no chapters"));
     };
-    for item in items {
-        chapter(&mut item["Chapter"], &source, &mut problems);
+    for found in items.iter_mut().filter_map(|i| i.get_mut("Chapter")) {
+        chapter(found, &source, &mut problems);
     }
     if problems.is_empty() {
         Ok(book.to_string())
@@ -75,13 +74,14 @@ pub fn illustrate(input: &str) -> Result<String, BookProblems> {
 fn chapter(chapter: &mut Value, source: &Path, problems: &mut Vec<String>) {
     let path = chapter["source_path"].as_str().or(chapter["path"].as_str());
     let path = source.join(path.unwrap_or("draft.md"));
-    if let Some(content) = chapter["content"].as_str() {
-        let drawn = illustrated(content, &path, problems);
-        chapter["content"] = Value::String(drawn);
+    if let Some(content) = chapter.get_mut("content") {
+        if let Some(text) = content.as_str() {
+            *content = Value::String(illustrated(text, &path, problems));
+        }
     }
-    if let Some(items) = chapter["sub_items"].as_array_mut() {
-        for item in items {
-            self::chapter(&mut item["Chapter"], source, problems);
+    if let Some(items) = chapter.get_mut("sub_items").and_then(Value::as_array_mut) {
+        for below in items.iter_mut().filter_map(|i| i.get_mut("Chapter")) {
+            self::chapter(below, source, problems);
         }
     }
 }

@@ -221,6 +221,7 @@ fn our_own_figures_read_back_give_the_same_verdicts() {
             for (block, id) in imported.scene.blocks.iter_mut().zip(&frame.placed) {
                 block.weight = Some(scene.blocks[id.0].weight);
             }
+            imported.scene.corner_contacts = Some(scene.corner_contacts);
             let read = Scene::from_json(&imported.scene.to_json()).expect("sound");
             for (block, id) in read.blocks.iter().zip(&frame.placed) {
                 let drawn = &scene.blocks[id.0].body.polygon;

@@ -128,7 +128,7 @@ fn a_safe_stretch_is_as_long_as_the_kernel_leaves_it() {
                     .chunks(2)
                     .map(|ends| libm::hypot(ends[1].x - ends[0].x, ends[1].y - ends[0].y))
                     .sum();
-                if stroke.colour == Theme::paper().safe {
+                if stroke.colour == Theme::default().safe {
                     safe += length;
                 } else if !stroke.dash.is_empty() {
                     rest += length;

@@ -80,6 +80,10 @@ fn pieces(group: &Group) -> Vec<[PagePoint; 2]> {
     let mut pieces = Vec::new();
     for item in &group.items {
         let Item::Path(path) = item else { continue };
+        // The seams between a block's cells are no edge: its filled outline is.
+        if group.class == "block" && path.fill.is_none() {
+            continue;
+        }
         let (mut start, mut last) = (None, None);
         for segment in &path.outline.segments {
             let points = match segment {

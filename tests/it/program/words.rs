@@ -246,7 +246,7 @@ fn a_wrong_style_is_told_with_all_else_that_is_wrong_and_nothing_is_written() {
         "error: bad.json: failur: unknown key",
         "the nearest known key is `failure`",
         "error: bad.json: ink: the text \"blak\" is no colour",
-        "a weight of -3 N",
+        "negative weight -3",
     ] {
         assert!(ran.err.contains(words), "{words}\n{}", ran.err);
     }
