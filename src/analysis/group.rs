@@ -5,6 +5,7 @@
 //! with its proof. Where both proofs hold, the forces win.
 
 mod failure;
+mod motion;
 mod question;
 
 pub(super) use question::{judged, only_by_wedging};
@@ -15,10 +16,8 @@ use crate::geometry::Vector;
 use crate::interface::Interface;
 use crate::program::{Group, Program, Scale, assemble, load_on};
 use crate::proof::{self, Demand, Held, Motion, Pressed, Proof, Yardstick};
-use crate::scene::{BodyId, Frame, Scene};
-use crate::solve::{
-    Amounts, Choice, Effort, Manner, balance_in, leftover, opened, single, stick_in,
-};
+use crate::scene::{Frame, Scene};
+use crate::solve::{Amounts, Choice, Effort, Manner, balance_in, leftover, single, stick_in};
 
 /// What was found out about one group, forces in the order of its interfaces and holds.
 #[derive(Clone, Debug)]
@@ -202,15 +201,6 @@ impl<'a> Case<'a> {
             .then(|| self.stands(carried, Effort::default()))
     }
 
-    /// Whether a proved motion does more work than forces within the proof's band could take up.
-    fn outweighs_the_band(&self, motion: &[Motion], proof: &Proof) -> bool {
-        let ways: f64 = motion
-            .iter()
-            .map(|m| m.velocity.norm() + m.spin.abs() * self.yardstick.length)
-            .sum();
-        matches!(proof, Proof::Mechanism { power, .. } if *power > 2.0 * Proof::BAND * ways)
-    }
-
     /// Solves a program and proves what comes out: quick first, with full care only where the quick answer has no proof.
     fn judged(&self, program: &Program) -> Judged {
         let mut judged = Judged {
@@ -272,7 +262,7 @@ impl<'a> Case<'a> {
             };
         }
         let mut doubts = String::new();
-        for manner in &self.manners {
+        for (round, manner) in self.manners.iter().enumerate() {
             let stuck = stick_in(program, *manner);
             judged.effort = judged.effort.and(stuck.effort);
             let proof = self.carried(program, &stuck.forces).proof;
@@ -300,7 +290,9 @@ impl<'a> Case<'a> {
             } else {
                 own.or_else(|| falls.clone())
             };
-            if let Some((mechanism, proof)) = shown {
+            // A verdict alone is had without sticking; what fails is sought as long as there is a way.
+            let told = stuck.balanced.is_some() || round + 1 == self.manners.len();
+            if told && let Some((mechanism, proof)) = shown {
                 return Judged {
                     verdict: Verdict::Unstable,
                     mechanism,
@@ -317,29 +309,6 @@ impl<'a> Case<'a> {
         }
     }
 
-    /// The motion near a given one, freed from the solver's error, with its proof if that convinces.
-    ///
-    /// A violation is believed to be rounding only after the change: one of the solver's, however small, may be what the
-    /// motion of a wedge into its notch lives on.
-    fn falling(
-        &self,
-        program: &Program,
-        y: &[f64],
-        effort: &mut Effort,
-    ) -> Option<(Vec<Motion>, Proof)> {
-        let (fastest, mut motion) = self.moved(y);
-        let mut proof = self.mechanism(&motion);
-        if motion.is_empty() {
-            return None;
-        }
-        if proof.rules_out().is_finite() {
-            let unit: Vec<f64> = y.iter().map(|v| v / fastest).collect();
-            (_, motion) = self.moved(&opened(program, &unit, effort)?);
-            proof = self.mechanism(&motion);
-        }
-        self.believes(&proof).then_some((motion, proof))
-    }
-
     fn believes(&self, proof: &Proof) -> bool {
         proof.meets(self.demand)
     }
@@ -350,16 +319,6 @@ impl<'a> Case<'a> {
             .iter()
             .map(|i| self.interfaces[*i])
             .collect()
-    }
-
-    fn mechanism(&self, motion: &[Motion]) -> Proof {
-        proof::mechanism(
-            self.scene,
-            self.frame,
-            motion,
-            &self.touching(),
-            self.yardstick,
-        )
     }
 
     /// Newtons from pure numbers, made admissible to the last bit, with their proof.
@@ -456,81 +415,5 @@ impl<'a> Case<'a> {
             proof: carried.proof,
             effort,
         }
-    }
-
-    /// A group that touches no ground and is held by nobody falls with the sum of its loads, all blocks alike.
-    fn falls_free(&self, plan: &Plan) -> Option<Findings> {
-        let grounded = self
-            .touching()
-            .iter()
-            .any(|i| matches!(i.bodies[1], BodyId::Ground(_)));
-        if grounded || !self.group.holds.is_empty() {
-            return None;
-        }
-        let total = self.group.blocks.iter().fold(Vector::zeros(), |sum, b| {
-            sum + load_on(self.scene, plan, *b).0
-        });
-        if total.norm() <= Proof::BAND * self.yardstick.force {
-            return None;
-        }
-        let velocity = total.normalize();
-        let mechanism: Vec<Motion> = self
-            .group
-            .blocks
-            .iter()
-            .map(|block| Motion {
-                block: *block,
-                velocity,
-                spin: 0.0,
-            })
-            .collect();
-        let proof = proof::mechanism(
-            self.scene,
-            self.frame,
-            &mechanism,
-            &self.touching(),
-            self.yardstick,
-        );
-        Some(Findings {
-            verdict: Verdict::Unstable,
-            doubt: String::new(),
-            contacts: vec![([0.0; 2], 0.0); self.group.interfaces.len()],
-            grips: Vec::new(),
-            failures: Vec::new(),
-            total_sticking: 0.0,
-            unsupported: true,
-            mechanism,
-            proof,
-            effort: Effort::default(),
-        })
-    }
-
-    /// The speed of the fastest point in pure numbers, and motions in the scene's units, that point with speed 1.
-    fn moved(&self, y: &[f64]) -> (f64, Vec<Motion>) {
-        let all = self
-            .group
-            .blocks
-            .iter()
-            .enumerate()
-            .map(|(k, block)| Motion {
-                block: *block,
-                velocity: Vector::new(y[3 * k], y[3 * k + 1]),
-                // Pure velocities are per unit of length.
-                spin: y[3 * k + 2] / self.scale.length,
-            });
-        let all: Vec<Motion> = all.collect();
-        let fastest = all
-            .iter()
-            .map(|m| m.fastest(self.scene))
-            .fold(0.0, f64::max);
-        if fastest == 0.0 {
-            return (0.0, Vec::new());
-        }
-        let moved = all.iter().map(|m| Motion {
-            block: m.block,
-            velocity: m.velocity / fastest,
-            spin: m.spin / fastest,
-        });
-        (fastest, moved.collect())
     }
 }

@@ -15,8 +15,14 @@ const HAIR: f64 = 1e-12;
 /// Contacts are looked after that are less open than so many violations.
 const NEAR: f64 = 1e3;
 
-/// Rounds in which contacts are added that the last change closed.
-const ROUNDS: usize = 4;
+/// Where contacts cannot open a change may leave so much of a violation to the next.
+const LEFT: f64 = 1e-4;
+
+/// Violations that are the rounding of speeds.
+const ROUNDED: f64 = 4.0 * f64::EPSILON;
+
+/// Rounds of changes, each for what the last one left or closed.
+const ROUNDS: usize = 5;
 
 /// A grip whose limit is so many times the heaviest load holds as if it had none.
 const LAVISH: f64 = 1e4;
@@ -49,18 +55,25 @@ fn changed(
     effort: &mut Effort,
 ) -> Option<Vec<f64>> {
     let mut motion = motion.to_vec();
-    for _ in 0..ROUNDS {
+    // What cannot open leaves the program no room inside, unless each change may leave a little for the next.
+    let (left, small) = match hair {
+        0.0 => (LEFT, ROUNDED),
+        hair => (0.0, 0.5 * hair),
+    };
+    for round in 0..=ROUNDS {
         let torn = held.iter().map(|c| c.dot(&motion).abs());
         let closing = contacts.iter().map(|c| hair - c.dot(&motion));
         let worst = torn.chain(closing).fold(0.0, f64::max);
-        if worst <= 0.5 * hair {
+        if worst <= small {
             return Some(motion);
         }
-        let size = worst.max(HAIR);
+        if round == ROUNDS {
+            break;
+        }
         let mut rows: Vec<(&Column, f64)> =
-            held.iter().map(|c| (c, -c.dot(&motion) / size)).collect();
+            held.iter().map(|c| (c, -c.dot(&motion) / worst)).collect();
         for column in contacts {
-            let wanted = (hair - column.dot(&motion)) / size;
+            let wanted = (hair - column.dot(&motion)) / worst - left;
             if wanted > -NEAR {
                 rows.push((column, wanted));
             }
@@ -71,12 +84,9 @@ fn changed(
             return None;
         }
         for (v, d) in motion.iter_mut().zip(&answer.x) {
-            *v += size * d;
-        }
-        // Without a hair to open by there is nothing to measure but rounding.
-        if hair == 0.0 && size <= HAIR {
-            return Some(motion);
+            *v += worst * d;
         }
     }
+    // Columns far from unit length are rounded more than others; the proof measures what is left.
     (hair == 0.0).then_some(motion)
 }
