@@ -188,7 +188,7 @@ fn our_own_figures_read_back_give_the_same_verdicts() {
                 frame: Some(number),
                 scene: SceneFile {
                     friction: Some(json["friction"].as_f64().expect("given")),
-                    kernel: Some(json["kernel"].as_f64().expect("given")),
+                    kernel: Some(json["kernel"].as_f64().unwrap_or(0.0)),
                     gravity: Some([0.0, -1.0]),
                     density: Some(first.weight / first.body.polygon.area()),
                     ..SceneFile::default()
