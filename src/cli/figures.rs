@@ -29,6 +29,9 @@ pub(crate) struct Figures {
     look: Look,
 }
 
+/// Where files go, and what is in them.
+type Files = Vec<(PathBuf, Vec<u8>)>;
+
 impl Figures {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
         let theme = self.look.theme().map_err(|c| vec![c])?;
@@ -37,7 +40,7 @@ impl Figures {
             Some(format) => vec![format],
             None => Format::ALL.to_vec(),
         };
-        let drawn: Vec<Result<Vec<(PathBuf, Vec<u8>)>, Complaint>> = plates
+        let drawn: Vec<Result<Files, Complaint>> = plates
             .par_iter()
             .map(|plate| files(plate, &formats, &self.output))
             .collect();
@@ -66,11 +69,7 @@ impl Figures {
     }
 }
 
-fn files(
-    plate: &Plate,
-    formats: &[Format],
-    folder: &Path,
-) -> Result<Vec<(PathBuf, Vec<u8>)>, Complaint> {
+fn files(plate: &Plate, formats: &[Format], folder: &Path) -> Result<Files, Complaint> {
     let failed = |error: &dyn std::error::Error| Complaint::NotWritten {
         what: plate.name.to_owned(),
         why: error.to_string(),

@@ -120,31 +120,46 @@ impl Picture {
         }
     }
 
-    /// The bytes of a drawing.
-    pub(crate) fn bytes(&self, drawing: Drawing, format: Format) -> Result<Vec<u8>, Complaint> {
-        let drawing = Drawing {
+    /// A drawing on the page asked for.
+    fn on_page(&self, drawing: Drawing) -> Drawing {
+        Drawing {
             background: match self.background {
                 Some(Background::Clear) => None,
                 Some(Background::Plain(colour)) => Some(colour),
                 None => drawing.background,
             },
             ..drawing
-        };
+        }
+    }
+
+    /// The bytes of a drawing.
+    pub(crate) fn bytes(&self, drawing: Drawing, format: Format) -> Result<Vec<u8>, Complaint> {
+        let drawing = self.on_page(drawing);
         match format {
             Format::Svg => svg::write_with(&drawing, &self.svg_options())
                 .map(String::into_bytes)
                 .map_err(|error| unwritten(&error)),
             Format::Png => {
-                png::render(&svg::write(&drawing), self.size()).map_err(|error| match error {
-                    PngError::Size { .. } => Complaint::CommandLine(error.to_string()),
-                    _ => unwritten(&error),
-                })
+                png::render(&svg::write(&drawing), self.size()).map_err(|error| not_drawn(&error))
             }
             Format::Pdf => pdf::write(&drawing, self.width_mm).map_err(|error| match error {
                 PdfError::Size { .. } => Complaint::CommandLine(error.to_string()),
                 PdfError::Unwritable(_) => unwritten(&error),
             }),
         }
+    }
+
+    /// The bytes of drawings of one size that follow one another, as an animated PNG.
+    pub(crate) fn animated(
+        &self,
+        drawings: Vec<Drawing>,
+        seconds: f64,
+    ) -> Result<Vec<u8>, Complaint> {
+        let svgs: Vec<String> = drawings
+            .into_iter()
+            .map(|drawing| svg::write(&self.on_page(drawing)))
+            .collect();
+        png::animate(&svgs, self.size(), seconds).map_err(|error| not_drawn(&error))
     }
 
     /// The width, in pixels, for which a figure is laid out; `None` for its own. On a page of so many millimetres its
@@ -175,6 +190,13 @@ impl Picture {
             },
             (None, None, None) => Size::Scale(2.0),
         }
+    }
+}
+
+fn not_drawn(error: &PngError) -> Complaint {
+    match error {
+        PngError::Size { .. } => Complaint::CommandLine(error.to_string()),
+        _ => unwritten(error),
     }
 }
 

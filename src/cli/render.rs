@@ -49,6 +49,9 @@ pub(crate) struct Render {
     /// The block that a free-body diagram cuts free, by its id
     #[arg(long, value_name = "ID")]
     block: Option<String>,
+    /// Show the frames one after the other in an animated PNG, each for so many seconds
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    animate: Option<f64>,
     /// Write its amount beside every arrow
     #[arg(long)]
     amounts: bool,
@@ -77,6 +80,8 @@ enum Kind {
     Kernel,
     /// Friction used of friction available, interface by interface
     Utilisation,
+    /// The steps of a construction, arrows to one scale in all of them; --animate shows them one after the other
+    Build,
     /// One block cut free, with every force that may act on it by name
     Freebody,
 }
@@ -106,6 +111,28 @@ struct Rendered {
     summary: String,
 }
 
+impl Kind {
+    /// What the panels of the figure show; `None` for a free-body diagram, which has none.
+    fn panels(self) -> Option<figure::Kind> {
+        match self {
+            Kind::Forces => Some(figure::Kind::Forces),
+            Kind::Mechanism => Some(figure::Kind::Mechanism),
+            Kind::Thrust => Some(figure::Kind::Thrust),
+            Kind::Kernel => Some(figure::Kind::Kernel),
+            Kind::Utilisation => Some(figure::Kind::Utilisation),
+            Kind::Build => Some(figure::Kind::Build),
+            Kind::Freebody => None,
+        }
+    }
+}
+
+fn seconds(typed: &str) -> Result<f64, String> {
+    match typed.parse::<f64>() {
+        Ok(seconds) if (0.01..=600.0).contains(&seconds) => Ok(seconds),
+        _ => Err("it is a time in seconds, from 0.01 to 600".into()),
+    }
+}
+
 impl Render {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
         let destination = Destination::of(&self.output);
@@ -115,6 +142,10 @@ impl Render {
         self.picture.check(format).map_err(|c| vec![c])?;
         if self.block.is_some() && !matches!(self.kind, Kind::Freebody) {
             let why = "--block names the block of a free-body diagram; add --kind freebody";
+            return Err(vec![Complaint::CommandLine(why.into())]);
+        }
+        if self.animate.is_some() && (format != Format::Png || self.kind.panels().is_none()) {
+            let why = "--animate makes a PNG of the frames of a figure; write a .png, of any kind but freebody";
             return Err(vec![Complaint::CommandLine(why.into())]);
         }
         self.check_count(&destination, format, terminal)
@@ -202,8 +233,17 @@ impl Render {
         progress.doing(&source.name());
         let analysis = Analysis::with(&source.scene, &self.level.options());
         progress.step();
-        let drawing = self.drawing(source, &analysis, options)?;
-        let bytes = self.picture.bytes(drawing, format)?;
+        let bytes = match self.animate {
+            Some(seconds) => {
+                let kind = self.kind.panels().unwrap_or_default();
+                let pages = figure::pages(&analysis, kind, options);
+                self.picture.animated(pages, seconds)?
+            }
+            None => {
+                let drawing = self.drawing(source, &analysis, options)?;
+                self.picture.bytes(drawing, format)?
+            }
+        };
         progress.step();
         Ok(Rendered {
             bytes,
@@ -218,21 +258,14 @@ impl Render {
         analysis: &Analysis<'_>,
         options: &figure::Options,
     ) -> Result<Drawing, Complaint> {
-        let kind = match self.kind {
-            Kind::Forces => figure::Kind::Forces,
-            Kind::Mechanism => figure::Kind::Mechanism,
-            Kind::Thrust => figure::Kind::Thrust,
-            Kind::Kernel => figure::Kind::Kernel,
-            Kind::Utilisation => figure::Kind::Utilisation,
-            Kind::Freebody => {
-                let (frame, block) = self
-                    .cut_free(&source.scene)
-                    .map_err(|why| Complaint::CommandLine(format!("{}: {why}", source.name())))?;
-                let drawing = figure::freebody(analysis, frame, block, options);
-                return Ok(drawing.expect("the block was found in this frame"));
-            }
-        };
-        Ok(figure::draw(analysis, kind, options))
+        if let Some(kind) = self.kind.panels() {
+            return Ok(figure::draw(analysis, kind, options));
+        }
+        let (frame, block) = self
+            .cut_free(&source.scene)
+            .map_err(|why| Complaint::CommandLine(format!("{}: {why}", source.name())))?;
+        let drawing = figure::freebody(analysis, frame, block, options);
+        Ok(drawing.expect("the block was found in this frame"))
     }
 
     /// The block that is cut free, and the last frame in which it stands.

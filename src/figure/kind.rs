@@ -7,10 +7,10 @@ use super::kernel;
 use super::legend::{self, Entry};
 use super::mark;
 use super::mechanism;
-use super::option::Options;
+use super::option::{ArrowScale, Options};
 use super::panel;
 use super::stage::Stage;
-use super::strip::strip;
+use super::strip::{self, strip};
 use super::thrust;
 use super::utilisation;
 use super::verdict;
@@ -33,23 +33,31 @@ pub enum Kind {
     Kernel,
     /// Friction used of friction available at each interface, and of its limits by each robot.
     Utilisation,
+    /// The forces of every step of a construction, arrows to one scale in all of them.
+    Build,
 }
 
 /// A figure of this kind, one panel per frame.
 ///
 /// Units: the page is in pixels at natural size.
 pub fn draw(analysis: &Analysis<'_>, kind: Kind, options: &Options) -> Drawing {
-    strip(analysis, kind, options)
+    strip(analysis, kind, &kind.options(options))
+}
+
+/// The panels of [`draw`] a page each, all alike in size and scale: the pictures of an animation.
+pub fn pages(analysis: &Analysis<'_>, kind: Kind, options: &Options) -> Vec<Drawing> {
+    strip::pages(analysis, kind, &kind.options(options))
 }
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Kind; 5] = [
+    pub const ALL: [Kind; 6] = [
         Kind::Forces,
         Kind::Mechanism,
         Kind::Thrust,
         Kind::Kernel,
         Kind::Utilisation,
+        Kind::Build,
     ];
 
     /// Its name, in small letters.
@@ -60,6 +68,7 @@ impl Kind {
             Kind::Thrust => "thrust",
             Kind::Kernel => "kernel",
             Kind::Utilisation => "utilisation",
+            Kind::Build => "build",
         }
     }
 
@@ -68,10 +77,19 @@ impl Kind {
         Kind::ALL.into_iter().find(|kind| kind.name() == name)
     }
 
+    /// The options with what the kind itself decides.
+    fn options(self, options: &Options) -> Options {
+        let mut options = options.clone();
+        if self == Kind::Build {
+            options.scale = ArrowScale::Strip;
+        }
+        options
+    }
+
     /// The title of a figure whose scene has none.
     pub(crate) fn title(self) -> &'static str {
         match self {
-            Kind::Forces => "Forces in a dry-laid structure",
+            Kind::Forces | Kind::Build => "Forces in a dry-laid structure",
             Kind::Mechanism => "How a dry-laid structure falls",
             Kind::Thrust => "The line of thrust in a dry-laid structure",
             Kind::Kernel => "Resultants in the safe stretches of interfaces",
@@ -81,7 +99,7 @@ impl Kind {
 
     /// Whether blocks tell amplitudes by their colour; otherwise they are plain.
     pub(crate) fn tells_amplitudes(self) -> bool {
-        self == Kind::Forces
+        matches!(self, Kind::Forces | Kind::Build)
     }
 
     /// The arrows of a frame, `newtons_per_unit` N being one unit edge long.
@@ -93,7 +111,7 @@ impl Kind {
         newtons_per_unit: f64,
     ) -> Marks {
         match self {
-            Kind::Forces => mark::marks(analysis, frame, options, newtons_per_unit),
+            Kind::Forces | Kind::Build => mark::marks(analysis, frame, options, newtons_per_unit),
             _ => Marks::default(),
         }
     }
@@ -125,7 +143,7 @@ impl Kind {
         camera: &Camera,
     ) -> Group {
         match self {
-            Kind::Forces => panel::picture(stage, frame, view, camera),
+            Kind::Forces | Kind::Build => panel::picture(stage, frame, view, camera),
             Kind::Mechanism => mechanism::picture(stage, frame, view, camera),
             Kind::Thrust => thrust::picture(stage, frame, view, camera),
             Kind::Kernel => kernel::picture(stage, frame, view, camera),
@@ -136,7 +154,7 @@ impl Kind {
     /// Everything that occurs in the figure, `unit` pixels being one unit edge.
     pub(crate) fn entries(self, stage: &Stage<'_>, unit: f64) -> Vec<Entry> {
         match self {
-            Kind::Forces => legend::entries(stage, unit),
+            Kind::Forces | Kind::Build => legend::entries(stage, unit),
             Kind::Mechanism => mechanism::entries(stage),
             Kind::Thrust => thrust::entries(stage, unit),
             Kind::Kernel => kernel::entries(stage),
@@ -148,7 +166,7 @@ impl Kind {
     pub(crate) fn reason(self, stage: &Stage<'_>, frame: usize) -> String {
         let (scene, found) = (stage.analysis.scene, &stage.analysis.frames[frame]);
         match self {
-            Kind::Forces => verdict::reason(scene, found),
+            Kind::Forces | Kind::Build => verdict::reason(scene, found),
             Kind::Mechanism => collapse::reason(stage.analysis, frame),
             Kind::Thrust => thrust::reason(scene, found),
             Kind::Kernel => kernel::reason(scene, found),

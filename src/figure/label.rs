@@ -118,7 +118,9 @@ fn name(pen: &Pen<'_>, id: BlockId) -> Label {
 
 fn robots(pen: &Pen<'_>) -> Vec<Label> {
     let scene = pen.stage.analysis.scene;
-    let size = 0.9 * name_size(pen);
+    let size = name_size(pen);
+    // Above the smallest letters names of robots stand back a little.
+    let size = (0.9 * size).max(size.min(SMALLEST));
     let named = |hold: &crate::scene::Hold| {
         let wish = Wish {
             anchor: pen.camera.place(pen.moved(hold.block, hold.at)),

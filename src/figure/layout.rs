@@ -31,13 +31,14 @@ pub(crate) struct Layout {
 }
 
 impl Layout {
-    pub fn of(stage: &Stage<'_>) -> Layout {
+    /// For `count` panels.
+    pub fn of(stage: &Stage<'_>, count: usize) -> Layout {
         let margin = stage.options.width.map_or(MARGIN, margin);
         let across = stage
             .options
             .width
             .map_or(ACROSS, |width| (width - 2.0 * margin).max(1.0));
-        let count = stage.analysis.scene.frames.len().max(1);
+        let count = count.max(1);
         let scale = |columns| Layout::scale(stage, across, columns, count);
         let columns = match stage.options.columns {
             Some(columns) => columns.clamp(1, count),

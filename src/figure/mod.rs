@@ -40,7 +40,7 @@ pub use caption::caption;
 pub use forces::forces;
 pub use freebody::freebody;
 pub use gallery::{Plate, gallery};
-pub use kind::{Kind, draw};
+pub use kind::{Kind, draw, pages};
 pub use mark::{arrows, marks};
 pub use option::{ArrowScale, ForceStyle, Normalisation, Options};
 pub use ring::ring;

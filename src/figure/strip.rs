@@ -24,17 +24,38 @@ const MOST_REASON_LINES: usize = 4;
 /// The figure of an analysis: a panel of this kind for each frame.
 pub(crate) fn strip(analysis: &Analysis<'_>, kind: Kind, options: &Options) -> Drawing {
     let stage = Stage::of(analysis, kind, options);
-    let layout = Layout::of(&stage);
     let strip = Strip {
         stage: &stage,
-        layout,
+        layout: Layout::of(&stage, analysis.frames.len()),
+        only: None,
     };
     strip.drawing()
+}
+
+/// The panels of [`strip`] a page each, all pages alike in size and scale, so that they can follow one another in place.
+pub(crate) fn pages(analysis: &Analysis<'_>, kind: Kind, options: &Options) -> Vec<Drawing> {
+    let stage = Stage::of(analysis, kind, options);
+    let page = |frame| {
+        let strip = Strip {
+            stage: &stage,
+            layout: Layout::of(&stage, 1),
+            only: Some(frame),
+        };
+        strip.drawing()
+    };
+    let mut pages: Vec<Drawing> = (0..analysis.frames.len()).map(page).collect();
+    let highest = pages.iter().map(|p| p.height).fold(0.0, f64::max);
+    for page in &mut pages {
+        page.height = highest;
+    }
+    pages
 }
 
 struct Strip<'a> {
     stage: &'a Stage<'a>,
     layout: Layout,
+    /// The one frame that is drawn, all of them where `None`.
+    only: Option<usize>,
 }
 
 impl Strip<'_> {
@@ -80,13 +101,20 @@ impl Strip<'_> {
             }
             y += 18.0;
         }
-        let frames: Vec<usize> = (0..self.stage.marks.len()).collect();
+        let frames: Vec<usize> = match self.only {
+            Some(frame) => vec![frame],
+            None => (0..self.stage.marks.len()).collect(),
+        };
         let rows: Vec<&[usize]> = frames.chunks(self.layout.columns).collect();
         for (number, row) in rows.iter().enumerate() {
             if number > 0 {
                 y += 30.0;
             }
-            let (mut bottom, view) = (y, self.stage.row(row));
+            let view = match self.only {
+                Some(_) => self.stage.view,
+                None => self.stage.row(row),
+            };
+            let mut bottom = y;
             // Verdicts of a row stand side by side, below its longest caption.
             let captions = row
                 .iter()

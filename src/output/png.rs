@@ -67,6 +67,57 @@ pub const MOST_ACROSS: u32 = 32_000;
 /// # Ok::<(), drystone::output::png::PngError>(())
 /// ```
 pub fn render(svg: &str, size: Size) -> Result<Vec<u8>, PngError> {
+    let per_metre = match size {
+        Size::Print { dpi, .. } => Some((dpi * 1000.0 / MM_PER_INCH).round() as u32),
+        _ => None,
+    };
+    encode(&raster(svg, size)?, per_metre)
+}
+
+/// Drawings of one size as an animated PNG, each shown for `seconds`, over and over. Where animation is unknown the first
+/// is shown.
+///
+/// # Errors
+/// As [`render`]; and [`PngError::Encode`] for no drawings, drawings of several sizes, and a time that is not between a
+/// hundredth of a second and ten minutes.
+pub fn animate(svgs: &[String], size: Size, seconds: f64) -> Result<Vec<u8>, PngError> {
+    let wrong = |why: &str| Err(PngError::Encode(why.to_owned()));
+    if !(0.01..=600.0).contains(&seconds) {
+        return wrong("each picture is shown for 0.01 to 600 seconds");
+    }
+    let mut pictures = Vec::new();
+    for svg in svgs {
+        pictures.push(raster(svg, size)?);
+    }
+    let Some(first) = pictures.first() else {
+        return wrong("there is nothing to show");
+    };
+    let same = |p: &Pixmap| (p.width(), p.height()) == (first.width(), first.height());
+    if !pictures.iter().all(same) {
+        return wrong("the pictures differ in size");
+    }
+    let failed = |e: png::EncodingError| PngError::Encode(e.to_string());
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, first.width(), first.height());
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_compression(png::Compression::Balanced);
+    encoder.set_color(png::ColorType::Rgba);
+    encoder
+        .set_animated(pictures.len() as u32, 0)
+        .map_err(failed)?;
+    encoder
+        .set_frame_delay((seconds * 100.0).round() as u16, 100)
+        .map_err(failed)?;
+    let mut writer = encoder.write_header().map_err(failed)?;
+    for picture in &pictures {
+        let data: Vec<u8> = picture.pixels().iter().flat_map(|p| straight(*p)).collect();
+        writer.write_image_data(&data).map_err(failed)?;
+    }
+    writer.finish().map_err(failed)?;
+    Ok(bytes)
+}
+
+fn raster(svg: &str, size: Size) -> Result<Pixmap, PngError> {
     let tree = tree::read(svg).map_err(PngError::Svg)?;
     let (natural_width, natural_height) = (
         f64::from(tree.size().width()),
@@ -99,11 +150,7 @@ pub fn render(svg: &str, size: Size) -> Result<Vec<u8>, PngError> {
         (height / natural_height) as f32,
     );
     resvg::render(&tree, transform, &mut pixels.as_mut());
-    let per_metre = match size {
-        Size::Print { dpi, .. } => Some((dpi * 1000.0 / MM_PER_INCH).round() as u32),
-        _ => None,
-    };
-    encode(&pixels, per_metre)
+    Ok(pixels)
 }
 
 fn encode(pixels: &Pixmap, per_metre: Option<u32>) -> Result<Vec<u8>, PngError> {

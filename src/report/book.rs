@@ -74,10 +74,10 @@ pub fn illustrate(input: &str) -> Result<String, BookProblems> {
 fn chapter(chapter: &mut Value, source: &Path, problems: &mut Vec<String>) {
     let path = chapter["source_path"].as_str().or(chapter["path"].as_str());
     let path = source.join(path.unwrap_or("draft.md"));
-    if let Some(content) = chapter.get_mut("content") {
-        if let Some(text) = content.as_str() {
-            *content = Value::String(illustrated(text, &path, problems));
-        }
+    if let Some(content) = chapter.get_mut("content")
+        && let Some(text) = content.as_str()
+    {
+        *content = Value::String(illustrated(text, &path, problems));
     }
     if let Some(items) = chapter.get_mut("sub_items").and_then(Value::as_array_mut) {
         for below in items.iter_mut().filter_map(|i| i.get_mut("Chapter")) {
