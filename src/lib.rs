@@ -42,6 +42,7 @@
 //! | | makes | from |
 //! |---|---|---|
 //! | [`Scene::from_json`] | [`Scene`], checked | text |
+//! | [`import`](mod@import) | a scene file | a drawing: SVG, GeoJSON or WKT |
 //! | [`interface`] | what touches what | a scene |
 //! | [`effect`] | what to simulate and what to leave out | a frame of it |
 //! | [`program`] | the balance in pure numbers | those |
@@ -52,6 +53,7 @@
 //! | [`figure::forces`] | [`drawing::Drawing`] | an analysis |
 //! | [`output::svg::write`] | SVG text | a drawing |
 //! | [`output::png::render`] | PNG bytes | that text |
+//! | [`output::pdf::write`] | a PDF page | a drawing, through that text |
 //! | [`study::study`] | what accuracy costs | scenes |
 //! | [`report::result::to_json`] | JSON for other programs | an analysis |
 //!
@@ -63,6 +65,8 @@
 pub mod geometry;
 
 pub mod scene;
+
+pub mod import;
 
 pub mod interface;
 
@@ -95,7 +99,7 @@ pub mod cli;
 pub use analysis::Analysis;
 pub use scene::Scene;
 
-/// What stands between the lines of code: why, by which conventions, how precisely, and after whom.
+/// What stands between the lines of code: why, by which conventions, how precisely, from which drawings, and after whom.
 pub mod doc {
     #[doc = include_str!("doc/design.md")]
     pub mod design {}
@@ -109,6 +113,9 @@ pub mod doc {
     #[doc = include_str!("doc/accuracy.md")]
     #[doc = include_str!("../assets/accuracy.svg")]
     pub mod accuracy {}
+
+    #[doc = include_str!("doc/import.md")]
+    pub mod import {}
 
     #[doc = include_str!("doc/references.md")]
     pub mod references {}

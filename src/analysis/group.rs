@@ -16,7 +16,9 @@ use crate::interface::Interface;
 use crate::program::{Group, Program, Scale, assemble, load_on};
 use crate::proof::{self, Demand, Held, Motion, Pressed, Proof, Yardstick};
 use crate::scene::{BodyId, Frame, Scene};
-use crate::solve::{Amounts, Effort, Manner, balance_in, single, stick_in};
+use crate::solve::{
+    Amounts, Choice, Effort, Manner, balance_in, leftover, opened, single, stick_in,
+};
 
 /// What was found out about one group, forces in the order of its interfaces and holds.
 #[derive(Clone, Debug)]
@@ -200,14 +202,13 @@ impl<'a> Case<'a> {
             .then(|| self.stands(carried, Effort::default()))
     }
 
-    /// Whether a motion is proved, and does more work than forces within the proof's band could take up.
-    fn outweighs_the_band(&self, motion: &[Motion]) -> bool {
-        let proof = self.mechanism(motion);
+    /// Whether a proved motion does more work than forces within the proof's band could take up.
+    fn outweighs_the_band(&self, motion: &[Motion], proof: &Proof) -> bool {
         let ways: f64 = motion
             .iter()
             .map(|m| m.velocity.norm() + m.spin.abs() * self.yardstick.length)
             .sum();
-        matches!(proof, Proof::Mechanism { power, .. } if proof.holds() && power > 2.0 * Proof::BAND * ways)
+        matches!(proof, Proof::Mechanism { power, .. } if *power > 2.0 * Proof::BAND * ways)
     }
 
     /// Solves a program and proves what comes out: quick first, with full care only where the quick answer has no proof.
@@ -226,10 +227,13 @@ impl<'a> Case<'a> {
             },
             effort: Effort::default(),
         };
-        let mut direction = None;
-        for manner in &self.manners {
+        // Forces that balance, but not those of least sum; a motion with its proof.
+        let (mut carries, mut falls) = (None, None);
+        for (round, manner) in self.manners.iter().enumerate() {
             let first = balance_in(program, *manner);
             judged.effort = judged.effort.and(first.effort);
+            // Where the solver ended nowhere with full care it will not do better a second time.
+            let nowhere = first.forces.is_none() && first.motion.is_none();
             if let Some(amounts) = first.forces {
                 let proof = self.carried(program, &amounts).proof;
                 if self.believes(&proof) {
@@ -240,13 +244,32 @@ impl<'a> Case<'a> {
                     };
                 }
             }
-            direction = first.motion.map(|y| self.moved(&y));
-            if direction
-                .as_ref()
-                .is_some_and(|motion| self.believes(&self.mechanism(motion)))
+            falls = first
+                .motion
+                .and_then(|y| self.falling(program, &y, &mut judged.effort));
+            if falls.is_none()
+                && round == 0
+                && let Some(left) = leftover(program)
             {
+                judged.effort = judged.effort.and(left.effort);
+                let proof = self.carried(program, &left.forces).proof;
+                if self.believes(&proof) {
+                    carries = Some((left.forces, proof));
+                } else {
+                    falls = self.falling(program, &left.motion, &mut judged.effort);
+                }
+            }
+            let enough = nowhere || manner.choice == Choice::Any;
+            if falls.is_some() || (carries.is_some() && enough) {
                 break;
             }
+        }
+        if let Some((amounts, proof)) = carries {
+            return Judged {
+                amounts,
+                proof,
+                ..judged
+            };
         }
         let mut doubts = String::new();
         for manner in &self.manners {
@@ -263,22 +286,21 @@ impl<'a> Case<'a> {
             judged.amounts = stuck.forces;
             judged.sticking = (stuck.balanced == Some(true)).then_some(stuck.sticking);
             judged.hopeless = stuck.balanced == Some(false);
-            let own = stuck.motion.map(|y| self.moved(&y));
-            let motions = if stuck.priced {
-                [direction.clone(), own]
+            let raw = stuck
+                .motion
+                .as_ref()
+                .map(|y| self.mechanism(&self.moved(y).1));
+            doubts = doubt(&proof, raw.as_ref());
+            let own = stuck
+                .motion
+                .and_then(|y| self.falling(program, &y, &mut judged.effort));
+            // At a price the motion trespasses: then one from elsewhere is shown, if there is one.
+            let shown = if stuck.priced {
+                falls.clone().or(own)
             } else {
-                [own, direction.clone()]
+                own.or_else(|| falls.clone())
             };
-            let proved: Vec<(Vec<Motion>, Proof)> = motions
-                .into_iter()
-                .flatten()
-                .map(|motion| {
-                    let proof = self.mechanism(&motion);
-                    (motion, proof)
-                })
-                .collect();
-            doubts = doubt(&proof, proved.first().map(|p| &p.1));
-            if let Some((mechanism, proof)) = proved.into_iter().find(|p| self.believes(&p.1)) {
+            if let Some((mechanism, proof)) = shown {
                 return Judged {
                     verdict: Verdict::Unstable,
                     mechanism,
@@ -293,6 +315,29 @@ impl<'a> Case<'a> {
             doubt: doubts,
             ..judged
         }
+    }
+
+    /// The motion near a given one, freed from the solver's error, with its proof if that convinces.
+    ///
+    /// A violation is believed to be rounding only after the change: one of the solver's, however small, may be what the
+    /// motion of a wedge into its notch lives on.
+    fn falling(
+        &self,
+        program: &Program,
+        y: &[f64],
+        effort: &mut Effort,
+    ) -> Option<(Vec<Motion>, Proof)> {
+        let (fastest, mut motion) = self.moved(y);
+        let mut proof = self.mechanism(&motion);
+        if motion.is_empty() {
+            return None;
+        }
+        if proof.rules_out().is_finite() {
+            let unit: Vec<f64> = y.iter().map(|v| v / fastest).collect();
+            (_, motion) = self.moved(&opened(program, &unit, effort)?);
+            proof = self.mechanism(&motion);
+        }
+        self.believes(&proof).then_some((motion, proof))
     }
 
     fn believes(&self, proof: &Proof) -> bool {
@@ -460,8 +505,8 @@ impl<'a> Case<'a> {
         })
     }
 
-    /// Motions in the scene's units, the fastest point with speed 1.
-    fn moved(&self, y: &[f64]) -> Vec<Motion> {
+    /// The speed of the fastest point in pure numbers, and motions in the scene's units, that point with speed 1.
+    fn moved(&self, y: &[f64]) -> (f64, Vec<Motion>) {
         let all = self
             .group
             .blocks
@@ -479,14 +524,13 @@ impl<'a> Case<'a> {
             .map(|m| m.fastest(self.scene))
             .fold(0.0, f64::max);
         if fastest == 0.0 {
-            return Vec::new();
+            return (0.0, Vec::new());
         }
-        all.iter()
-            .map(|m| Motion {
-                block: m.block,
-                velocity: m.velocity / fastest,
-                spin: m.spin / fastest,
-            })
-            .collect()
+        let moved = all.iter().map(|m| Motion {
+            block: m.block,
+            velocity: m.velocity / fastest,
+            spin: m.spin / fastest,
+        });
+        (fastest, moved.collect())
     }
 }

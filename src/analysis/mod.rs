@@ -186,6 +186,13 @@ pub struct SolveReport {
     pub seconds: f64,
 }
 
+/// What is known of the groups of earlier frames.
+#[derive(Default)]
+struct Known {
+    findings: BTreeMap<Key, Findings>,
+    margins: BTreeMap<Key, Margins>,
+}
+
 /// What makes one group the same as one of an earlier frame: its blocks and who holds them where.
 type Key = (Vec<BlockId>, Vec<(RobotId, BlockId, [u64; 2])>);
 
@@ -213,7 +220,7 @@ impl<'s> Analysis<'s> {
     pub fn with(scene: &'s Scene, options: &Options) -> Analysis<'s> {
         let found = Interfaces::of(scene);
         let length = Analysis::length_of(scene, &found);
-        let mut known: BTreeMap<Key, Findings> = BTreeMap::new();
+        let mut known = Known::default();
         let frames = scene
             .frames
             .iter()
@@ -270,7 +277,7 @@ fn examined(
     interfaces: &[&Interface],
     length: f64,
     options: Options,
-    known: &mut BTreeMap<Key, Findings>,
+    known: &mut Known,
 ) -> FrameAnalysis {
     let start = Instant::now();
     let situation = Situation {
@@ -282,7 +289,7 @@ fn examined(
     let groups = groups(scene.blocks.len(), frame, interfaces);
     let keys: Vec<Key> = groups.iter().map(|g| key(frame, g)).collect();
     let fresh: Vec<usize> = (0..groups.len())
-        .filter(|k| !known.contains_key(&keys[*k]))
+        .filter(|k| !known.findings.contains_key(&keys[*k]))
         .collect();
     let one = |k: &usize| solved(&situation, &plan, &groups[*k], length, options);
     // Many small groups are worth the threads; the order of the results is that of the groups either way.
@@ -295,18 +302,20 @@ fn examined(
         .iter()
         .fold(Effort::default(), |sum, f| sum.and(f.effort));
     for (k, found) in fresh.iter().zip(findings) {
-        known.insert(keys[*k].clone(), found);
+        known.findings.insert(keys[*k].clone(), found);
     }
     let mut analysis = gathered(scene, frame, interfaces, &plan);
     for (group, key) in groups.iter().zip(&keys) {
-        if let Some(found) = known.get(key) {
+        if let Some(found) = known.findings.get(key) {
             add(&mut analysis, scene, frame, group, found, length);
         }
     }
     settle(&mut analysis, &situation);
     let mut judged = None;
     if options.margins == Ask::Yes {
-        let (margins, tries) = margin::of(scene, frame, interfaces, &groups, known, length);
+        let (findings, ends) = (&known.findings, &mut known.margins);
+        let (margins, tries) =
+            margin::of(scene, frame, interfaces, &groups, findings, ends, length);
         analysis.margins = Some(margins);
         judged = Some(tries);
     }
@@ -317,7 +326,7 @@ fn examined(
             let found = groups
                 .iter()
                 .zip(&keys)
-                .filter_map(|(group, key)| Some((group, known.get(key)?)));
+                .filter_map(|(group, key)| Some((group, known.findings.get(key)?)));
             analysis.only_by_wedging =
                 group::only_by_wedging(scene, frame, interfaces, &plan, found, length);
             match analysis.only_by_wedging {

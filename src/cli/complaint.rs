@@ -10,6 +10,7 @@ use ariadne::{Color, Config, Label, Report, ReportKind, Source};
 
 use crate::cli::ending::Ending;
 use crate::cli::terminal::visible;
+use crate::drawing::style;
 use crate::scene::{Problem, Problems};
 
 /// So many problems of one file are shown; a file with more has one cause, and it is among the first.
@@ -29,6 +30,13 @@ pub(crate) enum Complaint {
         /// What is wrong with it.
         problems: Problems,
     },
+    /// A style file is wrong.
+    Style {
+        /// The file's name.
+        name: String,
+        /// What is wrong with it.
+        problems: style::format::Problems,
+    },
     /// An input cannot be read.
     NotRead {
         /// Which.
@@ -36,6 +44,8 @@ pub(crate) enum Complaint {
         /// The system's reason.
         why: String,
     },
+    /// A drawing does not become a scene, in a person's words.
+    Drawing(String),
     /// The command line asks for something that cannot be.
     CommandLine(String),
     /// An output cannot be written.
@@ -52,9 +62,11 @@ impl Complaint {
     pub(crate) fn ending(&self) -> Ending {
         match self {
             Complaint::NotWritten { .. } => Ending::NotWritten,
-            Complaint::Scene { .. } | Complaint::NotRead { .. } | Complaint::CommandLine(_) => {
-                Ending::WrongInput
-            }
+            Complaint::Scene { .. }
+            | Complaint::Style { .. }
+            | Complaint::NotRead { .. }
+            | Complaint::Drawing(_)
+            | Complaint::CommandLine(_) => Ending::WrongInput,
         }
     }
 
@@ -64,9 +76,21 @@ impl Complaint {
             Complaint::Scene { name, problems } => {
                 all(name, problems.text.as_deref(), &problems.list)
             }
+            Complaint::Style { name, problems } => problems
+                .0
+                .iter()
+                .map(|problem| {
+                    format!(
+                        "error: {}: {}\n",
+                        visible(name),
+                        visible(&problem.to_string())
+                    )
+                })
+                .collect(),
             Complaint::NotRead { what, why } => {
                 format!("error: cannot read {}: {why}", visible(what))
             }
+            Complaint::Drawing(what) => what.clone(),
             Complaint::CommandLine(what) => format!(
                 "error: {}\n\nFor more information, try '--help'.",
                 visible(what)

@@ -39,15 +39,14 @@ impl Destination {
         let ending = path
             .extension()
             .map(|e| e.to_string_lossy().to_ascii_lowercase());
-        let by_name = match ending.as_deref() {
-            Some("svg") => Format::Svg,
-            Some("png") => Format::Png,
-            _ => {
-                let shown = path.display();
-                return Err(Complaint::CommandLine(format!(
-                    "{shown}: a picture is .svg or .png; for a folder end its name with a slash"
-                )));
-            }
+        let by_name = Format::ALL
+            .into_iter()
+            .find(|format| ending.as_deref() == Some(format.ending()));
+        let Some(by_name) = by_name else {
+            let shown = path.display();
+            return Err(Complaint::CommandLine(format!(
+                "{shown}: a picture is .svg, .png or .pdf; for a folder end its name with a slash"
+            )));
         };
         match asked {
             Some(format) if format != by_name => {
@@ -89,7 +88,9 @@ mod tests {
             file("b.svg").format(Some(Format::Svg)).ok(),
             Some(Format::Svg)
         );
+        assert_eq!(file("b.Pdf").format(None).ok(), Some(Format::Pdf));
         assert!(file("b.svg").format(Some(Format::Png)).is_err());
+        assert!(file("b.pdf").format(Some(Format::Svg)).is_err());
         assert!(file("b.jpeg").format(None).is_err());
         assert!(file("b").format(Some(Format::Png)).is_err());
         assert_eq!(

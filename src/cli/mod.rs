@@ -21,7 +21,11 @@ mod complaint;
 mod completions;
 mod destination;
 mod ending;
+mod figures;
+mod import;
 mod level;
+mod look;
+mod mdbook;
 mod new;
 mod picture;
 mod progress;
@@ -29,6 +33,7 @@ mod render;
 mod schema;
 mod shapes;
 mod source;
+mod style;
 mod table;
 mod terminal;
 
@@ -61,11 +66,16 @@ struct CommandLine {
 #[derive(Debug, Subcommand)]
 enum Command {
     Render(render::Render),
+    Figures(figures::Figures),
     Check(check::Check),
     Accuracy(accuracy::Accuracy),
     Schema(schema::Schema),
     New(new::New),
+    Import(import::Import),
+    #[command(name = "mdbook")]
+    MdBook(mdbook::MdBook),
     Shapes(shapes::Shapes),
+    Style(style::Style),
     Completions(completions::Completions),
 }
 
@@ -86,11 +96,15 @@ pub fn run() -> ExitCode {
     let terminal = Terminal::new(line.voice);
     let ended = match line.command {
         Command::Render(render) => render.run(&terminal),
+        Command::Figures(figures) => figures.run(&terminal),
         Command::Check(check) => check.run(&terminal),
         Command::Accuracy(accuracy) => accuracy.run(&terminal),
         Command::Schema(schema) => schema.run(&terminal),
         Command::New(new) => new.run(&terminal),
+        Command::Import(import) => import.run(&terminal),
+        Command::MdBook(mdbook) => mdbook.run(&terminal),
         Command::Shapes(shapes) => shapes.run(&terminal),
+        Command::Style(style) => style.run(&terminal),
         Command::Completions(completions) => completions.run(&terminal),
     };
     let ending = ended.unwrap_or_else(|complaints| complain(&terminal, &complaints));

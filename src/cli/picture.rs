@@ -3,23 +3,40 @@
 use clap::{Args, ValueEnum};
 
 use crate::cli::complaint::Complaint;
-use crate::drawing::Drawing;
+use crate::drawing::{Colour, Drawing};
+use crate::output::pdf::{self, PdfError};
 use crate::output::png::{self, PngError, Size};
-use crate::output::svg;
+use crate::output::svg::{self, Words};
 
-/// Format and size of a picture.
+/// Format, size, page and words of a picture.
 #[derive(Clone, Copy, Debug, Args)]
 pub(crate) struct Picture {
     /// Format where the output's name does not tell: in a folder, or on standard output [default: svg]
     #[arg(long, value_enum, value_name = "FORMAT")]
     format: Option<Format>,
     /// Width of a PNG in pixels
-    #[arg(long, value_name = "PX", conflicts_with = "scale")]
+    #[arg(long, value_name = "PX", conflicts_with_all = ["scale", "width_mm"])]
     width: Option<u32>,
     /// Pixels of a PNG per unit of the drawing [default: 2]
-    #[arg(long, value_name = "FACTOR")]
+    #[arg(long, value_name = "FACTOR", conflicts_with = "width_mm")]
     scale: Option<f64>,
+    /// Width in print in millimetres; 84 is one column of a journal, 174 two
+    #[arg(long, value_name = "MM", value_parser = millimetres)]
+    width_mm: Option<f64>,
+    /// Pixels of a PNG per inch, with --width-mm [default: 300]
+    #[arg(long, value_name = "DPI", value_parser = dots)]
+    dpi: Option<f64>,
+    /// Colour of the page: white, #rrggbb, or none for a clear one; seams around arrows keep the theme's [default: the
+    /// theme's]
+    #[arg(long, value_name = "COLOUR", value_parser = background)]
+    background: Option<Background>,
+    /// How an SVG writes words: in fonts by their names, in fonts within the file, or as outlines [default: names]
+    #[arg(long, value_enum, value_name = "FORM")]
+    text: Option<TextForm>,
 }
+
+/// By how much a figure laid out for print is made smaller: letters of 12.5 pixels, 9.4 points, become 7.5 points high.
+const IN_PRINT: f64 = 0.8;
 
 /// What a picture is written as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -28,15 +45,49 @@ pub(crate) enum Format {
     Svg,
     /// Drawn in pixels, from that SVG
     Png,
+    /// Drawn in lines, for print, from that SVG
+    Pdf,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum TextForm {
+    /// Small, and set by whoever opens the file in what fonts are there
+    Names,
+    /// For browsers: words that look alike everywhere and can be searched
+    Embed,
+    /// For everything else: alike everywhere, and no words any more
+    Paths,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Background {
+    Clear,
+    Plain(Colour),
 }
 
 impl Format {
+    /// All formats, in the order in which they are told.
+    pub(crate) const ALL: [Format; 3] = [Format::Svg, Format::Png, Format::Pdf];
+
     /// The file ending, without its dot.
     pub(crate) fn ending(self) -> &'static str {
         match self {
             Format::Svg => "svg",
             Format::Png => "png",
+            Format::Pdf => "pdf",
         }
+    }
+
+    /// Why a terminal is no place for it, if it is none.
+    pub(crate) fn unreadable(self) -> Option<String> {
+        let name = match self {
+            Format::Svg => return None,
+            Format::Png => "PNG",
+            Format::Pdf => "PDF",
+        };
+        Some(format!(
+            "a {name} is not for reading on a terminal; send it to a file with -o"
+        ))
     }
 }
 
@@ -46,36 +97,155 @@ impl Picture {
         self.format
     }
 
-    /// Refuses a size in pixels for a format that has none.
+    /// Refuses what a format does not have.
     pub(crate) fn check(&self, format: Format) -> Result<(), Complaint> {
-        if format == Format::Svg && (self.width.is_some() || self.scale.is_some()) {
-            let why = "--width and --scale count pixels, and an SVG has none; write a PNG, or leave them out";
-            return Err(Complaint::CommandLine(why.into()));
+        let mut wrong = Vec::new();
+        if format != Format::Png && (self.width.is_some() || self.scale.is_some()) {
+            wrong.push(
+                "--width and --scale count pixels, and only a PNG has any; give --width-mm, write a PNG, or leave them out",
+            );
         }
-        Ok(())
+        if self.dpi.is_some() && (format != Format::Png || self.width_mm.is_none()) {
+            wrong.push("--dpi is for a PNG of a width in print; write a PNG and give --width-mm, or leave it out");
+        }
+        if self.text.is_some() && format != Format::Svg {
+            wrong.push(
+                "--text is for an SVG; a PNG has no words, and a PDF always has its fonts in it. Leave it out",
+            );
+        }
+        if wrong.is_empty() {
+            Ok(())
+        } else {
+            Err(Complaint::CommandLine(wrong.join("\n")))
+        }
     }
 
     /// The bytes of a drawing.
-    pub(crate) fn bytes(&self, drawing: &Drawing, format: Format) -> Result<Vec<u8>, Complaint> {
-        let svg = svg::write(drawing);
+    pub(crate) fn bytes(&self, drawing: Drawing, format: Format) -> Result<Vec<u8>, Complaint> {
+        let drawing = Drawing {
+            background: match self.background {
+                Some(Background::Clear) => None,
+                Some(Background::Plain(colour)) => Some(colour),
+                None => drawing.background,
+            },
+            ..drawing
+        };
         match format {
-            Format::Svg => Ok(svg.into_bytes()),
-            Format::Png => png::render(&svg, self.size()).map_err(|error| match error {
-                PngError::Size { .. } => Complaint::CommandLine(error.to_string()),
-                _ => Complaint::NotWritten {
-                    what: "the picture".into(),
-                    why: error.to_string(),
-                },
+            Format::Svg => svg::write_with(&drawing, &self.svg_options())
+                .map(String::into_bytes)
+                .map_err(|error| unwritten(&error)),
+            Format::Png => {
+                png::render(&svg::write(&drawing), self.size()).map_err(|error| match error {
+                    PngError::Size { .. } => Complaint::CommandLine(error.to_string()),
+                    _ => unwritten(&error),
+                })
+            }
+            Format::Pdf => pdf::write(&drawing, self.width_mm).map_err(|error| match error {
+                PdfError::Size { .. } => Complaint::CommandLine(error.to_string()),
+                PdfError::Unwritable(_) => unwritten(&error),
             }),
+        }
+    }
+
+    /// The width, in pixels, for which a figure is laid out; `None` for its own. On a page of so many millimetres its
+    /// smallest letters are then as large as a footnote's.
+    pub(crate) fn page(&self) -> Option<f64> {
+        self.width_mm.map(|mm| mm / 25.4 * 96.0 / IN_PRINT)
+    }
+
+    fn svg_options(&self) -> svg::Options {
+        svg::Options {
+            width_mm: self.width_mm,
+            words: match self.text {
+                None | Some(TextForm::Names) => Words::Names,
+                Some(TextForm::Embed) => Words::Embedded,
+                Some(TextForm::Paths) => Words::Outlines,
+            },
         }
     }
 
     /// Two pixels per unit where nothing is said: sharp on screens that have two, and still small.
     fn size(&self) -> Size {
-        match (self.width, self.scale) {
-            (Some(width), _) => Size::Width(width),
-            (None, Some(scale)) => Size::Scale(scale),
-            (None, None) => Size::Scale(2.0),
+        match (self.width, self.scale, self.width_mm) {
+            (Some(width), _, _) => Size::Width(width),
+            (None, Some(scale), _) => Size::Scale(scale),
+            (None, None, Some(width_mm)) => Size::Print {
+                width_mm,
+                dpi: self.dpi.unwrap_or(300.0),
+            },
+            (None, None, None) => Size::Scale(2.0),
+        }
+    }
+}
+
+fn unwritten(error: &dyn std::error::Error) -> Complaint {
+    Complaint::NotWritten {
+        what: "the picture".into(),
+        why: error.to_string(),
+    }
+}
+
+fn millimetres(typed: &str) -> Result<f64, String> {
+    between(
+        typed,
+        pdf::LEAST_MM,
+        pdf::MOST_MM,
+        "a width in millimetres, such as 84 or 174",
+    )
+}
+
+fn dots(typed: &str) -> Result<f64, String> {
+    between(typed, 1.0, 10_000.0, "pixels per inch, such as 300 or 600")
+}
+
+fn between(typed: &str, least: f64, most: f64, what: &str) -> Result<f64, String> {
+    match typed.parse::<f64>() {
+        Ok(number) if (least..=most).contains(&number) => Ok(number),
+        _ => Err(format!("it is {what}, from {least} to {most}")),
+    }
+}
+
+fn background(typed: &str) -> Result<Background, String> {
+    let hex = |digits: &str| {
+        let sound = digits.len() == 6 && digits.bytes().all(|b| b.is_ascii_hexdigit());
+        sound
+            .then(|| u32::from_str_radix(digits, 16).ok())
+            .flatten()
+    };
+    match typed {
+        "none" => Ok(Background::Clear),
+        "white" => Ok(Background::Plain(Colour::WHITE)),
+        _ => match typed.strip_prefix('#').and_then(hex) {
+            Some(value) => Ok(Background::Plain(Colour::hex(value))),
+            None => Err("a page is none, white or #rrggbb, such as #f4f1ea; shells want quotes around the #".into()),
+        },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pages_are_clear_white_or_of_six_digits() {
+        assert_eq!(background("none"), Ok(Background::Clear));
+        assert_eq!(
+            background("#F4f1ea"),
+            Ok(Background::Plain(Colour([0xf4, 0xf1, 0xea])))
+        );
+        for wrong in [
+            "", "#", "#fff", "#+12345", "f4f1ea", "#f4f1e", "#f4f1eag", "red", "#ünï",
+        ] {
+            assert!(background(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn widths_are_numbers_that_a_page_can_have() {
+        assert_eq!(millimetres("84"), Ok(84.0));
+        for wrong in ["0", "-84", "nan", "inf", "84mm", "1e9", ""] {
+            let refused = millimetres(wrong).expect_err(wrong);
+            assert!(refused.contains("from 2 to 5080"), "{refused}");
         }
     }
 }

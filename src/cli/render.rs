@@ -10,28 +10,33 @@ use crate::cli::complaint::Complaint;
 use crate::cli::destination::{self, Destination};
 use crate::cli::ending::Ending;
 use crate::cli::level::Level;
+use crate::cli::look::Look;
 use crate::cli::picture::{Format, Picture};
 use crate::cli::progress::{Progress, Shown};
 use crate::cli::source::{self, FrameChoice, Source};
 use crate::cli::terminal::Terminal;
+use crate::drawing::{Drawing, Theme};
 use crate::figure;
 use crate::output::file::Existing;
 use crate::report::result::word;
+use crate::scene::{self, BlockId, Scene};
 
-/// Draw scenes with their forces, and what fails, as SVG or PNG
+/// Draw scenes with their forces, and what fails, as SVG, PNG or PDF
 #[derive(Debug, Args)]
 pub(crate) struct Render {
     /// Scene files; - reads standard input
     #[arg(required = true, value_name = "SCENE")]
     scenes: Vec<PathBuf>,
-    /// Where to: a .svg or .png file, a folder (existing, or ending in a slash), or - for standard output
+    /// Where to: a .svg, .png or .pdf file, a folder (existing, or ending in a slash), or - for standard output
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
     #[command(flatten)]
     picture: Picture,
+    #[command(flatten)]
+    look: Look,
     /// One resulting arrow per interface and block, or its normal and friction apart
     #[arg(long, value_enum, default_value = "resultant")]
-    style: Style,
+    arrows: Arrows,
     /// What is one unit long: the largest arrow drawn, or the largest single unknown as in the source
     #[arg(long, value_enum, default_value = "drawn")]
     normalise: Normalise,
@@ -41,6 +46,9 @@ pub(crate) struct Render {
     /// What the figure shows
     #[arg(long, value_enum, default_value = "forces")]
     kind: Kind,
+    /// The block that a free-body diagram cuts free, by its id
+    #[arg(long, value_name = "ID")]
+    block: Option<String>,
     /// Write its amount beside every arrow
     #[arg(long)]
     amounts: bool,
@@ -69,10 +77,12 @@ enum Kind {
     Kernel,
     /// Friction used of friction available, interface by interface
     Utilisation,
+    /// One block cut free, with every force that may act on it by name
+    Freebody,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
-enum Style {
+enum Arrows {
     Resultant,
     Components,
 }
@@ -103,9 +113,20 @@ impl Render {
             .format(self.picture.asked())
             .map_err(|c| vec![c])?;
         self.picture.check(format).map_err(|c| vec![c])?;
+        if self.block.is_some() && !matches!(self.kind, Kind::Freebody) {
+            let why = "--block names the block of a free-body diagram; add --kind freebody";
+            return Err(vec![Complaint::CommandLine(why.into())]);
+        }
         self.check_count(&destination, format, terminal)
             .map_err(|c| vec![c])?;
-        let sources = source::read(&self.scenes, self.frame)?;
+        let (theme, sources) = match (self.look.theme(), source::read(&self.scenes, self.frame)) {
+            (Ok(theme), Ok(sources)) => (theme, sources),
+            (theme, sources) => {
+                let scenes = sources.err().into_iter().flatten();
+                return Err(theme.err().into_iter().chain(scenes).collect());
+            }
+        };
+        let options = self.options(theme);
         let paths = paths(&destination, &sources, format).map_err(|c| vec![c])?;
 
         let shown = if terminal.shows_progress() {
@@ -116,7 +137,7 @@ impl Render {
         let progress = Progress::begin(2 * sources.len(), shown);
         let rendered: Vec<Result<Rendered, Complaint>> = sources
             .par_iter()
-            .map(|source| self.render(source, format, &progress))
+            .map(|source| self.render(source, &options, format, &progress))
             .collect();
         drop(progress);
         let rendered = all(rendered)?;
@@ -162,9 +183,10 @@ impl Render {
             Destination::Stdout if self.scenes.len() > 1 => {
                 "only one picture at a time goes to standard output; give a folder".into()
             }
-            Destination::Stdout if format == Format::Png && terminal.is_watched() => {
-                "a PNG is not for reading on a terminal; send it to a file with -o".into()
-            }
+            Destination::Stdout if terminal.is_watched() => match format.unreadable() {
+                Some(why) => why,
+                None => return Ok(()),
+            },
             _ => return Ok(()),
         };
         Err(Complaint::CommandLine(why))
@@ -173,14 +195,15 @@ impl Render {
     fn render(
         &self,
         source: &Source,
+        options: &figure::Options,
         format: Format,
         progress: &Progress,
     ) -> Result<Rendered, Complaint> {
         progress.doing(&source.name());
         let analysis = Analysis::with(&source.scene, &self.level.options());
         progress.step();
-        let drawing = figure::draw(&analysis, self.kind(), &self.options());
-        let bytes = self.picture.bytes(&drawing, format)?;
+        let drawing = self.drawing(source, &analysis, options)?;
+        let bytes = self.picture.bytes(drawing, format)?;
         progress.step();
         Ok(Rendered {
             bytes,
@@ -189,21 +212,62 @@ impl Render {
         })
     }
 
-    fn kind(&self) -> figure::Kind {
-        match self.kind {
+    fn drawing(
+        &self,
+        source: &Source,
+        analysis: &Analysis<'_>,
+        options: &figure::Options,
+    ) -> Result<Drawing, Complaint> {
+        let kind = match self.kind {
             Kind::Forces => figure::Kind::Forces,
             Kind::Mechanism => figure::Kind::Mechanism,
             Kind::Thrust => figure::Kind::Thrust,
             Kind::Kernel => figure::Kind::Kernel,
             Kind::Utilisation => figure::Kind::Utilisation,
+            Kind::Freebody => {
+                let (frame, block) = self
+                    .cut_free(&source.scene)
+                    .map_err(|why| Complaint::CommandLine(format!("{}: {why}", source.name())))?;
+                let drawing = figure::freebody(analysis, frame, block, options);
+                return Ok(drawing.expect("the block was found in this frame"));
+            }
+        };
+        Ok(figure::draw(analysis, kind, options))
+    }
+
+    /// The block that is cut free, and the last frame in which it stands.
+    fn cut_free(&self, scene: &Scene) -> Result<(usize, BlockId), String> {
+        let placed = |id: BlockId| scene.frames.iter().rposition(|f| f.placed.contains(&id));
+        let Some(name) = &self.block else {
+            return match (scene.blocks.as_slice(), placed(BlockId(0))) {
+                ([_], Some(frame)) => Ok((frame, BlockId(0))),
+                _ => {
+                    let ids: Vec<&str> = scene.blocks.iter().map(|b| b.id.as_str()).collect();
+                    let more = if ids.len() > 12 { ", …" } else { "" };
+                    Err(format!(
+                        "a free-body diagram is of one block; choose with --block one of {}{more}",
+                        ids[..ids.len().min(12)].join(", ")
+                    ))
+                }
+            };
+        };
+        let Some(number) = scene.blocks.iter().position(|b| b.id == *name) else {
+            let known = scene.blocks.iter().map(|b| b.id.as_str());
+            let near = scene::nearest(name, known)
+                .map_or_else(String::new, |near| format!("; did you mean {near}?"));
+            return Err(format!("it has no block {name}{near}"));
+        };
+        match placed(BlockId(number)) {
+            Some(frame) => Ok((frame, BlockId(number))),
+            None => Err(format!("block {name} is not placed in the frames shown")),
         }
     }
 
-    fn options(&self) -> figure::Options {
+    fn options(&self, theme: Theme) -> figure::Options {
         figure::Options {
-            style: match self.style {
-                Style::Resultant => figure::ForceStyle::Resultant,
-                Style::Components => figure::ForceStyle::Components,
+            style: match self.arrows {
+                Arrows::Resultant => figure::ForceStyle::Resultant,
+                Arrows::Components => figure::ForceStyle::Components,
             },
             normalisation: match self.normalise {
                 Normalise::Drawn => figure::Normalisation::Drawn,
@@ -215,6 +279,8 @@ impl Render {
             },
             columns: self.columns.map(usize::from),
             amounts: self.amounts,
+            width: self.picture.page(),
+            theme,
             ..figure::Options::default()
         }
     }

@@ -7,36 +7,42 @@ use clap::Args;
 use crate::cli::complaint::Complaint;
 use crate::cli::destination::{self, Destination};
 use crate::cli::ending::Ending;
-use crate::cli::picture::{Format, Picture};
+use crate::cli::look::Look;
+use crate::cli::picture::Picture;
 use crate::cli::terminal::Terminal;
+use crate::drawing::Theme;
 use crate::figure;
 use crate::output::file::Existing;
 
 /// Draw the built-in shapes of the triangular lattice, with their cells and origins
 #[derive(Debug, Args)]
 pub(crate) struct Shapes {
-    /// Where to: a .svg or .png file, a folder, or - for standard output
+    /// Where to: a .svg, .png or .pdf file, a folder, or - for standard output
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
     #[command(flatten)]
     picture: Picture,
+    #[command(flatten)]
+    look: Look,
 }
 
 impl Shapes {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
-        self.draw(terminal).map_err(|c| vec![c])?;
+        let theme = self.look.theme().map_err(|c| vec![c])?;
+        self.draw(&theme, terminal).map_err(|c| vec![c])?;
         Ok(Ending::Done)
     }
 
-    fn draw(&self, terminal: &Terminal) -> Result<(), Complaint> {
+    fn draw(&self, theme: &Theme, terminal: &Terminal) -> Result<(), Complaint> {
         let destination = Destination::of(&self.output);
         let format = destination.format(self.picture.asked())?;
         self.picture.check(format)?;
-        if destination == Destination::Stdout && format == Format::Png && terminal.is_watched() {
-            let why = "a PNG is not for reading on a terminal; send it to a file with -o";
-            return Err(Complaint::CommandLine(why.into()));
+        if let (Destination::Stdout, true, Some(why)) =
+            (&destination, terminal.is_watched(), format.unreadable())
+        {
+            return Err(Complaint::CommandLine(why));
         }
-        let bytes = self.picture.bytes(&figure::shapes(), format)?;
+        let bytes = self.picture.bytes(figure::shapes(theme), format)?;
         match destination {
             Destination::Stdout => terminal.print_bytes(&bytes),
             Destination::File(path) => destination::write(&[(path, bytes)], Existing::Replace),

@@ -59,6 +59,13 @@ impl Source {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct FrameChoice(usize);
 
+impl FrameChoice {
+    /// The frame's number, from 0.
+    pub(crate) fn number(self) -> usize {
+        self.0
+    }
+}
+
 impl FromStr for FrameChoice {
     type Err = String;
 

@@ -147,15 +147,12 @@ fn proof(proof: Proof) -> String {
                 rough(worst_imbalance.max(worst_pull).max(worst_slip))
             )
         }
-        Proof::Mechanism {
-            power,
-            worst_violation,
-        } => {
-            format!(
-                "motion of power {} true to {}",
-                digits(power),
-                rough(worst_violation)
-            )
+        Proof::Mechanism { power, .. } => {
+            let ruled_out = match proof.rules_out() {
+                sum if sum.is_finite() => format!("no balance below {} loads", rough(sum)),
+                _ => "no balance at all".into(),
+            };
+            format!("motion of power {}: {ruled_out}", digits(power))
         }
     }
 }
@@ -213,21 +210,25 @@ fn remarks(scene: &Scene, frame: &FrameAnalysis) -> Vec<String> {
 
 /// How far a frame is from the edge, a line per margin.
 fn edges(scene: &Scene, margins: &Margins) -> Vec<String> {
-    let edge = |margin: &Margin, unit: &str| match margin {
+    let or = |margin: &Margin, unit: &str, none: &str| match margin {
         Margin::Value { at, .. } => format!("{}{unit}", digits(*at)),
-        Margin::None => "none (it falls at any)".into(),
+        Margin::None => none.into(),
         Margin::Unbounded => "any".into(),
     };
-    let sides = |sides: &Sides, unit: &str| {
-        let (left, right) = (edge(&sides.left, unit), edge(&sides.right, unit));
+    let edge = |margin: &Margin, unit: &str| or(margin, unit, "none (it falls at any)");
+    let sides = |sides: &Sides, unit: &str, none: &str| {
+        let (left, right) = (or(&sides.left, unit, none), or(&sides.right, unit, none));
         format!("left {left}, right {right}")
     };
     let mut lines = vec![
         format!("least friction: {}", edge(&margins.friction, "")),
-        format!("largest tilt: {}", sides(&margins.tilt, "°")),
+        format!(
+            "largest tilt: {}",
+            sides(&margins.tilt, "°", "none (it falls unturned)")
+        ),
         format!(
             "largest horizontal share of the weights: {}",
-            sides(&margins.horizontal_load, "")
+            sides(&margins.horizontal_load, "", "none (it falls at any)")
         ),
         format!("largest kernel: {}", edge(&margins.kernel, "")),
         format!(

@@ -29,6 +29,14 @@ impl Camera {
         }
     }
 
+    /// The same camera with the scene moved right by `x` and down by `y` pixels.
+    pub fn moved(self, x: f64, y: f64) -> Camera {
+        Camera {
+            at: self.at.moved(x, y),
+            ..self
+        }
+    }
+
     /// Where a place of the scene lies on the page.
     pub fn place(&self, p: Point) -> PagePoint {
         // The difference first: far from the origin it is exact, the products are not.
@@ -42,6 +50,11 @@ impl Camera {
         self.corner + Vector::new(right, -down) / self.scale
     }
 
+    /// Where the scene's origin lies on the page.
+    pub fn origin(&self) -> PagePoint {
+        self.place(Point::origin())
+    }
+
     /// A displacement of the scene on the page, right and down in pixels.
     pub fn turn(&self, v: Vector) -> (f64, f64) {
         (v.x * self.scale, -v.y * self.scale)
@@ -50,6 +63,11 @@ impl Camera {
     /// A length in metres, in pixels.
     pub fn length(&self, metres: f64) -> f64 {
         metres * self.scale
+    }
+
+    /// A length in pixels, in metres.
+    pub fn metres(&self, pixels: f64) -> f64 {
+        pixels / self.scale
     }
 
     /// A box of the scene on the page.

@@ -5,17 +5,24 @@
 //! force is, and nothing here knows a file format: `output` writes a drawing down.
 
 pub mod arrow;
+mod beside;
 mod camera;
+mod colour;
+pub mod difference;
+pub mod hatch;
 mod outline;
 pub mod placement;
-mod plasma;
-mod style;
+pub mod ramp;
+pub mod style;
+pub mod symbol;
 pub mod text;
 
+pub use beside::beside;
 pub use camera::Camera;
+pub use colour::Colour;
 pub use outline::{Outline, Segment};
-pub use plasma::PLASMA;
-pub use style::{Colour, Theme};
+pub use ramp::PLASMA;
+pub use style::{Sizes, Theme, Widths};
 pub use text::{Anchor, Face, Text};
 
 /// A place on the page in pixels, y down.
@@ -208,6 +215,8 @@ pub struct Group {
     pub echo: bool,
     /// The part of the page within which it shows; everything where `None`.
     pub clip: Option<PageRect>,
+    /// How the scene that it shows lies on the page, told to programs that read the drawing back; `None` for no scene.
+    pub camera: Option<Camera>,
     /// What is in it, the lowest first.
     pub items: Vec<Item>,
 }

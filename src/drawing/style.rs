@@ -1,49 +1,36 @@
-//! [`Colour`] and [`Theme`]: every colour a figure uses, in one place.
+//! [`Theme`]: every colour, width and size of a figure that a reader may choose, in one place.
 
-use super::plasma::PLASMA;
+pub mod format;
+mod named;
+#[cfg(test)]
+mod tests;
 
-/// A colour, 8 bits a channel: red, green, blue.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Colour(pub [u8; 3]);
+use super::colour::Colour;
+use super::difference::lightness;
 
-impl Colour {
-    /// White.
-    pub const WHITE: Colour = Colour([255, 255, 255]);
-    /// Black.
-    pub const BLACK: Colour = Colour([0, 0, 0]);
+/// A fill that is brighter than this wears dark seams and letters.
+const BRIGHT: f64 = 0.6;
+/// An arrow that is darker than a bright block by so much lightness stands off by itself, and keeps the usual seam.
+const STANDS_OFF: f64 = 53.0;
 
-    /// A colour from 0xrrggbb.
-    ///
-    /// ```
-    /// use drystone::drawing::Colour;
-    /// assert_eq!(Colour::hex(0x2f4f50), Colour([47, 79, 80]));
-    /// ```
-    pub const fn hex(value: u32) -> Colour {
-        Colour([(value >> 16) as u8, (value >> 8) as u8, value as u8])
-    }
-
-    /// The colour as `#rrggbb`.
-    pub fn css(self) -> String {
-        let [r, g, b] = self.0;
-        format!("#{r:02x}{g:02x}{b:02x}")
-    }
-
-    /// This colour with `share` (0 … 1) of another mixed in.
-    pub fn mixed(self, other: Colour, share: f64) -> Colour {
-        let mix =
-            |a: u8, b: u8| (f64::from(a) + (f64::from(b) - f64::from(a)) * share).round() as u8;
-        let (a, b) = (self.0, other.0);
-        Colour([mix(a[0], b[0]), mix(a[1], b[1]), mix(a[2], b[2])])
-    }
-
-    /// How bright it looks, 0 … 1 (the weights of Rec. 709 on the coded values; enough to choose black or white ink).
-    pub fn brightness(self) -> f64 {
-        let [r, g, b] = self.0;
-        (0.2126 * f64::from(r) + 0.7152 * f64::from(g) + 0.0722 * f64::from(b)) / 255.0
-    }
-}
-
-/// The colours of a figure.
+/// The look of a figure: its colours, widths and sizes.
+///
+/// The themes that have a name are `thesis`, the source's colours and the default; `paper`, for print, also in grey;
+/// `colourblind`, after Okabe and Ito; and `dark`. How far apart two colours are that can meet is measured, and a test
+/// holds these numbers. ΔE is CIEDE2000 ([`difference`](super::difference)); of `paper` lightness alone counts, as a grey
+/// print shows it; of `colourblind` the number is the least of full sight and the three deficiencies.
+///
+/// | least distance | `thesis` ΔE | `paper` ΔL* | `colourblind` ΔE | `dark` ΔE |
+/// |---|---|---|---|---|
+/// | arrows of blocks placed one after the other | 13.1 | 14.7 | 12.1 | 23.6 |
+/// | a force's arrow and a robot's | 24.9 | 35.5 | 17.9 | 17.7 |
+/// | what fails and any other arrow | 21.0 | 17.0 | 12.5 | 34.7 |
+/// | an arrow, or its seam, and what lies below | 34.2 | 52.4 | 26.8 | 33.3 |
+/// | letters and what lies below | 25.2 | 51.9 | 21.3 | 33.3 |
+///
+/// What lies below is a block of any amplitude, a plain one, the ground or the page; there an arrow counts with its seam,
+/// whichever is farther. The source's five greens are what they are: printed in grey, what fails in `thesis` is no lighter
+/// or darker than some forces, and is told by its width alone.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Theme {
     /// The page.
@@ -68,48 +55,86 @@ pub struct Theme {
     pub block: Colour,
     /// Outlines of blocks.
     pub outline: Colour,
-    /// Seams between the cells of a block.
-    pub seam: Colour,
-    /// 256 colours for amplitudes, as 0xrrggbb, smallest first.
-    pub amplitudes: &'static [u32; 256],
     /// What moves where a structure falls.
     pub motion: Colour,
     /// Where a resultant is safe.
     pub safe: Colour,
+    /// Colours for amplitudes in even steps, smallest first.
+    pub amplitudes: Vec<Colour>,
     /// The mark of a structure that stands.
     pub stands: Colour,
     /// The mark of a structure that falls.
     pub falls: Colour,
     /// The mark of a structure of which neither is proved.
     pub undecided: Colour,
+    /// How wide lines and arrows are.
+    pub widths: Widths,
+    /// How large letters are.
+    pub sizes: Sizes,
+}
+
+/// How wide lines and arrows are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Widths {
+    /// Shaft of a force's arrow, unit edges.
+    pub force: f64,
+    /// Shaft of a robot's arrow, unit edges.
+    pub robot: f64,
+    /// Shaft of a failure's arrow, unit edges.
+    pub failure: f64,
+    /// Radius of a robot's disc, unit edges.
+    pub disc: f64,
+    /// Outline of a block, pixels, where blocks are large; small ones have thinner outlines.
+    pub outline: f64,
+    /// Seam around an arrow, pixels, where blocks are large; among small ones it is thinner.
+    pub casing: f64,
+}
+
+/// How large letters are, pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sizes {
+    /// The figure's title.
+    pub title: f64,
+    /// A frame's caption.
+    pub caption: f64,
+    /// A frame's verdict.
+    pub verdict: f64,
+    /// What is said below a verdict.
+    pub reason: f64,
+    /// The key.
+    pub key: f64,
+    /// Names of blocks where these are large; names of robots are a tenth smaller.
+    pub name: f64,
+    /// Amounts beside arrows where there is room.
+    pub amount: f64,
+}
+
+impl Widths {
+    /// The source's widths.
+    pub const DEFAULT: Widths = Widths {
+        force: 0.05,
+        robot: 0.07,
+        failure: 0.10,
+        disc: 0.3,
+        outline: 1.5,
+        casing: 0.9,
+    };
+}
+
+impl Sizes {
+    /// Letters that read well where a figure is as wide as a printed page.
+    pub const DEFAULT: Sizes = Sizes {
+        title: 22.0,
+        caption: 17.0,
+        verdict: 13.5,
+        reason: 12.5,
+        key: 12.5,
+        name: 14.0,
+        amount: 11.5,
+    };
 }
 
 impl Theme {
-    /// The source's colours on white paper.
-    pub fn paper() -> Theme {
-        let all = |values: &[u32]| values.iter().map(|v| Colour::hex(*v)).collect();
-        Theme {
-            page: Colour::WHITE,
-            ink: Colour::hex(0x1c1f24),
-            faint: Colour::hex(0x5d646e),
-            rule: Colour::hex(0xd9dce1),
-            casing: Colour::WHITE,
-            arrows: all(&[0x008066, 0x40a066, 0x80c066, 0x209066, 0x60b066]),
-            robots: all(&[0xfaed2d, 0xffc303, 0xffa200, 0xfc7f00]),
-            failure: Colour::hex(0xff0000),
-            ground: Colour::hex(0x2f4f4f),
-            block: Colour::hex(0xeceef1),
-            outline: Colour::hex(0x808080),
-            seam: Colour::hex(0x808080),
-            amplitudes: &PLASMA,
-            motion: Colour::hex(0x4479b4),
-            safe: Colour::hex(0x008066),
-            stands: Colour::hex(0x17824f),
-            falls: Colour::hex(0xc62121),
-            undecided: Colour::hex(0x6b7280),
-        }
-    }
-
     /// The arrow colour of the block placed as number `place`, from 1: entry `place` mod 5 of five, so the first block
     /// wears the second colour, as in the source.
     pub fn arrow(&self, place: usize) -> Colour {
@@ -125,13 +150,67 @@ impl Theme {
     ///
     /// ```
     /// use drystone::drawing::{Colour, Theme};
-    /// assert_eq!(Theme::paper().amplitude(8.1667 / 1000.0), Colour::hex(0x130789));
-    /// assert_eq!(Theme::paper().amplitude(1.0), Colour::hex(0xf0f921));
+    /// assert_eq!(Theme::thesis().amplitude(8.1667 / 1000.0), Colour::hex(0x130789));
+    /// assert_eq!(Theme::thesis().amplitude(1.0), Colour::hex(0xf0f921));
     /// ```
     pub fn amplitude(&self, share: f64) -> Colour {
+        let count = self.amplitudes.len();
         // `as` holds on at the ends and takes a share that is no number as 0.
-        let entry = (share * 256.0) as usize;
-        Colour::hex(self.amplitudes[entry.min(255)])
+        let entry = ((share * count as f64) as usize).min(count.saturating_sub(1));
+        self.amplitudes.get(entry).copied().unwrap_or(self.block)
+    }
+
+    /// The seam that sets an arrow off from the block it acts on: dark on a bright block, where a bright one is lost,
+    /// unless the arrow is far darker than the block.
+    pub fn casing_on(&self, block: Colour, arrow: Colour) -> Colour {
+        let lost = block.brightness() > BRIGHT && lightness(block) - lightness(arrow) < STANDS_OFF;
+        if lost {
+            arrow.mixed(self.darker(), 0.8)
+        } else {
+            self.casing
+        }
+    }
+
+    /// The line between the cells of a block of this colour: lighter or darker by a share of what there is room for, so
+    /// that it can be seen on any block and is never louder than an outline.
+    pub fn seam_on(&self, block: Colour, share: f64) -> Colour {
+        let towards = if block.brightness() < 0.5 {
+            self.lighter()
+        } else {
+            self.darker()
+        };
+        block.mixed(towards, share)
+    }
+
+    /// The colour of letters on a block or the page; of those that belong to something, a shade of its colour.
+    pub fn letters_on(&self, below: Colour, of: Option<Colour>) -> Colour {
+        let ink = if below.brightness() < BRIGHT {
+            Colour::WHITE
+        } else {
+            Colour::BLACK
+        };
+        match of {
+            Some(colour) => colour.mixed(ink, 0.55),
+            None => below.mixed(ink, 0.75),
+        }
+    }
+
+    /// The brighter of page and ink.
+    fn lighter(&self) -> Colour {
+        if self.page.brightness() < self.ink.brightness() {
+            self.ink
+        } else {
+            self.page
+        }
+    }
+
+    /// The darker of page and ink.
+    fn darker(&self) -> Colour {
+        if self.page.brightness() < self.ink.brightness() {
+            self.page
+        } else {
+            self.ink
+        }
     }
 }
 
@@ -145,6 +224,6 @@ fn entry(list: &[Colour], number: usize) -> Option<Colour> {
 
 impl Default for Theme {
     fn default() -> Theme {
-        Theme::paper()
+        Theme::thesis()
     }
 }

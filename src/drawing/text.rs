@@ -76,6 +76,12 @@ impl Face {
         self.font().charmap().map(character).is_some()
     }
 
+    /// The number of the glyph that the face has for a character.
+    pub fn glyph(self, character: char) -> Option<u16> {
+        let glyph = self.font().charmap().map(character)?;
+        u16::try_from(glyph.to_u32()).ok()
+    }
+
     fn font(self) -> FontRef<'static> {
         FontRef::new(self.data()).expect("our font files are sound, a test opens each")
     }

@@ -43,6 +43,31 @@ pub fn draw(analysis: &Analysis<'_>, kind: Kind, options: &Options) -> Drawing {
 }
 
 impl Kind {
+    /// All kinds.
+    pub const ALL: [Kind; 5] = [
+        Kind::Forces,
+        Kind::Mechanism,
+        Kind::Thrust,
+        Kind::Kernel,
+        Kind::Utilisation,
+    ];
+
+    /// Its name, in small letters.
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::Forces => "forces",
+            Kind::Mechanism => "mechanism",
+            Kind::Thrust => "thrust",
+            Kind::Kernel => "kernel",
+            Kind::Utilisation => "utilisation",
+        }
+    }
+
+    /// The kind of a name.
+    pub fn named(name: &str) -> Option<Kind> {
+        Kind::ALL.into_iter().find(|kind| kind.name() == name)
+    }
+
     /// The title of a figure whose scene has none.
     pub(crate) fn title(self) -> &'static str {
         match self {

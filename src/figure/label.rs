@@ -18,7 +18,7 @@ pub(crate) const MOST_BLOCKS: usize = 60;
 /// Places tried along each axis of a block.
 const TRIED: usize = 13;
 /// Letters smaller than this are left out, pixels.
-const SMALLEST: f64 = 8.0;
+const SMALLEST: f64 = 9.0;
 /// Height of a line of letters, in sizes.
 const HIGH: f64 = 0.96;
 
@@ -81,7 +81,7 @@ fn wanted(pen: &Pen<'_>) -> Vec<Label> {
 
 /// Size of a block's name, pixels.
 fn name_size(pen: &Pen<'_>) -> f64 {
-    (0.25 * pen.unit()).min(14.0)
+    (0.25 * pen.unit()).min(pen.stage.options.theme.sizes.name)
 }
 
 fn label(words: String, face: Face, size: f64, class: &'static str, wish: Wish) -> Label {
@@ -136,7 +136,9 @@ fn robots(pen: &Pen<'_>) -> Vec<Label> {
 
 fn amounts(pen: &Pen<'_>) -> Vec<Label> {
     let marks = &pen.stage.marks[pen.number];
-    let size = (0.2 * pen.unit()).clamp(SMALLEST, 11.5);
+    let size = (0.2 * pen.unit())
+        .max(SMALLEST)
+        .min(pen.stage.options.theme.sizes.amount);
     // Between two blocks the same amount acts both ways: it is said once, on the block of the lower number.
     let said = |arrow: &&ForceArrow| match (arrow.kind.partner(), arrow.on) {
         (Some(BodyId::Block(partner)), BodyId::Block(on)) => on.0 < partner.0,
@@ -271,15 +273,7 @@ fn drawn(pen: &Pen<'_>, label: &Label, placed: Placed) -> Group {
     }
     // A label lies on no outline, so it lies on one fill or on the page.
     let below = pen.below(middle(placed.rect));
-    let ink = if below.brightness() < super::panel::BRIGHT {
-        Colour::WHITE
-    } else {
-        Colour::BLACK
-    };
-    let colour = match label.colour {
-        Some(colour) => colour.mixed(ink, 0.55),
-        None => below.mixed(ink, 0.75),
-    };
+    let colour = theme.letters_on(below, label.colour);
     let words = Text::new(at, label.words.as_str(), label.face, label.size, colour);
     group.with(words.anchored(Anchor::Middle))
 }

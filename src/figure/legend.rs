@@ -2,7 +2,6 @@
 
 use super::arrow::TurnKind;
 use super::fill::FillScale;
-use super::mark::FORCE_WIDTH;
 use super::option::ArrowScale;
 use super::panel::TEXTURE;
 use super::stage::Stage;
@@ -12,10 +11,8 @@ use crate::drawing::{
     Colour, Face, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme, text,
 };
 
-/// Size of the key's letters, pixels.
-pub(crate) const SIZE: f64 = 12.5;
-/// Height of a line of the key, pixels.
-pub(crate) const LINE: f64 = 26.0;
+/// Height of a line of the key, in sizes of its letters.
+pub(crate) const LINE: f64 = 2.08;
 const BETWEEN: f64 = 28.0;
 const SIGN: f64 = 9.0;
 
@@ -45,13 +42,13 @@ impl Entry {
     /// The entry where it has `room` pixels: the colours alone where they and all names do not fit.
     pub(crate) fn fitted(self, room: f64, theme: &Theme) -> Entry {
         match self {
-            Entry::Blocks(_) if self.width() > room => Entry::Colours(theme.arrows.clone()),
+            Entry::Blocks(_) if self.width(theme) > room => Entry::Colours(theme.arrows.clone()),
             entry => entry,
         }
     }
 
-    fn width(&self) -> f64 {
-        let wide = |words: &str| text::width(words, Face::Sans, SIZE);
+    fn width(&self, theme: &Theme) -> f64 {
+        let wide = |words: &str| text::width(words, Face::Sans, theme.sizes.key);
         match self {
             Entry::Blocks(blocks) => {
                 wide("force on block")
@@ -77,12 +74,13 @@ impl Entry {
 
     /// The entry with the middle of its left end at `at`.
     fn draw(&self, at: PagePoint, theme: &Theme) -> Vec<Item> {
+        let size = theme.sizes.key;
         let words = |x: f64, words: &str| -> Item {
             Text::new(
-                at.moved(x, 0.36 * SIZE),
+                at.moved(x, 0.36 * size),
                 words,
                 Face::Sans,
-                SIZE,
+                size,
                 theme.faint,
             )
             .into()
@@ -90,7 +88,7 @@ impl Entry {
         match self {
             Entry::Blocks(blocks) => {
                 let mut items = vec![words(0.0, "force on block")];
-                let mut x = text::width("force on block", Face::Sans, SIZE);
+                let mut x = text::width("force on block", Face::Sans, size);
                 for (colour, id) in blocks {
                     x += 8.0;
                     items.push(
@@ -98,7 +96,7 @@ impl Entry {
                     );
                     x += 22.0 + 5.0;
                     items.push(words(x, id));
-                    x += text::width(id, Face::Sans, SIZE);
+                    x += text::width(id, Face::Sans, size);
                 }
                 items
             }
@@ -144,7 +142,7 @@ impl Entry {
                 ]
             }
             Entry::Amplitudes([low, high], what) => {
-                let start = text::width(low, Face::Sans, SIZE) + 7.0;
+                let start = text::width(low, Face::Sans, size) + 7.0;
                 let mut items = vec![words(0.0, low)];
                 let parts = 64;
                 for part in 0..parts {
@@ -159,7 +157,7 @@ impl Entry {
                     items.push(Path::filled(Outline::rounded(rect, 0.0), fill).into());
                 }
                 items.push(words(start + BAR + 7.0, high));
-                let beyond = start + BAR + 7.0 + text::width(high, Face::Sans, SIZE) + 8.0;
+                let beyond = start + BAR + 7.0 + text::width(high, Face::Sans, size) + 8.0;
                 items.push(words(beyond, what));
                 items
             }
@@ -194,12 +192,12 @@ fn robot(id: &str) -> String {
 }
 
 /// An arrow that tells the scale of a panel of which one unit edge, `unit` pixels, is `newtons` N; `None` for no force.
-pub(crate) fn scale(newtons: f64, unit: f64) -> Option<Entry> {
+pub(crate) fn scale(newtons: f64, unit: f64, theme: &Theme) -> Option<Entry> {
     let amount = round_below(newtons);
     (amount > 0.0).then(|| {
         Entry::Scale(
             amount / newtons * unit,
-            FORCE_WIDTH * unit,
+            theme.widths.force * unit,
             quantity(amount, "N"),
         )
     })
@@ -215,7 +213,7 @@ pub(crate) fn entries(stage: &Stage<'_>, unit: f64) -> Vec<Entry> {
             .iter()
             .map(|m| m.newtons_per_unit)
             .fold(0.0, f64::max);
-        entries.extend(scale(newtons, unit));
+        entries.extend(scale(newtons, unit, theme));
     }
     let mut seen: Vec<(Colour, String)> = Vec::new();
     let mut clash = false;
@@ -297,9 +295,10 @@ pub(crate) fn draw(
     room: f64,
     theme: &Theme,
 ) -> (Group, f64) {
+    let line_height = LINE * theme.sizes.key;
     let mut lines: Vec<(f64, Vec<&Entry>)> = Vec::new();
     for entry in entries {
-        let width = entry.width();
+        let width = entry.width(theme);
         match lines.last_mut() {
             Some(line) if line.0 + BETWEEN + width <= room => {
                 line.0 += BETWEEN + width;
@@ -310,21 +309,25 @@ pub(crate) fn draw(
     }
     let mut group = Group::of_class("key");
     for (number, (width, line)) in lines.iter().enumerate() {
-        let mut at = PagePoint::new(middle - width / 2.0, top + (number as f64 + 0.5) * LINE);
+        let mut at = PagePoint::new(
+            middle - width / 2.0,
+            top + (number as f64 + 0.5) * line_height,
+        );
         for entry in line {
             group.items.extend(entry.draw(at, theme));
-            at = at.moved(entry.width() + BETWEEN, 0.0);
+            at = at.moved(entry.width(theme) + BETWEEN, 0.0);
         }
     }
-    (group, lines.len() as f64 * LINE)
+    (group, lines.len() as f64 * line_height)
 }
 
 /// Several entries in one line with the middle of its left end at `at`; and how wide it is.
 pub(crate) fn single(entry: &Entry, at: PagePoint, theme: &Theme) -> (Vec<Item>, f64) {
-    (entry.draw(at, theme), entry.width())
+    (entry.draw(at, theme), entry.width(theme))
 }
 
 /// How wide the widest entry is, pixels.
-pub(crate) fn widest(entries: &[Entry]) -> f64 {
-    entries.iter().map(Entry::width).fold(0.0, f64::max)
+pub(crate) fn widest(entries: &[Entry], theme: &Theme) -> f64 {
+    let widths = entries.iter().map(|entry| entry.width(theme));
+    widths.fold(0.0, f64::max)
 }

@@ -13,12 +13,6 @@ use crate::drawing::Colour;
 use crate::geometry::{Point, Vector, quarter_turn};
 use crate::scene::{BlockId, BodyId, Frame, Scene};
 
-/// Shaft width of a force's arrow, in unit edges.
-pub(crate) const FORCE_WIDTH: f64 = 0.05;
-/// Shaft width of a robot's arrow, in unit edges.
-pub(crate) const ROBOT_WIDTH: f64 = 0.07;
-/// Shaft width of a failure's arrow, in unit edges.
-pub(crate) const FAILURE_WIDTH: f64 = 0.10;
 /// Amounts below this share of the largest are noise of the solution, not forces.
 const NOISE: f64 = 1e-6;
 /// In [`Normalisation::Drawn`] a failure's shaft is at least so many unit edges long: it must not be overlooked.
@@ -260,7 +254,7 @@ impl Pen<'_> {
     }
 
     fn blocks(&self, frame: &Frame, found: &FrameAnalysis, marks: &mut Marks) {
-        let scene = self.scene;
+        let (scene, theme) = (self.scene, &self.options.theme);
         let mut touching: Vec<Vec<usize>> = vec![Vec::new(); scene.blocks.len()];
         for (number, contact) in found.contacts.iter().enumerate() {
             for body in contact.interface.bodies {
@@ -272,7 +266,7 @@ impl Pen<'_> {
         for (place, id) in frame.placed.iter().enumerate() {
             let block = &scene.blocks[id.0];
             let on = BodyId::Block(*id);
-            let look = (self.options.theme.arrow(place + 1), FORCE_WIDTH);
+            let look = (theme.arrow(place + 1), theme.widths.force);
             self.straight(
                 marks,
                 ArrowKind::Weight,
@@ -308,9 +302,10 @@ impl Pen<'_> {
     }
 
     fn robots(&self, found: &FrameAnalysis, marks: &mut Marks) {
+        let theme = &self.options.theme;
         for robot in &found.robots {
             let on = BodyId::Block(robot.block);
-            let look = (self.options.theme.robot(robot.robot.0), ROBOT_WIDTH);
+            let look = (theme.robot(robot.robot.0), theme.widths.robot);
             self.straight(
                 marks,
                 ArrowKind::Robot(robot.robot),
@@ -331,7 +326,8 @@ impl Pen<'_> {
     }
 
     fn failures(&self, found: &FrameAnalysis, marks: &mut Marks) {
-        let look = (self.options.theme.failure, FAILURE_WIDTH);
+        let theme = &self.options.theme;
+        let look = (theme.failure, theme.widths.failure);
         let source = match self.options.normalisation {
             Normalisation::Source => Some(acting(self.scene, found)),
             Normalisation::Drawn => None,

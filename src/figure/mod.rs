@@ -6,11 +6,14 @@
 
 mod arrow;
 mod bearing;
+mod caption;
 mod collapse;
 mod displacement;
 mod fill;
 mod forces;
+mod freebody;
 mod funicular;
+mod gallery;
 mod joint;
 mod kernel;
 mod kind;
@@ -21,6 +24,7 @@ mod mark;
 mod mechanism;
 mod option;
 mod panel;
+mod ring;
 mod shapes;
 mod stage;
 mod strip;
@@ -32,10 +36,14 @@ mod view;
 mod words;
 
 pub use arrow::{ArrowKind, ForceArrow, Marks, TurnArrow, TurnKind};
+pub use caption::caption;
 pub use forces::forces;
+pub use freebody::freebody;
+pub use gallery::{Plate, gallery};
 pub use kind::{Kind, draw};
 pub use mark::{arrows, marks};
 pub use option::{ArrowScale, ForceStyle, Normalisation, Options};
+pub use ring::ring;
 pub use shapes::shapes;
 pub(crate) use words::letter;
 pub use words::quantity;

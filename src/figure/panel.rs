@@ -5,8 +5,7 @@ use core::f64::consts::FRAC_PI_2;
 use super::arrow::{ForceArrow, TurnArrow, TurnKind};
 use super::displacement::Displacement;
 use super::label;
-use super::mark::FORCE_WIDTH;
-use super::stage::{DISC, MANY, Stage};
+use super::stage::{MANY, Stage};
 use super::told;
 use crate::drawing::arrow::{head, straight, turning};
 use crate::drawing::placement::Ink;
@@ -19,10 +18,12 @@ const TURN: f64 = 0.46;
 
 /// Where a unit edge is shorter than this, pixels, arrows are texture rather than signs.
 pub(crate) const TEXTURE: f64 = 20.0;
-/// A block whose fill is brighter than this wears dark seams and letters.
-pub(crate) const BRIGHT: f64 = 0.6;
 /// How strongly a displaced block is coloured, 0 … 1.
 pub(crate) const MOVED: f64 = 0.38;
+/// Where a unit edge is at least this long, pixels, outlines have their full width.
+const LARGE: f64 = 1.5 / 0.028;
+/// And seams around arrows theirs.
+const LARGER: f64 = 0.9 / 0.012;
 /// Least width of a shaft, pixels, where blocks are large enough to bear it.
 const LEAST_SHAFT: f64 = 2.5;
 
@@ -30,7 +31,10 @@ const LEAST_SHAFT: f64 = 2.5;
 pub(crate) fn picture(stage: &Stage<'_>, number: usize, view: Bounds, camera: &Camera) -> Group {
     let pen = Pen::of(stage, number, camera);
     let many = pen.many();
-    let mut group = Group::of_class("picture");
+    let mut group = Group {
+        camera: Some(*camera),
+        ..Group::of_class("picture")
+    };
     group.items.push(pen.ground(view).into());
     group.items.push(pen.blocks().into());
     group.items.push(pen.plans().into());
@@ -130,7 +134,7 @@ pub(crate) struct Pen<'a> {
 impl<'a> Pen<'a> {
     pub(crate) fn of(stage: &'a Stage<'a>, number: usize, camera: &'a Camera) -> Pen<'a> {
         let unit = camera.length(stage.unit);
-        let scene = stage.analysis.scene;
+        let (scene, widths) = (stage.analysis.scene, &stage.options.theme.widths);
         let mut places = vec![None; scene.blocks.len()];
         for (place, id) in scene.frames[number].placed.iter().enumerate() {
             places[id.0] = Some(place);
@@ -141,13 +145,13 @@ impl<'a> Pen<'a> {
             stage,
             number,
             camera,
-            line: (0.028 * unit).clamp(0.25, 1.5),
-            casing: (0.012 * unit).clamp(0.1, 0.9),
+            line: (unit / LARGE).clamp(1.0 / 6.0, 1.0) * widths.outline,
+            casing: (unit / LARGER).clamp(1.0 / 9.0, 1.0) * widths.casing,
             // Texture would turn to soup.
             wider: if unit < TEXTURE {
                 1.0
             } else {
-                (LEAST_SHAFT / (FORCE_WIDTH * unit)).clamp(1.0, 1.35)
+                (LEAST_SHAFT / (widths.force * unit)).clamp(1.0, 1.35)
             },
         }
     }
@@ -244,7 +248,7 @@ impl<'a> Pen<'a> {
 
     /// Radius of a robot's disc, pixels.
     pub(crate) fn disc(&self) -> f64 {
-        DISC * self.unit()
+        self.stage.options.theme.widths.disc * self.unit()
     }
 
     /// Width of an arrow's shaft as it is drawn, pixels.
@@ -258,14 +262,10 @@ impl<'a> Pen<'a> {
     }
 
     fn seam(&self, fill: Colour) -> Stroke {
-        // A touch lighter or darker than the block: visible on any fill, never louder than an outline.
-        let theme = &self.stage.options.theme;
-        let towards = if fill.brightness() < 0.5 {
-            theme.page
-        } else {
-            theme.ink
-        };
-        Stroke::new(fill.mixed(towards, 0.22), 0.6 * self.line)
+        Stroke::new(
+            self.stage.options.theme.seam_on(fill, 0.22),
+            0.6 * self.line,
+        )
     }
 
     /// The blocks that are drawn in their places.
@@ -365,7 +365,7 @@ impl<'a> Pen<'a> {
         Path::filled(outline, arrow.colour).cased(self.seam_around(arrow), self.casing)
     }
 
-    /// The seam that sets an arrow off from the block it acts on: dark on a bright block, where a bright one is lost.
+    /// The seam that sets an arrow off from the block it acts on.
     fn seam_around(&self, arrow: &ForceArrow) -> Colour {
         let theme = &self.stage.options.theme;
         let frame = &self.stage.analysis.scene.frames[self.number];
@@ -373,10 +373,8 @@ impl<'a> Pen<'a> {
             return theme.casing;
         };
         match self.places.get(on.0).copied().flatten() {
-            Some(place) if self.fill(place, frame.placed[place]).brightness() > BRIGHT => {
-                arrow.colour.mixed(theme.ink, 0.8)
-            }
-            _ => theme.casing,
+            Some(place) => theme.casing_on(self.fill(place, frame.placed[place]), arrow.colour),
+            None => theme.casing,
         }
     }
 

@@ -9,17 +9,16 @@ use crate::geometry::{Bounds, Cell, Lattice, LatticeKind, Point};
 use crate::scene::{Body, shape};
 
 const UNIT: f64 = 46.0;
-const CAPTION: f64 = 17.0;
 const ACROSS: f64 = 900.0;
 
-/// A sheet of the built-in shapes of the triangular lattice, in the source's colours.
-pub fn shapes() -> Drawing {
+/// A sheet of the built-in shapes of the triangular lattice.
+pub fn shapes(theme: &Theme) -> Drawing {
     let lattice = Lattice {
         kind: LatticeKind::Triangular,
         side: 1.0,
     };
     let named = shape::BUILT_IN.map(|name| (name, shape::cells(name).unwrap_or_default()));
-    sheet(lattice, &named, &Theme::default())
+    sheet(lattice, &named, theme)
 }
 
 /// Each named set of cells: its outline, the seams between its cells, and a small cross at its lattice origin, the point
@@ -67,7 +66,7 @@ fn sheet(lattice: Lattice, named: &[(&str, Vec<Cell>)], theme: &Theme) -> Drawin
         let camera = Camera::new(*view, at, scale);
         let fill = theme.amplitude(0.02);
         let outline = camera.polygon(&body.polygon);
-        let seam = Stroke::new(fill.mixed(theme.page, 0.35), 1.0);
+        let seam = Stroke::new(theme.seam_on(fill, 0.35), 1.0);
         let origin = camera.place(Point::origin());
         let arm = |dx: f64, dy: f64| Outline::line([origin.moved(-dx, -dy), origin.moved(dx, dy)]);
         let mut cross = arm(5.0, 0.0);
@@ -84,7 +83,7 @@ fn sheet(lattice: Lattice, named: &[(&str, Vec<Cell>)], theme: &Theme) -> Drawin
             .with(Path::stroked(cross.clone(), Stroke::new(theme.page, 4.0)))
             .with(Path::stroked(cross, Stroke::new(theme.failure, 1.8)))
             .with(
-                Text::new(caption, **name, Face::Serif, CAPTION, theme.ink)
+                Text::new(caption, **name, Face::Serif, theme.sizes.caption, theme.ink)
                     .anchored(Anchor::Middle),
             );
         items.push(shape.into());
@@ -94,7 +93,7 @@ fn sheet(lattice: Lattice, named: &[(&str, Vec<Cell>)], theme: &Theme) -> Drawin
     }
     let note = PagePoint::new(MARGIN, y + height + 62.0);
     let words = "The cross is the shape's origin: the lattice point that “at” names.";
-    items.push(Text::new(note, words, Face::Sans, 12.5, theme.faint).into());
+    items.push(Text::new(note, words, Face::Sans, theme.sizes.key, theme.faint).into());
     Drawing {
         width: (widest.max(420.0) + MARGIN).ceil(),
         height: (note.y + MARGIN - 8.0).ceil(),

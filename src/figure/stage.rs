@@ -10,8 +10,6 @@ use crate::analysis::Analysis;
 use crate::geometry::{Bounds, Point};
 use crate::scene::Scene;
 
-/// Radius of a robot's disc in unit edges.
-pub(crate) const DISC: f64 = 0.3;
 /// Above so many blocks in a frame, blocks are drawn together by colour, without names.
 pub(crate) const MANY: usize = 1000;
 
@@ -54,7 +52,7 @@ impl<'a> Stage<'a> {
         let reach: Vec<Option<Bounds>> = (0..marks.len())
             .map(|frame| kind.reach(analysis, frame, unit))
             .collect();
-        let shown = view::shown(scene, &marks, &reach, unit);
+        let shown = view::shown(scene, &marks, &reach, options.theme.widths.disc, unit);
         let nothing = Bounds {
             min: Point::origin(),
             max: Point::origin(),

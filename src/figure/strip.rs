@@ -14,12 +14,10 @@ use crate::drawing::{
 };
 use crate::geometry::Bounds;
 
-const HEADING: f64 = 22.0;
-const CAPTION: f64 = 17.0;
-const CAPTION_LINE: f64 = 22.0;
-const VERDICT: f64 = 13.5;
-const REASON: f64 = 12.5;
-const REASON_LINE: f64 = 17.0;
+/// Height of a caption's line, in sizes of its letters.
+const CAPTION_LINE: f64 = 22.0 / 17.0;
+/// Height of a line of what is said below a verdict, in sizes of its letters.
+const REASON_LINE: f64 = 1.36;
 const MOST_CAPTION_LINES: usize = 6;
 const MOST_REASON_LINES: usize = 4;
 
@@ -56,7 +54,7 @@ impl Strip<'_> {
             None => self
                 .layout
                 .content
-                .max(legend::widest(&entries).min(640.0))
+                .max(legend::widest(&entries, theme).min(640.0))
                 .max(300.0),
         };
         let fitted = |entry: legend::Entry| entry.fitted(inner, theme);
@@ -67,16 +65,18 @@ impl Strip<'_> {
         let mut items: Vec<Item> = Vec::new();
         let mut y = margin;
         if options.captions && !scene.title.is_empty() {
-            let lines = text::wrap(&scene.title, Face::SerifBold, HEADING, inner);
-            for line in text::cut(lines, 3, Face::SerifBold, HEADING, inner) {
-                y += HEADING;
-                let at = PagePoint::new(middle, y - 5.0);
+            let (face, size) = (Face::SerifBold, theme.sizes.title);
+            let lines = text::wrap(&scene.title, face, size, inner);
+            for line in text::cut(lines, 3, face, size, inner) {
+                let below = size * 5.0 / 22.0;
+                y += size;
+                let at = PagePoint::new(middle, y - below);
                 items.push(
-                    Text::new(at, line, Face::SerifBold, HEADING, theme.ink)
+                    Text::new(at, line, face, size, theme.ink)
                         .anchored(Anchor::Middle)
                         .into(),
                 );
-                y += 5.0;
+                y += below;
             }
             y += 18.0;
         }
@@ -137,6 +137,7 @@ impl Strip<'_> {
     ) -> (Group, f64) {
         let (stage, layout) = (self.stage, self.layout);
         let (options, theme) = (stage.options, &stage.options.theme);
+        let (size, line_height) = (theme.sizes.caption, CAPTION_LINE * theme.sizes.caption);
         let found = &stage.analysis.frames[frame];
         let aside = (layout.panel - view.width() * layout.scale) / 2.0;
         let camera = Camera::new(view, at.moved(aside, 0.0), layout.scale);
@@ -151,24 +152,25 @@ impl Strip<'_> {
         let lines = self.caption_lines(frame);
         y += if captions > 0 { 10.0 } else { 0.0 };
         for (number, line) in lines.into_iter().enumerate() {
-            let at = PagePoint::new(middle, y + (number + 1) as f64 * CAPTION_LINE - 5.0);
-            group = group.with(
-                Text::new(at, line, Face::Serif, CAPTION, theme.ink).anchored(Anchor::Middle),
-            );
+            let below = size * 5.0 / 17.0;
+            let at = PagePoint::new(middle, y + (number + 1) as f64 * line_height - below);
+            group = group
+                .with(Text::new(at, line, Face::Serif, size, theme.ink).anchored(Anchor::Middle));
         }
-        y += captions as f64 * CAPTION_LINE;
+        y += captions as f64 * line_height;
         if options.keys {
             y += 8.0;
+            let half = theme.sizes.verdict * 10.0 / 13.5;
             group
                 .items
-                .extend(self.verdict(frame, PagePoint::new(middle, y + 10.0)));
-            y += 22.0;
-            let reason = stage.kind.reason(stage, frame);
-            for line in balanced(&reason, Face::Sans, REASON, layout.panel, MOST_REASON_LINES) {
-                y += REASON_LINE;
-                let at = PagePoint::new(middle, y - 4.0);
+                .extend(self.verdict(frame, PagePoint::new(middle, y + half)));
+            y += 2.2 * half;
+            let (reason, size) = (stage.kind.reason(stage, frame), theme.sizes.reason);
+            for line in balanced(&reason, Face::Sans, size, layout.panel, MOST_REASON_LINES) {
+                y += REASON_LINE * size;
+                let at = PagePoint::new(middle, y - 0.32 * size);
                 group = group.with(
-                    Text::new(at, line, Face::Sans, REASON, theme.faint).anchored(Anchor::Middle),
+                    Text::new(at, line, Face::Sans, size, theme.faint).anchored(Anchor::Middle),
                 );
             }
         }
@@ -193,7 +195,7 @@ impl Strip<'_> {
         balanced(
             &self.caption(frame, " "),
             Face::Serif,
-            CAPTION,
+            self.stage.options.theme.sizes.caption,
             self.layout.panel,
             MOST_CAPTION_LINES,
         )
@@ -204,24 +206,27 @@ impl Strip<'_> {
         let theme = &self.stage.options.theme;
         let found = &self.stage.analysis.frames[frame];
         let word = verdict::word(found.verdict);
-        let wide = text::width(word, Face::SansBold, VERDICT);
-        let radius = 7.5;
+        let size = theme.sizes.verdict;
+        let wide = text::width(word, Face::SansBold, size);
+        let radius = size * 7.5 / 13.5;
         let lead = 2.0 * radius + 6.0 + wide;
         let unit = self.layout.scale * self.stage.unit;
         let scale = match self.stage.options.scale {
-            ArrowScale::Panel => legend::scale(self.stage.marks[frame].newtons_per_unit, unit),
+            ArrowScale::Panel => {
+                legend::scale(self.stage.marks[frame].newtons_per_unit, unit, theme)
+            }
             ArrowScale::Strip => None,
         };
         let total = lead
-            + scale
-                .as_ref()
-                .map_or(0.0, |s| 22.0 + legend::widest(std::slice::from_ref(s)));
+            + scale.as_ref().map_or(0.0, |s| {
+                22.0 + legend::widest(std::slice::from_ref(s), theme)
+            });
         let start = centre.moved(-total / 2.0, 0.0);
         let colour = verdict::colour(found.verdict, theme);
-        let at = start.moved(2.0 * radius + 6.0, 0.35 * VERDICT);
+        let at = start.moved(2.0 * radius + 6.0, 0.35 * size);
         let mut items: Vec<Item> = vec![
             verdict::mark(found.verdict, start.moved(radius, 0.0), radius, theme).into(),
-            Text::new(at, word, Face::SansBold, VERDICT, colour).into(),
+            Text::new(at, word, Face::SansBold, size, colour).into(),
         ];
         if let Some(scale) = scale {
             items.extend(legend::single(&scale, start.moved(lead + 22.0, 0.0), theme).0);

@@ -1,7 +1,6 @@
 //! [`shown`]: what each frame shows of the scene. Ground that reaches far beyond the blocks is cut.
 
 use super::arrow::Marks;
-use super::stage::DISC;
 use crate::drawing::arrow::{HEAD_LENGTH, HEAD_WIDTH};
 use crate::geometry::{Bounds, Point, Vector};
 use crate::scene::{BlockId, Frame, Scene};
@@ -19,6 +18,7 @@ pub(crate) fn shown(
     scene: &Scene,
     marks: &[Marks],
     reach: &[Option<Bounds>],
+    disc: f64,
     unit: f64,
 ) -> Vec<Bounds> {
     let ground = ground(scene, unit);
@@ -31,7 +31,7 @@ pub(crate) fn shown(
             ends.map(|b| b.grown(HEAD_WIDTH * arrow.width / 2.0))
         });
         let turns = marks.turns.iter().map(|turn| around(turn.at, 0.7 * unit));
-        let robots = frame.holds.iter().map(|hold| around(hold.at, DISC * unit));
+        let robots = frame.holds.iter().map(|hold| around(hold.at, disc * unit));
         let all = blocks
             .chain(arrows)
             .chain(turns)

@@ -12,6 +12,7 @@ mod tolerance;
 pub(crate) use lattice::boundary;
 pub use lattice::{Cell, Half, Lattice, LatticeKind};
 pub use overlap::{Overlap, Pieces, overlap};
+pub(crate) use polygon::sin_cos_degrees;
 pub use polygon::{Bounds, Edge, Flaw, Polygon};
 pub use tolerance::Tolerance;
 

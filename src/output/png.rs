@@ -1,14 +1,10 @@
-//! [`render`]: an SVG of ours as PNG bytes. The only file that names resvg.
-//!
-//! Words are set in our own fonts alone: whatever fonts the machine has, the picture is the same. A character that our
-//! fonts lack shows as a box.
+//! [`render`]: an SVG of ours as PNG bytes.
 
-use std::sync::{Arc, OnceLock};
+use std::collections::BTreeSet;
 
-use resvg::tiny_skia::{Pixmap, Transform};
-use resvg::usvg;
+use resvg::tiny_skia::{Pixmap, PremultipliedColorU8, Transform};
 
-use crate::drawing::Face;
+use super::{MM_PER_INCH, tree};
 
 /// How large a picture is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,6 +15,13 @@ pub enum Size {
     Width(u32),
     /// So many pixels per unit of the drawing.
     Scale(f64),
+    /// For print: so wide, at so many pixels per inch, and the file says so.
+    Print {
+        /// Width in mm.
+        width_mm: f64,
+        /// Pixels per inch.
+        dpi: f64,
+    },
 }
 
 /// Why there is no picture.
@@ -49,7 +52,7 @@ pub const MOST_PIXELS: u64 = 100_000_000;
 /// Most pixels along a side.
 pub const MOST_ACROSS: u32 = 32_000;
 
-/// An SVG drawing as PNG, on white where the drawing leaves the page clear.
+/// An SVG drawing as PNG, transparent where the drawing leaves the page clear.
 ///
 /// # Errors
 /// [`PngError::Size`] where the picture would have more than [`MOST_PIXELS`] pixels, a side above [`MOST_ACROSS`] or no
@@ -64,7 +67,7 @@ pub const MOST_ACROSS: u32 = 32_000;
 /// # Ok::<(), drystone::output::png::PngError>(())
 /// ```
 pub fn render(svg: &str, size: Size) -> Result<Vec<u8>, PngError> {
-    let tree = usvg::Tree::from_str(svg, &options()).map_err(|e| PngError::Svg(e.to_string()))?;
+    let tree = tree::read(svg).map_err(PngError::Svg)?;
     let (natural_width, natural_height) = (
         f64::from(tree.size().width()),
         f64::from(tree.size().height()),
@@ -73,6 +76,7 @@ pub fn render(svg: &str, size: Size) -> Result<Vec<u8>, PngError> {
         Size::Natural => 1.0,
         Size::Width(width) => f64::from(width) / natural_width,
         Size::Scale(scale) => scale,
+        Size::Print { width_mm, dpi } => width_mm / MM_PER_INCH * dpi / natural_width,
     };
     let (width, height) = (
         (natural_width * scale).round(),
@@ -89,60 +93,106 @@ pub fn render(svg: &str, size: Size) -> Result<Vec<u8>, PngError> {
     let Some(mut pixels) = Pixmap::new(width as u32, height as u32) else {
         return Err(refused);
     };
-    pixels.fill(resvg::tiny_skia::Color::WHITE);
     // Stretched to whole pixels, by less than one in all, so that no edge of the page is half covered.
     let transform = Transform::from_scale(
         (width / natural_width) as f32,
         (height / natural_height) as f32,
     );
     resvg::render(&tree, transform, &mut pixels.as_mut());
-    encode(&pixels)
+    let per_metre = match size {
+        Size::Print { dpi, .. } => Some((dpi * 1000.0 / MM_PER_INCH).round() as u32),
+        _ => None,
+    };
+    encode(&pixels, per_metre)
 }
 
-/// The picture is opaque: it lies on white. So three channels tell all.
-fn encode(pixels: &Pixmap) -> Result<Vec<u8>, PngError> {
-    let rgb: Vec<u8> = pixels
-        .data()
-        .chunks_exact(4)
-        .flat_map(|p| [p[0], p[1], p[2]])
-        .collect();
+fn encode(pixels: &Pixmap, per_metre: Option<u32>) -> Result<Vec<u8>, PngError> {
+    let colours = Colours::of(pixels);
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, pixels.width(), pixels.height());
-    encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_compression(png::Compression::Balanced);
+    encoder.set_pixel_dims(per_metre.map(|n| png::PixelDimensions {
+        xppu: n,
+        yppu: n,
+        unit: png::Unit::Meter,
+    }));
+    let data = colours.data(pixels, &mut encoder);
     let failed = |e: png::EncodingError| PngError::Encode(e.to_string());
     let mut writer = encoder.write_header().map_err(failed)?;
-    writer.write_image_data(&rgb).map_err(failed)?;
+    writer.write_image_data(&data).map_err(failed)?;
     writer.finish().map_err(failed)?;
     Ok(bytes)
 }
 
-fn options() -> usvg::Options<'static> {
-    static FONTS: OnceLock<Arc<usvg::fontdb::Database>> = OnceLock::new();
-    let fonts = FONTS.get_or_init(|| {
-        let mut fonts = usvg::fontdb::Database::new();
-        for face in Face::ALL {
-            fonts.load_font_data(face.data().to_vec());
+/// The fewest bytes per pixel that lose nothing.
+enum Colours {
+    /// One: a number in a table of at most 256 colours, in order.
+    Table(Vec<[u8; 4]>),
+    /// Three: nothing shows through.
+    Opaque,
+    /// Four.
+    All,
+}
+
+impl Colours {
+    fn of(pixels: &Pixmap) -> Colours {
+        let mut table = BTreeSet::new();
+        for pixel in pixels.pixels() {
+            table.insert(straight(*pixel));
+            if table.len() > 256 {
+                let opaque = pixels.pixels().iter().all(|p| p.is_opaque());
+                return if opaque {
+                    Colours::Opaque
+                } else {
+                    Colours::All
+                };
+            }
         }
-        fonts.set_serif_family("Libertinus Serif");
-        fonts.set_sans_serif_family("Inter");
-        Arc::new(fonts)
-    });
-    let mut options = usvg::Options {
-        font_family: "Libertinus Serif".to_owned(),
-        fontdb: Arc::clone(fonts),
-        ..usvg::Options::default()
-    };
-    // A drawing is whole in itself: nothing is fetched from the machine it is drawn on.
-    options.image_href_resolver.resolve_string = Box::new(|_, _| None);
-    options
+        Colours::Table(table.into_iter().collect())
+    }
+
+    fn data(&self, pixels: &Pixmap, encoder: &mut png::Encoder<'_, &mut Vec<u8>>) -> Vec<u8> {
+        let all = pixels.pixels().iter().map(|p| straight(*p));
+        match self {
+            Colours::Table(table) => {
+                encoder.set_color(png::ColorType::Indexed);
+                // Neighbours in a table are no neighbours in colour: differences say nothing.
+                encoder.set_filter(png::Filter::NoFilter);
+                encoder.set_palette(
+                    table
+                        .iter()
+                        .flat_map(|c| [c[0], c[1], c[2]])
+                        .collect::<Vec<_>>(),
+                );
+                if table.iter().any(|c| c[3] < 255) {
+                    encoder.set_trns(table.iter().map(|c| c[3]).collect::<Vec<_>>());
+                }
+                all.map(|c| table.binary_search(&c).unwrap_or_default() as u8)
+                    .collect()
+            }
+            Colours::Opaque => {
+                encoder.set_color(png::ColorType::Rgb);
+                all.flat_map(|c| [c[0], c[1], c[2]]).collect()
+            }
+            Colours::All => {
+                encoder.set_color(png::ColorType::Rgba);
+                all.flatten().collect()
+            }
+        }
+    }
+}
+
+/// Red, green, blue and how opaque; the colours not weakened by it.
+fn straight(pixel: PremultipliedColorU8) -> [u8; 4] {
+    let c = pixel.demultiply();
+    [c.red(), c.green(), c.blue(), c.alpha()]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drawing::{Colour, Drawing, PagePoint, Text};
+    use crate::drawing::{Colour, Drawing, Face, PagePoint, Text};
     use crate::output::svg;
 
     fn words(words: &str, face: Face) -> String {
@@ -152,7 +202,7 @@ mod tests {
             height: 40.0,
             title: String::new(),
             description: String::new(),
-            background: None,
+            background: Some(Colour::WHITE),
             items: vec![text.into()],
         })
     }
@@ -160,9 +210,9 @@ mod tests {
     /// Share of dark pixels.
     fn ink(svg: &str) -> f64 {
         let bytes = render(svg, Size::Natural).expect("a picture");
-        let mut reader = png::Decoder::new(std::io::Cursor::new(bytes))
-            .read_info()
-            .expect("png");
+        let mut decoder = png::Decoder::new(std::io::Cursor::new(bytes));
+        decoder.set_transformations(png::Transformations::EXPAND);
+        let mut reader = decoder.read_info().expect("png");
         let mut data = vec![0; reader.output_buffer_size().expect("size")];
         reader.next_frame(&mut data).expect("frame");
         data.chunks_exact(3).filter(|p| p[0] < 128).count() as f64 / (data.len() as f64 / 3.0)

@@ -3,13 +3,45 @@
 //! Attributes stand in a fixed order and every number goes through one printer, so that the same drawing is the same
 //! bytes. Names of elements begin with a mark made from the drawing's own content: several figures can share a page.
 
+mod font;
+mod glyph;
+mod outline;
+
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use crate::drawing::{
-    Anchor, Drawing, Group, Item, Join, Outline, PagePoint, Path, Segment, Stroke, Text,
-};
+use outline::{number, steps};
 
-/// A drawing as an SVG document.
+use super::tree::{self, Run};
+use crate::drawing::{Anchor, Drawing, Face, Group, Item, Join, Path, Stroke, Text};
+
+/// How words are written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Words {
+    /// As words, in fonts by their names: small, and set by whoever opens the file in what he has of them.
+    #[default]
+    Names,
+    /// As words, with the letters that are used in the file: for browsers.
+    Embedded,
+    /// As outlines: the same everywhere, and no text for searching or editing any more.
+    Outlines,
+}
+
+/// What else there is to choose.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Options {
+    /// Width in print, mm; where nothing is said a pixel is a 96th of an inch.
+    pub width_mm: Option<f64>,
+    /// How words are written.
+    pub words: Words,
+}
+
+/// Words that could not be laid out, or a font that could not be cut.
+#[derive(Debug, thiserror::Error)]
+#[error("the words of the drawing cannot be written so: {0}")]
+pub struct WordsError(String);
+
+/// A drawing as an SVG document, its words as words.
 ///
 /// # Panics
 /// Where a number of the drawing is not finite: that is an error of ours, never of a scene.
@@ -30,20 +62,107 @@ use crate::drawing::{
 /// assert!(svg.contains("viewBox=\"0 0 12 5\"") && svg.contains("A dot &amp; no more"));
 /// ```
 pub fn write(drawing: &Drawing) -> String {
-    let mark = format!("d{:08x}", fold(&document(drawing, "")));
-    document(drawing, &mark)
+    let mark = mark_of(drawing, &Options::default());
+    document(drawing, None, &mark, Form::Names)
 }
 
-fn document(drawing: &Drawing, mark: &str) -> String {
+/// A drawing as an SVG document of a size in print, or with words that do not depend on a reader's fonts.
+///
+/// # Errors
+/// [`WordsError`] where resvg cannot lay out the drawing's words.
+///
+/// # Panics
+/// As [`write()`].
+///
+/// # Example
+/// ```
+/// use drystone::drawing::{Colour, Drawing, Face, PagePoint, Text};
+/// use drystone::output::svg::{Options, Words, write_with};
+/// let words = Text::new(PagePoint::new(5.0, 20.0), "Keystone", Face::Serif, 14.0, Colour::BLACK);
+/// let drawing = Drawing { width: 120.0, height: 30.0, title: "A word".into(), description: String::new(),
+///     background: None, items: vec![words.into()] };
+/// let svg = write_with(&drawing, &Options { width_mm: Some(84.0), words: Words::Outlines })?;
+/// assert!(svg.contains("width=\"84mm\" height=\"21mm\" viewBox=\"0 0 120 30\""));
+/// assert!(!svg.contains("<text"));
+/// # Ok::<(), drystone::output::svg::WordsError>(())
+/// ```
+pub fn write_with(drawing: &Drawing, options: &Options) -> Result<String, WordsError> {
+    let mark = mark_of(drawing, options);
+    if options.words == Words::Names {
+        return Ok(document(drawing, options.width_mm, &mark, Form::Names));
+    }
+    let numbered = document(drawing, None, "", Form::Numbered);
+    let tree = tree::read(&numbered).map_err(WordsError)?;
+    let texts = tree::texts(tree.root());
+    if options.words == Words::Outlines {
+        let outlines = texts.iter().filter_map(|t| glyph::numbered(t)).collect();
+        return Ok(document(
+            drawing,
+            options.width_mm,
+            &mark,
+            Form::Outlines(&outlines),
+        ));
+    }
+    let spans = texts.iter().flat_map(|text| text.layouted());
+    let runs: Vec<Run> = spans.flat_map(tree::runs).collect();
+    let sheet = font::embedded(&runs, &mark).map_err(WordsError)?;
+    Ok(document(
+        drawing,
+        options.width_mm,
+        &mark,
+        Form::Embedded(&sheet),
+    ))
+}
+
+/// A name that other drawings, and other forms of this one, do not have as a rule.
+fn mark_of(drawing: &Drawing, options: &Options) -> String {
+    let form = match options.words {
+        Words::Names => "",
+        Words::Embedded => "embedded",
+        Words::Outlines => "outlines",
+    };
+    let text = document(drawing, options.width_mm, "", Form::Names) + form;
+    format!("d{:08x}", fold(&text))
+}
+
+/// How a document's words are written down.
+#[derive(Clone, Copy)]
+enum Form<'f> {
+    /// In fonts by their names.
+    Names,
+    /// Likewise, and each line of words has its number as its name.
+    Numbered,
+    /// In the fonts of a style sheet.
+    Embedded(&'f str),
+    /// As outlines, by the numbers of the lines of words.
+    Outlines(&'f BTreeMap<usize, String>),
+}
+
+/// The face of most words; the others say theirs.
+const USUAL: Face = Face::Sans;
+
+fn document(drawing: &Drawing, width_mm: Option<f64>, mark: &str, form: Form<'_>) -> String {
     let mut svg = Writer {
         text: String::new(),
         mark,
+        form,
         clips: 0,
+        texts: 0,
     };
     let (w, h) = (number(drawing.width), number(drawing.height));
+    let (across, down) = match width_mm {
+        None => (w.clone(), h.clone()),
+        Some(mm) => (
+            format!("{}mm", number(mm)),
+            format!("{}mm", number(mm * drawing.height / drawing.width)),
+        ),
+    };
+    // What most shapes and words have in common stands here once.
     svg.put(&format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\" \
-         role=\"graphics-document document\" aria-labelledby=\"{mark}-title {mark}-desc\">\n"
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{across}\" height=\"{down}\" viewBox=\"0 0 {w} {h}\" \
+         role=\"graphics-document document\" aria-labelledby=\"{mark}-title {mark}-desc\" \
+         stroke-linejoin=\"round\" stroke-linecap=\"round\" paint-order=\"stroke\" font-family=\"{}\">\n",
+        svg.families(USUAL)
     ));
     svg.put(&format!(
         "<title id=\"{mark}-title\">{}</title>\n",
@@ -53,6 +172,9 @@ fn document(drawing: &Drawing, mark: &str) -> String {
         "<desc id=\"{mark}-desc\">{}</desc>\n",
         escaped(&drawing.description)
     ));
+    if let Form::Embedded(sheet) = form {
+        svg.put(&format!("<style>\n{sheet}</style>\n"));
+    }
     if let Some(colour) = drawing.background {
         svg.put(&format!(
             "<rect width=\"{w}\" height=\"{h}\" fill=\"{}\"/>\n",
@@ -69,7 +191,9 @@ fn document(drawing: &Drawing, mark: &str) -> String {
 struct Writer<'m> {
     text: String,
     mark: &'m str,
+    form: Form<'m>,
     clips: usize,
+    texts: usize,
 }
 
 impl Writer<'_> {
@@ -130,6 +254,15 @@ impl Writer<'_> {
         if let Some(id) = clip {
             self.attribute("clip-path", &format!("url(#{id})"));
         }
+        if let Some(camera) = &group.camera {
+            // Pixels per metre and the place of the scene's origin, in full: with them the scene can be read back.
+            let origin = camera.origin();
+            self.attribute("data-drystone-scale", &camera.length(1.0).to_string());
+            self.attribute(
+                "data-drystone-origin",
+                &format!("{} {}", origin.x, origin.y),
+            );
+        }
         self.put(">");
         if !group.title.is_empty() {
             self.put(&format!("<title>{}</title>", escaped(&group.title)));
@@ -154,8 +287,8 @@ impl Writer<'_> {
         self.attribute("fill", &fill);
         if let Some(stroke) = &path.stroke {
             self.stroke(stroke);
-            if path.fill_last {
-                self.attribute("paint-order", "stroke");
+            if path.fill.is_some() && !path.fill_last {
+                self.attribute("paint-order", "normal");
             }
         }
         if path.opacity < 1.0 {
@@ -167,9 +300,9 @@ impl Writer<'_> {
     fn stroke(&mut self, stroke: &Stroke) {
         self.attribute("stroke", &stroke.colour.css());
         self.attribute("stroke-width", &number(stroke.width));
-        if stroke.join == Join::Round {
-            self.attribute("stroke-linejoin", "round");
-            self.attribute("stroke-linecap", "round");
+        if stroke.join == Join::Miter {
+            self.attribute("stroke-linejoin", "miter");
+            self.attribute("stroke-linecap", "butt");
         }
         if !stroke.dash.is_empty() {
             let dash: Vec<String> = stroke.dash.iter().map(|d| number(*d)).collect();
@@ -178,7 +311,23 @@ impl Writer<'_> {
     }
 
     fn words(&mut self, text: &Text) {
+        self.texts += 1;
+        if let Form::Outlines(outlines) = self.form {
+            // Words without ink, spaces for one, have no outlines.
+            if let Some(steps) = outlines.get(&self.texts).filter(|steps| !steps.is_empty()) {
+                self.put("<path");
+                self.attribute("role", "img");
+                self.attribute("aria-label", &escaped(&text.words));
+                self.attribute("d", steps);
+                self.ink(text);
+                self.put("/>\n");
+            }
+            return;
+        }
         self.put("<text");
+        if let Form::Numbered = self.form {
+            self.attribute("id", &format!("t{}", self.texts));
+        }
         self.attribute("x", &number(text.at.x));
         self.attribute("y", &number(text.at.y));
         match text.anchor {
@@ -186,7 +335,10 @@ impl Writer<'_> {
             Anchor::Middle => self.attribute("text-anchor", "middle"),
             Anchor::End => self.attribute("text-anchor", "end"),
         }
-        self.attribute("font-family", text.face.families());
+        if text.face.families() != USUAL.families() {
+            let families = self.families(text.face);
+            self.attribute("font-family", &families);
+        }
         self.attribute("font-size", &number(text.size));
         if text.face.weight() != 400 {
             self.attribute("font-weight", &text.face.weight().to_string());
@@ -194,15 +346,27 @@ impl Writer<'_> {
         if text.face.italic() {
             self.attribute("font-style", "italic");
         }
-        self.attribute("fill", &text.fill.css());
-        if let Some((colour, width)) = text.halo {
-            self.stroke(&Stroke::new(colour, 2.0 * width));
-            self.attribute("paint-order", "stroke");
-        }
+        self.ink(text);
         self.put(">");
         let words = escaped(&text.words);
         self.put(&words);
         self.put("</text>\n");
+    }
+
+    fn ink(&mut self, text: &Text) {
+        self.attribute("fill", &text.fill.css());
+        if let Some((colour, width)) = text.halo {
+            self.stroke(&Stroke::new(colour, 2.0 * width));
+        }
+    }
+
+    fn families(&self, face: Face) -> String {
+        match self.form {
+            Form::Embedded(_) => {
+                format!("'{}', {}", font::family(face, self.mark), face.families())
+            }
+            _ => face.families().to_owned(),
+        }
     }
 }
 
@@ -210,45 +374,6 @@ fn holds_titles(items: &[Item]) -> bool {
     items
         .iter()
         .any(|item| matches!(item, Item::Group(g) if !g.title.is_empty() || holds_titles(&g.items)))
-}
-
-fn steps(outline: &Outline) -> String {
-    let mut d = String::new();
-    let mut put = |letter: char, points: &[PagePoint]| {
-        d.push(letter);
-        for (i, p) in points.iter().enumerate() {
-            if i > 0 {
-                d.push(' ');
-            }
-            d.push_str(&number(p.x));
-            d.push(' ');
-            d.push_str(&number(p.y));
-        }
-    };
-    for segment in &outline.segments {
-        match *segment {
-            Segment::Move(p) => put('M', &[p]),
-            Segment::Line(p) => put('L', &[p]),
-            Segment::Curve(a, b, c) => put('C', &[a, b, c]),
-            Segment::Close => put('Z', &[]),
-        }
-    }
-    d
-}
-
-/// The one number printer: at most two decimals, a hundredth of a pixel, no needless zero, no −0.
-///
-/// # Panics
-/// For a number that is not finite.
-fn number(value: f64) -> String {
-    assert!(
-        value.is_finite(),
-        "a drawing holds the number {value}; every number of a drawing is finite"
-    );
-    let mut text = format!("{value:.2}");
-    let kept = text.trim_end_matches('0').trim_end_matches('.').len();
-    text.truncate(kept);
-    if text == "-0" { "0".to_owned() } else { text }
 }
 
 /// Text as XML holds it: marks replaced, and the code points that XML forbids left out.
@@ -286,7 +411,7 @@ fn fold(text: &str) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drawing::{Colour, Face, PageRect};
+    use crate::drawing::{Colour, Outline, PagePoint, PageRect};
 
     fn page(items: Vec<Item>) -> Drawing {
         Drawing {
@@ -296,22 +421,6 @@ mod tests {
             description: "d".into(),
             background: None,
             items,
-        }
-    }
-
-    #[test]
-    fn numbers_are_short_and_never_minus_zero() {
-        let cases = [
-            (0.0, "0"),
-            (-0.0, "0"),
-            (-0.004, "0"),
-            (1.5, "1.5"),
-            (-2.25, "-2.25"),
-            (100.0, "100"),
-            (1.0 / 3.0, "0.33"),
-        ];
-        for (value, expected) in cases {
-            assert_eq!(number(value), expected);
         }
     }
 

@@ -14,7 +14,8 @@ pub use column::{Column, Force, columns, sticking_columns};
 pub use group::{Group, groups};
 pub(crate) use pose::product;
 pub use pose::{
-    Cap, Conic, Correction, elastic, force_form, kinematic, least_squares, most_of, source,
+    Cap, Conic, Correction, elastic, force_form, kinematic, least_left, least_squares, most_of,
+    shortest, source,
 };
 pub use scale::Scale;
 

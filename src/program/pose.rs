@@ -112,6 +112,44 @@ pub fn most_of(need: &[f64], toward: &[f64], columns: &[Column]) -> Conic {
     conic
 }
 
+/// The twin of  min Σ |what is left unbalanced|:  max needᵀy  s.t.  columnᵀy ≤ 0, −1 ≤ y ≤ 1.
+///
+/// It has an optimum whether the program stands or falls, and both stories in it: forces that leave least, and the motion
+/// of largest power.
+pub fn least_left(need: &[f64], columns: &[Column]) -> (Conic, Vec<usize>) {
+    let (mut conic, row_of) = kinematic(need, columns, |_| 0.0);
+    for row in 0..need.len() {
+        for sign in [1.0, -1.0] {
+            conic.matrix.push((conic.bound.len(), row, sign));
+            conic.bound.push(1.0);
+        }
+    }
+    (conic, row_of)
+}
+
+/// The shortest change d of velocities:  min ½ |d|²  s.t.  columnᵀd = value for the first `equalities` of the columns, and
+/// columnᵀd ≥ value for the others.
+pub fn shortest(unknowns: usize, columns: &[(&Column, f64)], equalities: usize) -> Conic {
+    let mut conic = Conic {
+        unknowns,
+        quadratic: (0..unknowns).map(|i| (i, i, 1.0)).collect(),
+        linear: vec![0.0; unknowns],
+        matrix: Vec::with_capacity(6 * columns.len()),
+        bound: Vec::with_capacity(columns.len()),
+        equalities,
+    };
+    for (row, (column, value)) in columns.iter().enumerate() {
+        // The solver's inequalities are of the other kind, Ax ≤ b.
+        let sign = if row < equalities { 1.0 } else { -1.0 };
+        let entries = column.entries();
+        conic
+            .matrix
+            .extend(entries.map(|(i, v)| (row, i, sign * v)));
+        conic.bound.push(sign * value);
+    }
+    conic
+}
+
 /// Amounts to be corrected by `size` times the unknowns.
 #[derive(Clone, Copy, Debug)]
 pub struct Correction<'a> {

@@ -5,8 +5,9 @@
 //!
 //! *Stable* is proved by forces: every block balances, nothing pulls, nothing slips, no robot exceeds its limits.
 //! *Unstable* is proved by a motion: the loads do work along it, and no admissible force can object, because every
-//! contact only opens or slides apart. If forces of total F did balance, then power ≤ violation · F; a motion with
-//! violation δ therefore rules out every balance with less total force than power/δ.
+//! contact only opens or slides apart. If forces did balance whose normal forces sum to F, then power ≤ violation · F; a
+//! motion with violation δ therefore rules out every balance with less force than power/δ ([`Proof::rules_out`]). What the
+//! sums below may be off by in f64 counts against the motion, so a violation of 0 is none at all.
 
 use crate::geometry::{Point, Vector, cross, quarter_turn};
 use crate::interface::{ContactKind, Interface};
@@ -28,9 +29,11 @@ pub enum Proof {
     },
     /// A mechanism; velocities relative to its fastest point.
     Mechanism {
-        /// Power of the loads along it less what robots can hold, relative to the largest weight; above 0.
+        /// Power of the loads along it less what robots can hold, relative to the largest weight; above 0. At least so much,
+        /// whatever the rounding.
         power: f64,
-        /// Worst velocity with which a contact closes, slides within its friction, or a grip is torn.
+        /// Worst velocity with which a contact closes, slides within its friction, or a grip is torn. At most so much,
+        /// whatever the rounding.
         worst_violation: f64,
     },
 }
@@ -45,8 +48,12 @@ impl Proof {
     /// Nor may any block be off by more than this share of its own load: a feather under a mountain must balance too.
     pub const SHARE: f64 = 1e-2;
 
-    /// A motion convinces when the loads' power is at least so many times its worst violation.
-    pub const CONVINCING: f64 = 1e3;
+    /// A motion convinces when it rules out every balance of less than so many heaviest loads.
+    ///
+    /// Motions are freed of what a solver left undone before they are judged. What remains where a contact can neither open
+    /// nor close is the rounding of speeds, some 10⁻¹⁵, so that a motion is believed as soon as it does work beyond
+    /// [`Proof::BAND`].
+    pub const CONVINCING: f64 = 1e7;
 
     /// Whether the proof convinces as [`Demand::STANDARD`] wants it.
     pub fn holds(&self) -> bool {
@@ -71,6 +78,20 @@ impl Proof {
             } => power > 1e-12 && power >= demand.conviction * worst_violation,
         }
     }
+
+    /// Below which sum of normal forces, in heaviest loads, a motion rules out every balance: power / violation.
+    ///
+    /// What unlimited robots give counts among these forces. Infinite where nothing is violated: then no forces balance,
+    /// however large. 0 for a proof by forces, which rules nothing out.
+    pub fn rules_out(&self) -> f64 {
+        match *self {
+            Proof::Mechanism {
+                power,
+                worst_violation,
+            } if power > 0.0 => power / worst_violation,
+            _ => 0.0,
+        }
+    }
 }
 
 /// What a proof must come to before its verdict is believed.
@@ -92,7 +113,7 @@ impl Demand {
     /// A hundred times narrower in forces, a thousand times in motions.
     pub const STRICT: Demand = Demand {
         imbalance: 1e-9,
-        conviction: 1e6,
+        conviction: 1e10,
     };
 }
 
@@ -133,6 +154,12 @@ impl Motion {
     /// Velocity of a point that moves with the block.
     pub fn at(&self, scene: &Scene, point: Point) -> Vector {
         self.velocity + quarter_turn(point - scene.blocks[self.block.0].centroid) * self.spin
+    }
+
+    /// The size of what a point's velocity is summed from, of which its rounding is a share.
+    fn summed(&self, scene: &Scene, point: Point) -> f64 {
+        let arm = point - scene.blocks[self.block.0].centroid;
+        self.velocity.norm() + arm.norm() * self.spin.abs()
     }
 
     /// Speed of the block's fastest corner.
@@ -246,6 +273,9 @@ pub fn forces(
     }
 }
 
+/// Several times the rounding of one sum of a few products.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
+
 /// Checks a motion of a group of blocks: the loads' power, and whether any contact or grip objects.
 pub fn mechanism(
     scene: &Scene,
@@ -258,9 +288,12 @@ pub fn mechanism(
     for motion in motions {
         moving[motion.block.0] = Some(*motion);
     }
+    // A point's velocity, and what it is summed from.
     let velocity = |body: BodyId, at: Point| match body {
-        BodyId::Ground(_) => Vector::zeros(),
-        BodyId::Block(id) => moving[id.0].map_or(Vector::zeros(), |m| m.at(scene, at)),
+        BodyId::Ground(_) => (Vector::zeros(), 0.0),
+        BodyId::Block(id) => moving[id.0].map_or((Vector::zeros(), 0.0), |m| {
+            (m.at(scene, at), m.summed(scene, at))
+        }),
     };
     let fastest = motions.iter().map(|m| m.fastest(scene)).fold(0.0, f64::max);
     if fastest == 0.0 {
@@ -272,21 +305,25 @@ pub fn mechanism(
     let mut violation: f64 = 0.0;
     for interface in interfaces {
         for at in interface.application_points(scene.kernel) {
-            let apart = velocity(interface.bodies[0], at) - velocity(interface.bodies[1], at);
+            let [(one, of_one), (other, of_other)] = interface.bodies.map(|b| velocity(b, at));
+            if of_one + of_other == 0.0 {
+                continue;
+            }
+            let apart = one - other;
             let (opens, slides) = (
                 interface.normal.dot(&apart),
                 quarter_turn(interface.normal).dot(&apart),
             );
-            violation = violation.max(interface.friction * slides.abs() - opens);
+            let unsure = ROUNDING * (1.0 + interface.friction) * (of_one + of_other);
+            violation = violation.max(interface.friction * slides.abs() - opens + unsure);
         }
     }
-    let mut power: f64 = motions
-        .iter()
-        .map(|m| {
-            let (force, moment) = load(scene, m.block);
-            force.dot(&m.velocity) + moment * m.spin
-        })
-        .sum();
+    let (mut power, mut summed) = (0.0, 0.0);
+    for motion in motions {
+        let (force, moment) = load(scene, motion.block);
+        power += force.dot(&motion.velocity) + moment * motion.spin;
+        summed += force.norm() * motion.velocity.norm() + (moment * motion.spin).abs();
+    }
     for hold in &frame.holds {
         let Some(motion) = moving[hold.block.0] else {
             continue;
@@ -294,19 +331,22 @@ pub fn mechanism(
         let limits = scene.robots[hold.robot.0].limits;
         let at_grip = motion.at(scene, hold.at);
         let spin = motion.spin * yardstick.length;
-        for (speed, limit) in [
-            (at_grip.x, limits.fx),
-            (at_grip.y, limits.fy),
-            (spin, limits.torque / yardstick.length),
+        let unsure = ROUNDING * motion.summed(scene, hold.at);
+        for (speed, limit, unsure) in [
+            (at_grip.x, limits.fx, unsure),
+            (at_grip.y, limits.fy, unsure),
+            (spin, limits.torque / yardstick.length, 0.0),
         ] {
             // A limit far beyond the loads would turn the rounding of a speed into power: such a grip must not give way.
             if limit > LAVISH * yardstick.force {
-                violation = violation.max(speed.abs());
+                violation = violation.max(speed.abs() + unsure);
             } else {
-                power -= limit * speed.abs();
+                power -= limit * (speed.abs() + unsure);
+                summed += limit * speed.abs();
             }
         }
     }
+    power -= (motions.len() + 8) as f64 * f64::EPSILON * summed;
     Proof::Mechanism {
         power: power / (yardstick.force * fastest),
         worst_violation: violation / fastest,

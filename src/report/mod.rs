@@ -3,4 +3,5 @@
 //! The names in it are a contract. Fields are added, never renamed; pictures are not made here.
 
 pub mod accuracy;
+pub mod book;
 pub mod result;

@@ -10,13 +10,13 @@
 //! and the two change for different reasons.
 
 mod accuracy;
-mod lines;
+mod import;
 mod margin;
 
 use serde::{Serialize, Serializer};
 
 pub use accuracy::accuracy_json;
-use lines::Lines;
+pub use import::import_json;
 use margin::Margins;
 
 use crate::analysis::{
@@ -24,6 +24,7 @@ use crate::analysis::{
 };
 use crate::geometry::{Point, Vector};
 use crate::interface::ContactKind;
+use crate::scene::format::Lines;
 use crate::scene::{BlockId, BodyId, RobotId, Scene};
 
 /// Whether a result tells how long it took.
@@ -70,7 +71,7 @@ pub fn to_json(analysis: &Analysis, timing: Timing, layout: Layout) -> String {
     let written = match layout {
         Layout::Lines => result.serialize(&mut serde_json::Serializer::with_formatter(
             &mut bytes,
-            Lines::default(),
+            Lines::new(2),
         )),
         Layout::OneLine => serde_json::to_writer(&mut bytes, &result),
     };
@@ -188,7 +189,16 @@ enum ProofNumbers {
     Mechanism {
         power: Number,
         worst_violation: Number,
+        no_balance_below: Below,
     },
+}
+
+/// Below which sum of forces, in heaviest loads, none balance: a number, or `"unbounded"` where none do at all.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Below {
+    Sum(Number),
+    Unbounded(&'static str),
 }
 
 #[derive(Serialize)]
@@ -412,6 +422,10 @@ impl ProofNumbers {
             } => ProofNumbers::Mechanism {
                 power: Number(power),
                 worst_violation: Number(worst_violation),
+                no_balance_below: match proof.rules_out() {
+                    sum if sum.is_finite() => Below::Sum(Number(sum)),
+                    _ => Below::Unbounded("unbounded"),
+                },
             },
         }
     }

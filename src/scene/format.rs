@@ -4,12 +4,14 @@
 //! its type. A key may be left out or be `null` wherever the field is an `Option`. This file and the two below it are
 //! the only ones of the room that name serde, serde_json and schemars.
 
+mod lines;
 mod map;
 mod schema;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub(crate) use lines::Lines;
 pub use map::Map;
 pub(super) use schema::expected;
 pub use schema::schema;
@@ -80,6 +82,27 @@ pub struct SceneFile {
     /// Steps of the assembly, one frame each. Without steps all blocks stand and each robot holds its `holds`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub steps: Vec<StepEntry>,
+}
+
+impl SceneFile {
+    /// The file as text: a line for each key, and one for each body, robot or step. Ends with a line feed.
+    ///
+    /// # Example
+    /// ```
+    /// use drystone::scene::{Scene, format::{BlockEntry, SceneFile}};
+    /// let block = BlockEntry { polygon: Some(vec![[0.0, 0.0], [3.0, 0.0], [0.0, 1.0]]), ..BlockEntry::default() };
+    /// let text = SceneFile { blocks: vec![block], ..SceneFile::default() }.to_json();
+    /// assert_eq!(text.lines().count(), 6);
+    /// assert!(Scene::from_json(&text).is_ok());
+    /// ```
+    pub fn to_json(&self) -> String {
+        let mut bytes = Vec::new();
+        let mut writer = serde_json::Serializer::with_formatter(&mut bytes, Lines::new(1));
+        self.serialize(&mut writer)
+            .expect("plain structures with text keys always serialise into memory");
+        bytes.push(b'\n');
+        String::from_utf8(bytes).expect("serde_json writes UTF-8")
+    }
 }
 
 /// Version of the scene format; 1 by default.

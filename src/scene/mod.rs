@@ -27,6 +27,7 @@ pub use body::{
 };
 pub use format::schema;
 pub use frame::{Frame, Hold, Plan};
+pub(crate) use name::nearest;
 pub use problem::{Problem, Problems};
 pub use starter::starter;
 

@@ -71,7 +71,7 @@ impl<'f> Names<'f> {
 }
 
 /// The known name that looks most like another one, if any is near.
-pub(super) fn nearest<'n>(name: &str, known: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
+pub(crate) fn nearest<'n>(name: &str, known: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
     // Comparing a long list of unknown names with a long list of known ones must not take minutes.
     const MOST: usize = 2000;
     let wanted: Vec<char> = name.to_lowercase().chars().take(80).collect();

@@ -56,7 +56,7 @@ pub fn most(program: &Program, toward: &[f64]) -> Limit {
 }
 
 /// The columns of a program whose forces are counted in parts of `unit`.
-fn columns_in(program: &Program, unit: f64) -> Vec<Column> {
+pub(super) fn columns_in(program: &Program, unit: f64) -> Vec<Column> {
     let mut columns = columns(program);
     for column in &mut columns {
         column.limit /= unit;

@@ -252,7 +252,7 @@ fn proved_answers_only_with_a_better_proof() {
             Proof::Mechanism {
                 power,
                 worst_violation,
-            } => assert!(power >= 1e6 * worst_violation),
+            } => assert!(power >= 1e10 * worst_violation),
         }
     }
     // Within the band it just falls, and is called stable; at this level nobody says so.

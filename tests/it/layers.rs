@@ -33,6 +33,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "resultant",
         ],
     ),
+    ("import", &["geometry", "scene"]),
     ("drawing", &["geometry"]),
     (
         "figure",
@@ -65,6 +66,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "output",
             "chart",
             "study",
+            "import",
         ],
     ),
     (
@@ -79,6 +81,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "output",
             "study",
             "report",
+            "import",
         ],
     ),
     ("doc", &[]),
@@ -93,6 +96,7 @@ const DOORS: &[(&str, &[&str])] = &[
             "scene/format/",
             "report/result.rs",
             "report/result/",
+            "drawing/style/format/value.rs",
         ],
     ),
     (
@@ -102,12 +106,28 @@ const DOORS: &[(&str, &[&str])] = &[
             "scene/format/",
             "report/result.rs",
             "report/result/",
+            "drawing/style/format/value.rs",
+            "import/geojson.rs",
         ],
     ),
+    ("toml", &["drawing/style/format/value.rs"]),
+    ("strsim", &["drawing/style/format.rs"]),
     ("schemars", &["scene/format.rs", "scene/format/"]),
     ("jsonc_parser", &["scene/"]),
     ("clarabel", &["solve/"]),
-    ("resvg", &["output/png.rs"]),
+    (
+        "resvg",
+        &[
+            "output/tree.rs",
+            "output/png.rs",
+            "output/pdf.rs",
+            "output/svg/",
+        ],
+    ),
+    ("krilla", &["output/pdf.rs"]),
+    ("subsetter", &["output/svg/font.rs"]),
+    ("write_fonts", &["output/svg/font.rs"]),
+    ("base64", &["output/svg/font.rs"]),
     ("png", &["output/png.rs"]),
     ("earcut", &["geometry/overlap.rs"]),
     ("robust", &["geometry/"]),
@@ -120,6 +140,9 @@ const DOORS: &[(&str, &[&str])] = &[
     ("tempfile", &["output/file.rs"]),
     ("plotters", &["chart/"]),
     ("maud", &["report/"]),
+    ("roxmltree", &["import/"]),
+    ("svgtypes", &["import/"]),
+    ("simplecss", &["import/"]),
 ];
 
 /// Doors that are one file, but whose file is the owning room's to choose.

@@ -7,14 +7,19 @@
 )]
 
 mod accuracy;
+mod book;
+mod edge;
 mod gallery;
 mod hard;
+mod import;
+mod labels;
 mod kinds;
 mod laws;
 mod layers;
 mod oracle;
 mod margins;
 mod pictures;
+mod print;
 mod problems;
 mod program;
 mod scenes;

@@ -236,6 +236,40 @@ fn margins_are_an_effect_on_request() {
     assert_eq!(asked.verdict, plain.verdict);
 }
 
+#[test]
+fn an_equal_frame_has_the_margins_of_the_earlier_one() {
+    let mut file = on_floor(
+        0.5,
+        vec![
+            block("a", rectangle(0.0, 0.0, 1.0, 1.0), 6.0),
+            block("b", rectangle(0.25, 1.0, 1.0, 1.0), 6.0),
+        ],
+    );
+    file["steps"] = json!([{ "place": ["a", "b"] }, { "remove": ["b"] }, { "place": ["b"] }]);
+    let frames = frames(&scene(&file));
+    assert_ne!(frames[0].margins, frames[1].margins);
+    assert_eq!(frames[0].margins, frames[2].margins);
+    let why = |k: usize| {
+        let effect = frames[k].effects.iter().find(|e| e.effect == "margins");
+        effect.expect("every effect is told").why.clone()
+    };
+    assert!(!why(0).contains(" 0 changed"), "{}", why(0));
+    assert!(why(2).contains(" 0 changed"), "{}", why(2));
+}
+
+/// Steeper than its friction it falls as it is; leaning the world against the slope would let it stand.
+#[test]
+fn a_block_that_falls_unturned_has_no_tilt_though_it_would_stand_turned() {
+    let file = on_slope(30.0, 4.0, 0.5, 0.3, 0.0);
+    let found = margins(&file);
+    assert_eq!(found.tilt.left, Margin::None);
+    assert_eq!(found.tilt.right, Margin::None);
+    let mut turned = file;
+    let angle = 20f64.to_radians();
+    turned["gravity"] = json!([libm::sin(angle), -libm::cos(angle)]);
+    assert_eq!(verdict(&turned), Verdict::Stable);
+}
+
 /// Every margin of the source's scenes, asked of changed scene files through the front door.
 #[test]
 fn just_inside_it_stands_and_just_beyond_it_falls() {

@@ -1,19 +1,19 @@
 //! Pictures: the source's arrows and fills in numbers, and what every figure must hold to.
 
-use drystone::drawing::{Colour, Drawing, Group, Item, Outline};
+use drystone::drawing::{Colour, Drawing, Group, Item, Outline, Theme};
 use drystone::figure::{self, ArrowKind, ForceStyle, Normalisation, Options};
 use drystone::geometry::{Point, Vector};
 use drystone::output::{png, svg};
 use drystone::{Analysis, Scene};
 use serde_json::Value;
 
-fn scene(path: &str) -> Scene {
+pub(crate) fn scene(path: &str) -> Scene {
     let full = format!("{}/{path}", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(&full).expect("the scene is there");
     Scene::from_json(&text).unwrap_or_else(|problems| panic!("{path}:\n{problems}"))
 }
 
-fn gallery() -> Vec<(String, Scene)> {
+pub(crate) fn gallery() -> Vec<(String, Scene)> {
     let folder = format!("{}/assets/thesis", env!("CARGO_MANIFEST_DIR"));
     let mut names: Vec<String> = std::fs::read_dir(folder)
         .expect("the gallery")
@@ -247,7 +247,7 @@ fn the_same_scene_gives_the_same_bytes() {
 
 #[test]
 fn shapes_come_with_their_names_and_origins() {
-    let drawing = figure::shapes();
+    let drawing = figure::shapes(&Theme::default());
     let svg = svg::write(&drawing);
     for name in drystone::scene::shape::BUILT_IN {
         assert!(svg.contains(&format!(">{name}</text>")), "{name}");

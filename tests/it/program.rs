@@ -1,6 +1,8 @@
 //! The command line as a person runs it: exit codes, streams, files, and what is said.
 
+mod accuracy;
 mod check;
+mod import;
 mod render;
 mod words;
 

@@ -8,11 +8,12 @@ use crate::interface::Interface;
 use crate::program::{Group, assemble};
 use crate::proof::Motion;
 use crate::scene::{Frame, Scene};
-use crate::solve::{Care, Reach, balance, reach};
+use crate::solve::{Care, Effort, Reach, balance, leftover, reach};
 
 /// Whether one group stands, and how it begins to move where it falls: the verdict of [`solved`] without the rest.
 ///
-/// What must stick is not sought, unless a mechanism is so weak that forces within their band might balance after all.
+/// What must stick is not sought, unless nothing else decides. A mechanism so weak that forces within their band might
+/// balance after all is believed only once the least leftover is known to be more.
 pub(in crate::analysis) fn judged(
     scene: &Scene,
     frame: &Frame,
@@ -42,10 +43,20 @@ pub(in crate::analysis) fn judged(
             return (Verdict::Stable, Vec::new());
         }
     }
-    if let Some(motion) = first.motion.map(|y| case.moved(&y))
-        && case.outweighs_the_band(&motion)
+    let mut effort = Effort::default();
+    if let Some(y) = first.motion
+        && let Some((motion, proof)) = case.falling(&program, &y, &mut effort)
+        && case.outweighs_the_band(&motion, &proof)
     {
         return (Verdict::Unstable, motion);
+    }
+    if let Some(left) = leftover(&program) {
+        if case.carried(&program, &left.forces).proof.holds() {
+            return (Verdict::Stable, Vec::new());
+        }
+        if let Some((motion, _)) = case.falling(&program, &left.motion, &mut effort) {
+            return (Verdict::Unstable, motion);
+        }
     }
     let situation = Situation {
         scene,

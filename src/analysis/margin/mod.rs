@@ -84,7 +84,8 @@ pub struct Margins {
     /// [`Margin::None`] where it falls at [`Margins::MOST_FRICTION`].
     pub friction: Margin,
     /// The largest turn of gravity in degrees; loads do not turn. Right: gravity's tip moves to the right.
-    /// [`Margin::None`] where it falls unturned, [`Margin::Unbounded`] where half a turn leaves it standing.
+    /// [`Margin::None`] where it falls unturned, even if some turn would let it stand: a margin begins at the frame as it
+    /// is. [`Margin::Unbounded`] where half a turn leaves it standing.
     pub tilt: Sides,
     /// The largest share of each weight that may act across gravity beside the weight itself.
     pub horizontal_load: Sides,
@@ -114,13 +115,15 @@ pub struct RobotMargins {
     pub torque: Margin,
 }
 
-/// Finds the margins of a frame, and how many changed frames were judged for it.
+/// Finds the margins of a frame, and how many changed frames were judged for it. A group whose margins were found in an
+/// earlier frame is not judged again.
 pub(super) fn of(
     scene: &Scene,
     frame: &Frame,
     interfaces: &[&Interface],
     groups: &[Group],
     found: &BTreeMap<Key, Findings>,
+    known: &mut BTreeMap<Key, Margins>,
     length: f64,
 ) -> (Margins, usize) {
     let verdict = |g: &Group| {
@@ -128,18 +131,28 @@ pub(super) fn of(
             .get(&key(frame, g))
             .map_or(Verdict::Undecided, |f| f.verdict)
     };
-    let parts: Vec<(Margins, usize)> = groups
+    let fresh = |group: &&Group| !known.contains_key(&key(frame, group));
+    let fresh: Vec<&Group> = groups.iter().filter(fresh).collect();
+    let parts: Vec<(Key, Margins, usize)> = fresh
         .par_iter()
         .map_init(
             || scene.clone(),
             |changed, group| {
                 let mut trial = Trial::of(scene, changed, frame, interfaces, group, length);
                 let margins = of_group(&mut trial, verdict(group) == Verdict::Stable);
-                (margins, trial.judged)
+                (key(frame, group), margins, trial.judged)
             },
         )
         .collect();
-    let judged = parts.iter().map(|p| p.1).sum();
+    let mut judged = 0;
+    for (key, margins, tries) in parts {
+        known.insert(key, margins);
+        judged += tries;
+    }
+    let parts = groups.iter().filter_map(|group| {
+        let margins = known.get(&key(frame, group))?;
+        Some((group, margins.clone()))
+    });
     let falling = groups
         .iter()
         .filter(|g| verdict(g) != Verdict::Stable)
@@ -161,7 +174,7 @@ pub(super) fn of(
         load_factor: Margin::Unbounded,
         robots: Vec::new(),
     };
-    for (group, (part, _)) in groups.iter().zip(parts) {
+    for (group, part) in parts {
         let worse = |whole: &mut Margin, part: Margin, way: Way| {
             if edge::worse(&part, whole, way) {
                 *whole = part;

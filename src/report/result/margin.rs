@@ -1,4 +1,6 @@
 //! Margins as JSON: a number, `null` where a frame falls at any value, `"unbounded"` where it stands at any.
+//!
+//! A tilt of `null` says that the frame falls unturned; it may stand turned.
 
 use serde::{Serialize, Serializer};
 

@@ -173,7 +173,7 @@ const LINES: &str = r#"{
       "effects": [
         {"effect": "friction", "simulated": true, "why": "two", "unknowns": 8}
       ],
-      "proof": {"power": 0.25, "worst_violation": 1e-12},
+      "proof": {"power": 0.25, "worst_violation": 1e-12, "no_balance_below": 250000000000.0},
       "solve": {"method": "kinematic", "iterations": 9, "programs": 2, "groups": 1, "reused": 0}
     }
   ]

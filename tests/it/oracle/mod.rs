@@ -12,7 +12,7 @@ mod simplex;
 mod touch;
 
 use dashu_ratio::RBig;
-use drystone::analysis::Verdict;
+use drystone::analysis::{FrameAnalysis, Verdict};
 use drystone::{Analysis, Scene};
 use rayon::prelude::*;
 use serde_json::{Value, json};
@@ -45,35 +45,50 @@ struct Finding {
     standing: Standing,
     /// Worst relative error of the total force or sticking, where it was looked at.
     error: Option<f64>,
+    /// Below which sum of forces the motion of a falling one rules out every balance, in heaviest loads.
+    ruled_out: Option<f64>,
 }
 
 fn looked_at(number: u64) -> Finding {
     let (kind, file) = random::scene(number);
-    let (standing, error) = compared(&file, random::KINDS[kind].1, number % 4 < 2);
+    let exact = random::KINDS[kind].1;
+    let (standing, error, ruled_out) = match Scene::from_json(&file.to_string()) {
+        Ok(scene) => compared(&scene, exact, number % 4 < 2),
+        Err(_) => (Standing::Refused, None, None),
+    };
     Finding {
         number,
         kind,
         file,
         standing,
         error,
+        ruled_out,
     }
 }
 
-fn compared(file: &Value, exact: bool, with_forces: bool) -> (Standing, Option<f64>) {
-    let Ok(scene) = Scene::from_json(&file.to_string()) else {
-        return (Standing::Refused, None);
-    };
+fn compared(scene: &Scene, exact: bool, with_forces: bool) -> (Standing, Option<f64>, Option<f64>) {
     let touches = if exact {
-        touch::touches(&scene)
+        touch::touches(scene)
     } else {
-        touch::as_found(&scene)
+        touch::as_found(scene)
     };
-    let analysis = Analysis::of(&scene);
+    let analysis = Analysis::of(scene);
     let frame = &analysis.frames[0];
     if touches.len() != frame.contacts.len() {
-        return (Standing::TouchesElsewhere, None);
+        return (Standing::TouchesElsewhere, None, None);
     }
-    let groups = Balance::groups(&scene, &touches);
+    let ruled_out = (frame.verdict == Verdict::Unstable).then(|| frame.proof.rules_out());
+    let (standing, error) = judged(scene, &touches, frame, with_forces);
+    (standing, error, ruled_out)
+}
+
+fn judged(
+    scene: &Scene,
+    touches: &[touch::Touch],
+    frame: &FrameAnalysis,
+    with_forces: bool,
+) -> (Standing, Option<f64>) {
+    let groups = Balance::groups(scene, touches);
     let fallen: Vec<bool> = groups.iter().map(|g| !g.stands()).collect();
     let falls = fallen.contains(&true);
     let agrees = match frame.verdict {
@@ -178,6 +193,14 @@ fn verdicts_are_those_of_an_exact_program() {
     println!(
         "{} sums of forces, the worst off by {worst:.1e}",
         errors.len()
+    );
+    let ruled_out: Vec<f64> = findings.iter().filter_map(|f| f.ruled_out).collect();
+    println!(
+        "{} motions: {} rule out every balance, {} of at least 1e12 loads, the weakest one of {:.1e}",
+        ruled_out.len(),
+        ruled_out.iter().filter(|x| x.is_infinite()).count(),
+        ruled_out.iter().filter(|x| **x >= 1e12).count(),
+        ruled_out.iter().copied().fold(f64::INFINITY, f64::min)
     );
     let bad = findings.iter().filter(|f| {
         matches!(

@@ -59,6 +59,43 @@ fn scenes_come_from_standard_input_and_pictures_go_to_standard_output() {
 }
 
 #[test]
+fn pictures_for_print_have_their_width_in_millimetres() {
+    let bench = Bench::new();
+    let text = |name: &str| {
+        let bytes = fs::read(bench.path(name)).expect(name);
+        String::from_utf8_lossy(&bytes).into_owned()
+    };
+    let ran = bench.run("render stands.json -o a.pdf --width-mm 84");
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    assert!(text("a.pdf").starts_with("%PDF-") && text("a.pdf").contains("0 0 238.11"));
+    assert_eq!(bench.run("render stands.json -o out/ --format pdf").code, 0);
+    assert!(text("out/stands.pdf").starts_with("%PDF-"));
+    assert_eq!(
+        bench
+            .run("render stands.json -o a.svg --width-mm 174 --text embed")
+            .code,
+        0
+    );
+    assert!(text("a.svg").contains("width=\"174mm\"") && text("a.svg").contains("@font-face"));
+    assert_eq!(
+        bench
+            .run("render stands.json -o b.svg --text paths --background none")
+            .code,
+        0
+    );
+    assert!(!text("b.svg").contains("<text") && !text("b.svg").contains("<rect width"));
+    assert_eq!(
+        bench
+            .run("shapes -o c.png --width-mm 84 --dpi 150 --background #f4f1ea")
+            .code,
+        0
+    );
+    let png = fs::read(bench.path("c.png")).expect("there");
+    assert_eq!(png[16..20], 496_u32.to_be_bytes());
+    assert_eq!(bench.run("shapes -o c.pdf").code, 0);
+}
+
+#[test]
 fn several_scenes_fill_a_folder() {
     let bench = Bench::new();
     let ran = bench.run("render stands.json falls.json -o new/deep/ --format png --scale 0.5");
@@ -164,7 +201,7 @@ fn a_picture_has_the_rights_of_any_new_file() {
 fn command_lines_that_make_no_sense_are_refused_with_a_way_out() {
     let bench = Bench::new();
     for (line, words) in [
-        ("render stands.json -o a.jpeg", ".svg or .png"),
+        ("render stands.json -o a.jpeg", ".svg, .png or .pdf"),
         ("render stands.json -o a", "slash"),
         ("render stands.json falls.json -o a.svg", "folder"),
         ("render stands.json falls.json -o -", "folder"),
@@ -177,6 +214,28 @@ fn command_lines_that_make_no_sense_are_refused_with_a_way_out() {
         ("render stands.json -o a.png --scale nan", "pixels"),
         ("render stands.json -o a.svg --format png", "--format png"),
         ("render stands.json -o a.svg --columns 0", "--columns"),
+        ("render stands.json -o a.pdf --scale 2", "--width-mm"),
+        ("render stands.json -o a.pdf --text paths", "--text"),
+        ("render stands.json -o a.pdf --format png", "--format png"),
+        (
+            "render stands.json -o a.svg --width-mm 84 --dpi 300",
+            "--dpi",
+        ),
+        ("render stands.json -o a.png --dpi 300", "--width-mm"),
+        (
+            "render stands.json -o a.png --width 300 --width-mm 84",
+            "--width-mm",
+        ),
+        ("render stands.json -o a.svg --width-mm 0", "from 2 to 5080"),
+        (
+            "render stands.json -o a.png --width-mm 84 --dpi 0",
+            "from 1 to 10000",
+        ),
+        (
+            "render stands.json -o a.png --width-mm 5000 --dpi 9000",
+            "pixels",
+        ),
+        ("render stands.json -o a.svg --background red", "#rrggbb"),
         ("render stands.json", "--output"),
         ("new --force", "--output"),
         ("completions fsh", "fish"),

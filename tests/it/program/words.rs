@@ -133,13 +133,22 @@ fn help_tells_commands_limits_and_exit_codes() {
         "schema",
         "new",
         "shapes",
+        "style",
         "completions",
         "balance of forces exists",
         "Exit codes",
     ] {
         assert!(help.out.contains(words), "{words} is not in\n{}", help.out);
     }
-    for command in ["render", "check", "schema", "new", "shapes", "completions"] {
+    for command in [
+        "render",
+        "check",
+        "schema",
+        "new",
+        "shapes",
+        "style",
+        "completions",
+    ] {
         let ran = bench.run(&format!("{command} --help"));
         assert!(
             ran.code == 0 && ran.out.contains("Usage: drystone"),
@@ -178,4 +187,85 @@ fn the_readmes_scene_stands_as_it_says() {
     fs::write(bench.path("readme.json"), scene).expect("writable");
     let ran = bench.run("check readme.json");
     assert_eq!(ran.code, 0, "{}{}", ran.out, ran.err);
+}
+
+#[test]
+fn themes_and_styles_change_the_picture() {
+    let bench = Bench::new();
+    let plain = bench.run("render stands.json -o -").out;
+    assert_eq!(
+        bench.run("render stands.json -o - --theme thesis").out,
+        plain
+    );
+    let dark = bench.run("render stands.json -o - --theme dark").out;
+    assert!(dark.contains("fill=\"#15181d\"") && !plain.contains("#15181d"));
+    let sheet = bench.run("shapes -o - --theme dark").out;
+    assert!(sheet.contains("fill=\"#15181d\""));
+    let ran = bench.run("render stands.json -o - --theme drak");
+    assert_eq!(ran.code, 2);
+    assert!(
+        ran.err.contains("colourblind") && ran.err.contains("'dark'"),
+        "{}",
+        ran.err
+    );
+
+    // What is printed reads back to the same picture.
+    let printed = bench.run("style --theme dark").out;
+    fs::write(bench.path("dark.json"), printed).expect("writable");
+    assert_eq!(
+        bench.run("render stands.json -o - --style dark.json").out,
+        dark
+    );
+    fs::write(
+        bench.path("mine.toml"),
+        "page = '#fed'\n[sizes]\ncaption = 30\nkey = 21",
+    )
+    .expect("writable");
+    let mine = bench.run("render stands.json -o - --style mine.toml").out;
+    assert!(mine.contains("fill=\"#ffeedd\"") && mine.contains("font-size=\"21\""));
+    let both = bench
+        .run("render stands.json -o - --style mine.toml --theme paper")
+        .out;
+    assert!(
+        both.contains("fill=\"#ffeedd\"") && both.contains("#f9f9f7"),
+        "{both}"
+    );
+}
+
+#[test]
+fn a_wrong_style_is_told_with_all_else_that_is_wrong_and_nothing_is_written() {
+    let bench = Bench::new();
+    fs::write(
+        bench.path("bad.json"),
+        r##"{ "failur": "#d00", "ink": "blak" }"##,
+    )
+    .expect("writable");
+    let ran = bench.run("render wrong.json -o a.svg --style bad.json");
+    assert_eq!(ran.code, 2);
+    for words in [
+        "error: bad.json: failur: unknown key",
+        "the nearest known key is `failure`",
+        "error: bad.json: ink: the text \"blak\" is no colour",
+        "a weight of -3 N",
+    ] {
+        assert!(ran.err.contains(words), "{words}\n{}", ran.err);
+    }
+    let ran = bench.run("shapes -o a.svg --style bad.json");
+    assert!(ran.code == 2 && ran.err.contains("failur"), "{}", ran.err);
+    let ran = bench.run("render stands.json -o a.svg --style gone.toml");
+    assert!(
+        ran.code == 2 && ran.err.contains("cannot read gone.toml"),
+        "{}",
+        ran.err
+    );
+    // Once the word for what is now said by another option.
+    let ran = bench.run("render stands.json -o a.svg --style components");
+    assert!(ran.code == 2 && ran.err.contains("--arrows"), "{}", ran.err);
+    assert_eq!(
+        bench
+            .run("render stands.json -o a.svg --arrows components")
+            .code,
+        0
+    );
+    assert_eq!(bench.made(), ["a.svg", "bad.json"]);
 }

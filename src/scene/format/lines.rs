@@ -1,18 +1,27 @@
-//! [`Lines`]: how a result is broken into lines, so that a person can look through it too.
+//! [`Lines`]: how a result or a scene file is broken into lines, so that a person can look through it too.
 
 use std::io;
 
 use serde_json::ser::Formatter;
 
-/// The result and its frames have a line per property; what lies deeper has one line each.
-#[derive(Default)]
-pub(super) struct Lines {
+/// Objects down to a depth have a line per property; what lies deeper has one line each.
+pub(crate) struct Lines {
+    depth: usize,
     /// For every open bracket: whether it is an array, and whether it has broken into lines.
     open: Vec<(bool, bool)>,
     objects: usize,
 }
 
 impl Lines {
+    /// Breaks the outermost object, and those in it down to `depth` of them.
+    pub(crate) fn new(depth: usize) -> Lines {
+        Lines {
+            depth,
+            open: Vec::new(),
+            objects: 0,
+        }
+    }
+
     fn line<W: ?Sized + io::Write>(&self, writer: &mut W) -> io::Result<()> {
         writer.write_all(b"\n")?;
         (0..self.open.iter().filter(|o| o.1).count()).try_for_each(|_| writer.write_all(b"  "))
@@ -41,7 +50,7 @@ impl Formatter for Lines {
             array.1 = true;
             self.line(writer)?;
         }
-        self.open.push((false, self.objects < 2));
+        self.open.push((false, self.objects < self.depth));
         self.objects += 1;
         writer.write_all(b"{")
     }

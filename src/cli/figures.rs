@@ -1,0 +1,94 @@
+//! `drystone figures`: the gallery, every figure as SVG, PNG and PDF, and their captions.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
+
+use crate::cli::complaint::Complaint;
+use crate::cli::destination;
+use crate::cli::ending::Ending;
+use crate::cli::look::Look;
+use crate::cli::picture::Format;
+use crate::cli::terminal::Terminal;
+use crate::figure::{self, Plate};
+use crate::output::file::Existing;
+use crate::output::png::{self, Size};
+use crate::output::{pdf, svg};
+
+/// Draw the gallery: figures 1 to 9 of the work this is built on, each as SVG, PNG and PDF, with captions
+#[derive(Debug, Args)]
+pub(crate) struct Figures {
+    /// Folder for the figures; made where there is none
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+    /// One format only
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    format: Option<Format>,
+    #[command(flatten)]
+    look: Look,
+}
+
+impl Figures {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
+        let theme = self.look.theme().map_err(|c| vec![c])?;
+        let plates = figure::gallery(&theme);
+        let formats: Vec<Format> = match self.format {
+            Some(format) => vec![format],
+            None => Format::ALL.to_vec(),
+        };
+        let drawn: Vec<Result<Vec<(PathBuf, Vec<u8>)>, Complaint>> = plates
+            .par_iter()
+            .map(|plate| files(plate, &formats, &self.output))
+            .collect();
+        let mut files = Vec::new();
+        let mut complaints = Vec::new();
+        for result in drawn {
+            match result {
+                Ok(more) => files.extend(more),
+                Err(complaint) => complaints.push(complaint),
+            }
+        }
+        if !complaints.is_empty() {
+            return Err(complaints);
+        }
+        let captions = self.output.join("captions.md");
+        files.push((captions, captions_of(&plates).into_bytes()));
+        let count = files.len();
+        destination::make_folder(&self.output).map_err(|c| vec![c])?;
+        destination::write(&files, Existing::Replace).map_err(|c| vec![c])?;
+        terminal.note(&format!(
+            "{}: {} figures, {count} files",
+            self.output.display(),
+            plates.len()
+        ));
+        Ok(Ending::Done)
+    }
+}
+
+fn files(
+    plate: &Plate,
+    formats: &[Format],
+    folder: &Path,
+) -> Result<Vec<(PathBuf, Vec<u8>)>, Complaint> {
+    let failed = |error: &dyn std::error::Error| Complaint::NotWritten {
+        what: plate.name.to_owned(),
+        why: error.to_string(),
+    };
+    let text = svg::write(&plate.drawing);
+    let file = |format: &Format| {
+        let bytes = match format {
+            Format::Svg => text.clone().into_bytes(),
+            Format::Png => png::render(&text, Size::Scale(2.0)).map_err(|e| failed(&e))?,
+            Format::Pdf => pdf::write(&plate.drawing, None).map_err(|e| failed(&e))?,
+        };
+        let path = folder.join(format!("{}.{}", plate.name, format.ending()));
+        Ok((path, bytes))
+    };
+    formats.iter().map(file).collect()
+}
+
+fn captions_of(plates: &[Plate]) -> String {
+    let one = |plate: &Plate| format!("**{}** {}\n", plate.name, plate.caption);
+    plates.iter().map(one).collect::<Vec<_>>().join("\n")
+}

@@ -1,0 +1,55 @@
+//! [`Look`]: colours, widths and sizes, the part that `render` and `shapes` share.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use clap::builder::PossibleValuesParser;
+
+use crate::cli::complaint::Complaint;
+use crate::drawing::Theme;
+use crate::drawing::style::format::Notation;
+
+/// The theme and what is to differ from it.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct Look {
+    /// Colours: the source's, for print also in grey, for all sorts of colour vision, or on a dark page [default: thesis]
+    #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(Theme::NAMES))]
+    theme: Option<String>,
+    /// Own colours, widths and sizes: a .json or .toml file, of which `drystone style` prints one to start from
+    #[arg(long, value_name = "FILE")]
+    style: Option<PathBuf>,
+}
+
+impl Look {
+    /// The theme asked for.
+    pub(crate) fn theme(&self) -> Result<Theme, Complaint> {
+        let base = self.theme.as_deref().and_then(Theme::named);
+        match &self.style {
+            None => Ok(base.unwrap_or_default()),
+            Some(path) => read(path, base.as_ref()),
+        }
+    }
+}
+
+fn read(path: &Path, base: Option<&Theme>) -> Result<Theme, Complaint> {
+    let name = path.display().to_string();
+    let ending = path
+        .extension()
+        .map(|e| e.to_string_lossy().to_ascii_lowercase());
+    let notation = match ending.as_deref() {
+        Some("json") => Notation::Json,
+        Some("toml") => Notation::Toml,
+        _ => {
+            return Err(Complaint::CommandLine(format!(
+                "--style {name}: a style file ends in .json or .toml; whether normal and friction force are drawn apart \
+                 is said by --arrows"
+            )));
+        }
+    };
+    let text = fs::read_to_string(path).map_err(|error| Complaint::NotRead {
+        what: name.clone(),
+        why: error.to_string(),
+    })?;
+    Theme::read(&text, notation, base).map_err(|problems| Complaint::Style { name, problems })
+}

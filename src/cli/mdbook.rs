@@ -1,0 +1,58 @@
+//! `drystone mdbook`: scenes in the chapters of an mdBook become figures.
+
+use std::io::{self, Read};
+
+use clap::{Args, Subcommand};
+
+use crate::cli::complaint::Complaint;
+use crate::cli::ending::Ending;
+use crate::cli::terminal::Terminal;
+use crate::report::book;
+
+/// Draw the scenes in the chapters of an mdBook: its preprocessor, which mdbook runs itself
+///
+/// In book.toml, [preprocessor.drystone] with command = "drystone mdbook"; in a chapter, a fenced block that begins with
+/// drystone and holds a scene, or names one with file=scene.json. More options: kind=, block=, theme=, width=, amounts,
+/// nocaption.
+#[derive(Debug, Args)]
+pub(crate) struct MdBook {
+    #[command(subcommand)]
+    question: Option<Question>,
+}
+
+#[derive(Debug, Subcommand)]
+enum Question {
+    /// Whether books are illustrated for a renderer: with 0 for html, with 1 for any other
+    Supports {
+        /// The renderer's name
+        renderer: String,
+    },
+}
+
+impl MdBook {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
+        if let Some(Question::Supports { renderer }) = &self.question {
+            return Ok(if renderer == "html" {
+                Ending::Done
+            } else {
+                Ending::Unstable
+            });
+        }
+        let mut input = String::new();
+        io::stdin()
+            .lock()
+            .read_to_string(&mut input)
+            .map_err(|error| {
+                vec![Complaint::NotRead {
+                    what: "standard input".into(),
+                    why: error.to_string(),
+                }]
+            })?;
+        let drawn = book::illustrate(&input)
+            .map_err(|problems| vec![Complaint::CommandLine(problems.to_string())])?;
+        terminal
+            .print_bytes(drawn.as_bytes())
+            .map_err(|c| vec![c])?;
+        Ok(Ending::Done)
+    }
+}

@@ -1,0 +1,27 @@
+//! `drystone style`: a theme as a style file to start from.
+
+use clap::Args;
+use clap::builder::PossibleValuesParser;
+
+use crate::cli::complaint::Complaint;
+use crate::cli::ending::Ending;
+use crate::cli::terminal::Terminal;
+use crate::drawing::Theme;
+
+/// Print a theme as a style file, for render --style
+///
+/// Change what you like and leave out the rest: what a style file does not tell is as in the theme that it names.
+#[derive(Debug, Args)]
+pub(crate) struct Style {
+    /// The theme to print
+    #[arg(long, value_name = "NAME", default_value = "thesis", value_parser = PossibleValuesParser::new(Theme::NAMES))]
+    theme: String,
+}
+
+impl Style {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
+        let theme = Theme::named(&self.theme).unwrap_or_default();
+        terminal.print(&theme.to_json()).map_err(|c| vec![c])?;
+        Ok(Ending::Done)
+    }
+}

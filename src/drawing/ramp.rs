@@ -1,0 +1,85 @@
+//! Rows of colours that tell an amount: the well-known ones by [name](named), and own ones [through stops](between).
+
+mod cividis;
+mod plasma;
+mod viridis;
+
+use super::colour::Colour;
+
+pub use plasma::PLASMA;
+
+/// The names of the ramps that are known: [`named`] knows each of them.
+pub const NAMES: [&str; 4] = ["plasma", "viridis", "cividis", "grey"];
+
+/// So many colours a ramp has.
+pub const LENGTH: usize = 256;
+
+/// A ramp by its name: 256 colours, those of small amounts first. `None` for a name that is not in [`NAMES`].
+///
+/// `plasma`, `viridis` and `cividis` are matplotlib's. `grey` is ours and light, from nearly white to a grey on which black
+/// letters can still be read.
+pub fn named(name: &str) -> Option<Vec<Colour>> {
+    let table = |values: &[u32; LENGTH]| values.iter().map(|v| Colour::hex(*v)).collect();
+    match name {
+        "plasma" => Some(table(&PLASMA)),
+        "viridis" => Some(table(&viridis::VIRIDIS)),
+        "cividis" => Some(table(&cividis::CIVIDIS)),
+        "grey" => Some(between(&[Colour::hex(0xf7f7f7), Colour::hex(0xbdbdbd)])),
+        _ => None,
+    }
+}
+
+/// 256 colours that run evenly through some stops, mixed channel by channel; none where there is no stop.
+///
+/// ```
+/// use drystone::drawing::{Colour, ramp};
+/// let ramp = ramp::between(&[Colour::WHITE, Colour::hex(0xff0000), Colour::BLACK]);
+/// assert_eq!((ramp.len(), ramp[0], ramp[255]), (256, Colour::WHITE, Colour::BLACK));
+/// assert_eq!(ramp[51].0[0], 255);
+/// ```
+pub fn between(stops: &[Colour]) -> Vec<Colour> {
+    let Some(last) = stops.len().checked_sub(1) else {
+        return Vec::new();
+    };
+    let at = |entry: usize| {
+        // Whole numbers as far as they go, so that 256 stops are met exactly.
+        let (stop, rest) = (entry * last / (LENGTH - 1), entry * last % (LENGTH - 1));
+        let next = stops[(stop + 1).min(last)];
+        stops[stop].mixed(next, rest as f64 / (LENGTH - 1) as f64)
+    };
+    (0..LENGTH).map(at).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_name_has_its_ramp_and_no_other_has_one() {
+        for name in NAMES {
+            let ramp = named(name).expect(name);
+            assert_eq!(ramp.len(), LENGTH, "{name}");
+        }
+        assert_eq!(named("jet"), None);
+        // The ends as matplotlib prints them.
+        let ends = |name| named(name).map(|r| (r[0], r[255]));
+        assert_eq!(
+            ends("viridis"),
+            Some((Colour::hex(0x440154), Colour::hex(0xfde725)))
+        );
+        assert_eq!(
+            ends("cividis"),
+            Some((Colour::hex(0x00224e), Colour::hex(0xfee838)))
+        );
+    }
+
+    #[test]
+    fn stops_are_met_and_as_many_stops_as_colours_are_the_colours() {
+        let viridis = named("viridis").expect("known");
+        assert_eq!(between(&viridis), viridis);
+        let two = between(&[Colour::BLACK, Colour::WHITE]);
+        assert!((0..LENGTH).all(|i| two[i] == Colour([i as u8; 3])));
+        assert_eq!(between(&[Colour::BLACK]), vec![Colour::BLACK; LENGTH]);
+        assert_eq!(between(&[]), Vec::new());
+    }
+}

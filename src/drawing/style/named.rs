@@ -1,0 +1,133 @@
+//! The themes that have a name.
+
+use super::super::colour::Colour;
+use super::super::ramp;
+use super::{Sizes, Theme, Widths};
+
+impl Theme {
+    /// The names of the themes, the default first: [`Theme::named`] knows each of them.
+    pub const NAMES: [&str; 4] = ["thesis", "paper", "colourblind", "dark"];
+
+    /// A theme by its name; `None` for a name that is not in [`Theme::NAMES`].
+    ///
+    /// ```
+    /// use drystone::drawing::Theme;
+    /// assert_eq!(Theme::named("thesis"), Some(Theme::default()));
+    /// assert!(Theme::NAMES.iter().all(|name| Theme::named(name).is_some()));
+    /// ```
+    pub fn named(name: &str) -> Option<Theme> {
+        match name {
+            "thesis" => Some(Theme::thesis()),
+            "paper" => Some(Theme::paper()),
+            "colourblind" => Some(Theme::colourblind()),
+            "dark" => Some(Theme::dark()),
+            _ => None,
+        }
+    }
+
+    /// The source's colours on white.
+    pub fn thesis() -> Theme {
+        Theme {
+            page: Colour::WHITE,
+            ink: Colour::hex(0x1c1f24),
+            faint: Colour::hex(0x5d646e),
+            rule: Colour::hex(0xd9dce1),
+            casing: Colour::WHITE,
+            arrows: all(&[0x008066, 0x40a066, 0x80c066, 0x209066, 0x60b066]),
+            robots: all(&[0xfaed2d, 0xffc303, 0xffa200, 0xfc7f00]),
+            failure: Colour::hex(0xff0000),
+            ground: Colour::hex(0x2f4f4f),
+            block: Colour::hex(0xeceef1),
+            outline: Colour::hex(0x808080),
+            motion: Colour::hex(0x4479b4),
+            safe: Colour::hex(0x008066),
+            amplitudes: ramp::named("plasma").unwrap_or_default(),
+            stands: Colour::hex(0x17824f),
+            falls: Colour::hex(0xc62121),
+            undecided: Colour::hex(0x6b7280),
+            widths: Widths::DEFAULT,
+            sizes: Sizes::DEFAULT,
+        }
+    }
+
+    /// For print, in colour or in grey: what can meet differs in lightness. Dark arrows on light blocks, robots lighter
+    /// than what fails, and that lighter than any force.
+    pub fn paper() -> Theme {
+        Theme {
+            page: Colour::WHITE,
+            ink: Colour::BLACK,
+            faint: Colour::hex(0x404040),
+            rule: Colour::hex(0xc8c8c8),
+            casing: Colour::WHITE,
+            arrows: all(&[0x0a0c22, 0x0c3428, 0x5a3f96]),
+            robots: all(&[0xe59a1f, 0xf6c94a]),
+            failure: Colour::hex(0xf0141e),
+            ground: Colour::hex(0xa3a9ae),
+            block: Colour::hex(0xf2f2f2),
+            outline: Colour::hex(0x4d4d4d),
+            motion: Colour::hex(0x35527d),
+            safe: Colour::hex(0x1b6b43),
+            amplitudes: ramp::between(&all(&[0xf9f9f7, 0xd8dce0])),
+            stands: Colour::hex(0x1b6b43),
+            falls: Colour::hex(0xb3161c),
+            undecided: Colour::hex(0x555555),
+            widths: Widths::DEFAULT,
+            sizes: Sizes::DEFAULT,
+        }
+    }
+
+    /// Colours of [Okabe08](crate::doc::references) on white, amplitudes from blue to yellow: for eyes with any sort of
+    /// colour vision.
+    pub fn colourblind() -> Theme {
+        Theme {
+            page: Colour::WHITE,
+            ink: Colour::hex(0x1c1f24),
+            faint: Colour::hex(0x5d646e),
+            rule: Colour::hex(0xd9dce1),
+            casing: Colour::WHITE,
+            arrows: all(&[0x009e73, 0x56b4e9, 0x0072b2]),
+            robots: all(&[0xe69f00, 0xf0e442]),
+            failure: Colour::hex(0xd55e00),
+            ground: Colour::hex(0x3f444b),
+            block: Colour::hex(0xb9c0ca),
+            outline: Colour::hex(0xe4e7eb),
+            motion: Colour::hex(0x0072b2),
+            safe: Colour::hex(0x009e73),
+            amplitudes: ramp::named("cividis").unwrap_or_default(),
+            stands: Colour::hex(0x0072b2),
+            falls: Colour::hex(0xb34d00),
+            undecided: Colour::hex(0x5d646e),
+            widths: Widths::DEFAULT,
+            sizes: Sizes::DEFAULT,
+        }
+    }
+
+    /// Light ink on a dark page: for screens and projectors.
+    pub fn dark() -> Theme {
+        Theme {
+            page: Colour::hex(0x15181d),
+            ink: Colour::hex(0xe8eaed),
+            faint: Colour::hex(0xa3abb6),
+            rule: Colour::hex(0x333a44),
+            casing: Colour::hex(0x15181d),
+            arrows: all(&[0x4fc3a1, 0xb9e769, 0x6cb4f5]),
+            robots: all(&[0xffe05c, 0xffb347]),
+            failure: Colour::hex(0xff5252),
+            ground: Colour::hex(0x46525f),
+            block: Colour::hex(0x2a303a),
+            outline: Colour::hex(0x8791a0),
+            motion: Colour::hex(0x6cb4f5),
+            safe: Colour::hex(0x4fc3a1),
+            amplitudes: ramp::between(&all(&[0x262e3a, 0x3d5a80, 0x8a5a96, 0xb8614a])),
+            stands: Colour::hex(0x4cc38a),
+            falls: Colour::hex(0xff6b6b),
+            undecided: Colour::hex(0xa3abb6),
+            widths: Widths::DEFAULT,
+            sizes: Sizes::DEFAULT,
+        }
+    }
+}
+
+fn all(values: &[u32]) -> Vec<Colour> {
+    values.iter().map(|v| Colour::hex(*v)).collect()
+}

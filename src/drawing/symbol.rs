@@ -1,0 +1,236 @@
+//! [`Symbol`]: a mathematical name, set from letters with an arrow or a hat above and small signs below and above right.
+
+use super::arrow::HEAD_WIDTH;
+use super::{Colour, Face, Group, Outline, PagePoint, PageRect, Path, Stroke, Text, text};
+
+/// Size of subscripts and superscripts, in sizes.
+const SMALL: f64 = 0.68;
+/// How far a subscript's base line lies below the letter's, in sizes.
+const BELOW: f64 = 0.24;
+/// How far a superscript's base line lies above the letter's, in sizes.
+const ABOVE: f64 = 0.42;
+/// How far a superscript stands to the right, clear of an arrow above its letter, in sizes.
+const RAISED: f64 = 0.2;
+/// How far a symbol reaches above and below its base line, in sizes.
+const REACH: (f64, f64) = (0.98, 0.36);
+
+/// What stands above a letter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Accent {
+    /// Nothing.
+    None,
+    /// An arrow: a vector.
+    Arrow,
+    /// A hat: a unit vector.
+    Hat,
+}
+
+/// One letter of a symbol with what belongs to it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Letter {
+    /// The letter, set in italics.
+    pub letter: String,
+    /// What stands above it.
+    pub accent: Accent,
+    /// What stands below right; letters in italics, figures upright.
+    pub below: String,
+    /// What stands above right.
+    pub above: String,
+}
+
+/// A mathematical name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Symbol {
+    /// Its letters in order.
+    pub letters: Vec<Letter>,
+}
+
+impl Symbol {
+    /// A letter with a subscript, either of which may be empty.
+    pub fn new(letter: &str, accent: Accent, below: &str) -> Symbol {
+        let letter = Letter {
+            letter: letter.to_owned(),
+            accent,
+            below: below.to_owned(),
+            above: String::new(),
+        };
+        Symbol {
+            letters: vec![letter],
+        }
+    }
+
+    /// The same symbol with a superscript at its last letter.
+    pub fn raised(mut self, above: &str) -> Symbol {
+        if let Some(last) = self.letters.last_mut() {
+            above.clone_into(&mut last.above);
+        }
+        self
+    }
+
+    /// The letters of both, one after the other.
+    pub fn then(mut self, next: Symbol) -> Symbol {
+        self.letters.extend(next.letters);
+        self
+    }
+
+    /// Its letters in a row, for those who hear it: `F_s1^(2)`.
+    pub fn said(&self) -> String {
+        let one = |l: &Letter| {
+            let mark = |sign: &str, words: &str| match words {
+                "" => String::new(),
+                words => format!("{sign}{words}"),
+            };
+            format!("{}{}{}", l.letter, mark("_", &l.below), mark("^", &l.above))
+        };
+        self.letters.iter().map(one).collect()
+    }
+
+    /// Width and height at a size, pixels.
+    pub fn size(&self, size: f64) -> (f64, f64) {
+        let width = self.letters.iter().map(|l| wide(l, size)).sum();
+        (width, (REACH.0 + REACH.1) * size)
+    }
+
+    /// The symbol in a rectangle of its own size.
+    pub fn draw(&self, rect: PageRect, size: f64, ink: Colour) -> Group {
+        let mut group = Group::of_class("symbol");
+        let mut at = rect.at.moved(0.0, REACH.0 * size);
+        for letter in &self.letters {
+            group = group.with(Text::new(
+                at,
+                letter.letter.as_str(),
+                Face::SerifItalic,
+                size,
+                ink,
+            ));
+            group
+                .items
+                .extend(accent(letter, at, size, ink).map(Into::into));
+            let beside = at.moved(text::width(&letter.letter, Face::SerifItalic, size), 0.0);
+            for (words, lean, down) in [
+                (&letter.below, 0.04, BELOW),
+                (&letter.above, RAISED, -ABOVE),
+            ] {
+                let mut at = beside.moved(lean * size, down * size);
+                for (run, face) in runs(words) {
+                    group = group.with(Text::new(at, run.as_str(), face, SMALL * size, ink));
+                    at = at.moved(text::width(&run, face, SMALL * size), 0.0);
+                }
+            }
+            at = at.moved(wide(letter, size), 0.0);
+        }
+        group
+    }
+}
+
+fn wide(letter: &Letter, size: f64) -> f64 {
+    let small = |words: &str| -> f64 {
+        let width = |(run, face): &(String, Face)| text::width(run, *face, SMALL * size);
+        runs(words).iter().map(width).sum()
+    };
+    let below = match small(&letter.below) {
+        wide if wide > 0.0 => wide + 0.06 * size,
+        _ => 0.0,
+    };
+    let above = match small(&letter.above) {
+        wide if wide > 0.0 => wide + (RAISED + 0.02) * size,
+        _ => 0.0,
+    };
+    text::width(&letter.letter, Face::SerifItalic, size) + below.max(above)
+}
+
+/// Letters slanted, all else upright, as mathematics is set.
+fn runs(words: &str) -> Vec<(String, Face)> {
+    let mut runs: Vec<(String, Face)> = Vec::new();
+    for c in words.chars() {
+        let face = if c.is_alphabetic() {
+            Face::SerifItalic
+        } else {
+            Face::Serif
+        };
+        match runs.last_mut() {
+            Some((run, last)) if *last == face => run.push(c),
+            _ => runs.push((c.to_string(), face)),
+        }
+    }
+    runs
+}
+
+/// The arrow or hat above a letter whose base line begins at `at`.
+fn accent(letter: &Letter, at: PagePoint, size: f64, ink: Colour) -> Option<Path> {
+    let tall = letter
+        .letter
+        .chars()
+        .any(|c| c.is_uppercase() || "bdfhklt".contains(c));
+    let high = if tall { 0.76 } else { 0.58 } * size;
+    let wide = text::width(&letter.letter, Face::SerifItalic, size);
+    let stroke = Stroke::new(ink, 0.045 * size);
+    // Slanted letters lean: what stands above them stands to the right of their middle.
+    let middle = at.moved(0.5 * wide + 0.09 * size, -high);
+    match letter.accent {
+        Accent::None => None,
+        Accent::Arrow => {
+            let reach = (0.5 * wide).clamp(0.2 * size, 0.3 * size);
+            let (tip, head) = (middle.moved(reach, 0.0), 0.028 * HEAD_WIDTH * size);
+            let mut outline = Outline::line([middle.moved(-reach, 0.0), tip]);
+            outline.extend(Outline::line([
+                tip.moved(-head, -head),
+                tip,
+                tip.moved(-head, head),
+            ]));
+            Some(Path::stroked(outline, stroke))
+        }
+        Accent::Hat => {
+            let (half, high) = (0.15 * size, 0.12 * size);
+            let hat = [
+                middle.moved(-half, 0.0),
+                middle.moved(0.0, -high),
+                middle.moved(half, 0.0),
+            ];
+            Some(Path::stroked(Outline::line(hat), stroke))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_signs_widen_a_symbol_and_stand_one_above_the_other() {
+        let plain = Symbol::new("F", Accent::Arrow, "");
+        let below = Symbol::new("F", Accent::Arrow, "fl1");
+        let both = below.clone().raised("(2)");
+        let wide = |s: &Symbol| s.size(20.0).0;
+        assert!(wide(&below) > wide(&plain) + 10.0);
+        assert!(wide(&both) < wide(&plain) + 2.0 * (wide(&below) - wide(&plain)));
+        assert_eq!(both.said(), "F_fl1^(2)");
+        let weight = Symbol::new("m", Accent::None, "").then(Symbol::new("g", Accent::Arrow, ""));
+        assert_eq!(weight.said(), "mg");
+    }
+
+    #[test]
+    fn all_ink_lies_in_the_rectangle() {
+        let symbol = Symbol::new("F", Accent::Arrow, "fl1").raised("(2)");
+        let (width, height) = symbol.size(20.0);
+        let rect = PageRect {
+            at: PagePoint::new(3.0, 7.0),
+            width,
+            height,
+        };
+        for item in symbol.draw(rect, 20.0, Colour::BLACK).items {
+            match item {
+                super::super::Item::Text(text) => {
+                    let wide = text::width(&text.words, text.face, text.size);
+                    assert!(text.at.x >= 3.0 && text.at.x + wide <= 3.0 + width + 0.5);
+                    assert!(text.at.y - 0.7 * text.size >= 6.9, "{text:?}");
+                    assert!(text.at.y + 0.25 * text.size <= 7.1 + height, "{text:?}");
+                }
+                super::super::Item::Path(path) => {
+                    assert!(path.outline.points().all(|p| p.y >= 7.0 && p.x >= 3.0));
+                }
+                super::super::Item::Group(_) => {}
+            }
+        }
+    }
+}

@@ -1,0 +1,108 @@
+//! [`ring`]: the colours of arrows as a ring of sectors, and those of robots and of what fails below it.
+
+use core::f64::consts::TAU;
+
+use crate::drawing::arrow::straight;
+use crate::drawing::{
+    Anchor, Drawing, Face, Group, Item, Outline, PagePoint, Path, Segment, Stroke, Text, Theme,
+};
+
+/// Width of the page, pixels.
+const PAGE: f64 = 360.0;
+/// Inner and outer radius of the ring, pixels.
+const RING: (f64, f64) = (58.0, 112.0);
+/// Size of letters, pixels.
+const WORDS: f64 = 14.0;
+
+/// Which colour the forces on a block wear: sectors anticlockwise from the right, entry 0 first, each with the numbers of
+/// the blocks, from 1 in placing order, that wear it.
+///
+/// Units: the page is in pixels at natural size.
+pub fn ring(theme: &Theme) -> Drawing {
+    let centre = PagePoint::new(PAGE / 2.0, 30.0 + RING.1);
+    let count = theme.arrows.len().max(1);
+    let sweep = TAU / count as f64;
+    let mut items: Vec<Item> = Vec::new();
+    for (entry, colour) in theme.arrows.iter().enumerate() {
+        let from = sweep * entry as f64;
+        // Block i wears entry i mod n: the first block the second colour.
+        let first = if entry == 0 { count } else { entry };
+        let blocks = format!("{first}, {}, …", first + count);
+        let sector = Path::filled(sector(centre, from, sweep), *colour)
+            .with_stroke(Stroke::new(theme.page, 2.0));
+        let middle = from + sweep / 2.0;
+        let on = polar(centre, (RING.0 + RING.1) / 2.0, middle);
+        let ink = theme.letters_on(*colour, None);
+        let words = Text::new(
+            on.moved(0.0, 0.36 * WORDS),
+            blocks.as_str(),
+            Face::SansBold,
+            12.0,
+            ink,
+        );
+        items.push(
+            Group::of_class("sector")
+                .titled(format!("Blocks {blocks} wear {}", colour.css()))
+                .with(sector)
+                .with(words.anchored(Anchor::Middle))
+                .into(),
+        );
+    }
+    let line = |y: f64, words: &str| -> Item {
+        Text::new(
+            PagePoint::new(centre.x, y),
+            words,
+            Face::Sans,
+            WORDS,
+            theme.faint,
+        )
+        .anchored(Anchor::Middle)
+        .into()
+    };
+    items.push(line(centre.y - 0.15 * WORDS, "forces on"));
+    items.push(line(centre.y + 1.05 * WORDS, "blocks"));
+    let mut y = centre.y + RING.1 + 40.0;
+    let robots = theme.robots.len();
+    for (number, colour) in theme.robots.iter().enumerate() {
+        let x = centre.x + (number as f64 - (robots as f64 - 1.0) / 2.0) * 40.0;
+        let disc = Path::filled(Outline::circle(PagePoint::new(x, y), 13.0), *colour)
+            .with_stroke(Stroke::new(colour.mixed(theme.ink, 0.35), 0.8));
+        let robot =
+            Group::of_class("robot").titled(format!("Robot {number} wears {}", colour.css()));
+        items.push(robot.with(disc).into());
+    }
+    y += 32.0;
+    items.push(line(y, "robots, over and over"));
+    y += 30.0;
+    let arrow = straight(PagePoint::new(centre.x - 34.0, y), (42.0, 0.0), 5.6);
+    let failure =
+        Group::of_class("failure").titled(format!("What fails wears {}", theme.failure.css()));
+    items.push(failure.with(Path::filled(arrow, theme.failure)).into());
+    y += 28.0;
+    items.push(line(y, "what would have to stick or be given"));
+    Drawing {
+        width: PAGE,
+        height: (y + 24.0).ceil(),
+        title: "The colours of forces".into(),
+        description: "The forces on a block wear one colour; block i, in placing order from 1, takes entry i mod \
+                      the number of colours, counted anticlockwise from the right."
+            .into(),
+        background: Some(theme.page),
+        items,
+    }
+}
+
+fn polar(centre: PagePoint, radius: f64, angle: f64) -> PagePoint {
+    centre.moved(radius * libm::cos(angle), -radius * libm::sin(angle))
+}
+
+/// A part of the ring, its arcs as many short lines: none longer than a pixel or two.
+fn sector(centre: PagePoint, from: f64, sweep: f64) -> Outline {
+    let steps = 72;
+    let angle = |step: i32| from + sweep * f64::from(step) / f64::from(steps);
+    let outer = (0..=steps).map(|s| polar(centre, RING.1, angle(s)));
+    let inner = (0..=steps).rev().map(|s| polar(centre, RING.0, angle(s)));
+    let mut outline = Outline::line(outer.chain(inner));
+    outline.segments.push(Segment::Close);
+    outline
+}

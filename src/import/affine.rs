@@ -1,0 +1,59 @@
+//! [`Affine`]: a linear map and a move, as drawings nest them.
+
+use crate::geometry::{Point, Vector, sin_cos_degrees};
+
+/// x ↦ a·x + c·y + e, y ↦ b·x + d·y + f, as SVG writes `matrix(a b c d e f)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Affine(pub(super) [f64; 6]);
+
+impl Affine {
+    pub(super) const IDENTITY: Affine = Affine([1.0, 0.0, 0.0, 1.0, 0.0, 0.0]);
+
+    pub(super) fn moving(x: f64, y: f64) -> Affine {
+        Affine([1.0, 0.0, 0.0, 1.0, x, y])
+    }
+
+    pub(super) fn scaling(x: f64, y: f64) -> Affine {
+        Affine([x, 0.0, 0.0, y, 0.0, 0.0])
+    }
+
+    /// A turn that takes the first axis towards the second; exact at quarter turns.
+    pub(super) fn turning(degrees: f64) -> Affine {
+        let (sin, cos) = sin_cos_degrees(degrees);
+        Affine([cos, sin, -sin, cos, 0.0, 0.0])
+    }
+
+    /// The map that does `inner` first and this one then.
+    pub(super) fn after(&self, inner: &Affine) -> Affine {
+        let [a, b, c, d, e, f] = inner.0;
+        let (x, y) = (
+            self.vector(Vector::new(a, b)),
+            self.vector(Vector::new(c, d)),
+        );
+        let at = self.point(Point::new(e, f));
+        Affine([x.x, x.y, y.x, y.y, at.x, at.y])
+    }
+
+    pub(super) fn point(&self, p: Point) -> Point {
+        let [a, b, c, d, e, f] = self.0;
+        Point::new(a * p.x + c * p.y + e, b * p.x + d * p.y + f)
+    }
+
+    pub(super) fn vector(&self, v: Vector) -> Vector {
+        let [a, b, c, d, _, _] = self.0;
+        Vector::new(a * v.x + c * v.y, b * v.x + d * v.y)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_inner_map_comes_first() {
+        let map = Affine::moving(10.0, 20.0).after(&Affine::turning(90.0));
+        assert_eq!(map.point(Point::new(3.0, 1.0)), Point::new(9.0, 23.0));
+        let map = Affine::turning(90.0).after(&Affine::moving(10.0, 20.0));
+        assert_eq!(map.point(Point::new(3.0, 1.0)), Point::new(-21.0, 13.0));
+    }
+}

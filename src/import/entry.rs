@@ -1,0 +1,193 @@
+//! The scene file of some outlines.
+
+use std::collections::BTreeSet;
+
+use super::draft::{Draft, Kind};
+use super::name::Names;
+use super::outline::{Body, Outlines};
+use crate::geometry::{Point, Polygon};
+use crate::scene::format::{
+    BlockEntry, GroundEntry, Map, MaterialEntry, Pair, RobotEntry, SceneFile,
+};
+
+/// Coordinates are written to this part of the drawing's size: a thousand times finer than what counts as touching.
+const DIGITS: f64 = 1e-9;
+
+/// The file, with the values that `given` brings for the whole scene.
+pub(super) fn scene(
+    outlines: &Outlines,
+    names: &Names,
+    draft: &mut Draft,
+    title: String,
+    size: f64,
+    given: &SceneFile,
+) -> SceneFile {
+    let round = Rounding::to(DIGITS * size);
+    let ground = outlines.ground();
+    let fills: BTreeSet<[u8; 3]> = outlines.bodies[ground..]
+        .iter()
+        .filter_map(|b| b.fill)
+        .collect();
+    let mut blocks: Vec<BlockEntry> = Vec::new();
+    for (body, name) in outlines.bodies.iter().zip(&names.bodies).skip(ground) {
+        blocks.push(BlockEntry {
+            id: Some(name.clone()),
+            polygon: Some(round.ring(body, 0)),
+            holes: (1..body.rings.len()).map(|i| round.ring(body, i)).collect(),
+            material: body.fill.map(material),
+            weight: body.values.weight,
+            density: body.values.density,
+            friction: body.values.friction,
+            ..BlockEntry::default()
+        });
+    }
+    let ground_entries = outlines.bodies[..ground]
+        .iter()
+        .map(|body| GroundEntry {
+            polygon: Some(round.ring(body, 0)),
+            holes: (1..body.rings.len()).map(|i| round.ring(body, i)).collect(),
+            friction: body.values.friction,
+            fill: body.fill.map(hex),
+            ..GroundEntry::default()
+        })
+        .collect();
+    let materials = fills.into_iter().map(|fill| {
+        let entry = MaterialEntry {
+            fill: Some(hex(fill)),
+            ..MaterialEntry::default()
+        };
+        (material(fill), entry)
+    });
+    SceneFile {
+        title: given
+            .title
+            .clone()
+            .or(Some(title))
+            .filter(|t| !t.is_empty()),
+        gravity: given.gravity,
+        friction: given.friction,
+        kernel: given.kernel,
+        density: given.density,
+        thickness: given.thickness,
+        materials: Map(materials.collect()),
+        ground: ground_entries,
+        blocks,
+        robots: robots(outlines, names, draft, &round),
+        ..SceneFile::default()
+    }
+}
+
+/// Each robot with the block in which its centre lies.
+fn robots(
+    outlines: &Outlines,
+    names: &Names,
+    draft: &mut Draft,
+    round: &Rounding,
+) -> Vec<RobotEntry> {
+    let polygons: Vec<(usize, Polygon)> = outlines
+        .bodies
+        .iter()
+        .enumerate()
+        .filter(|(_, b)| b.kind == Kind::Block)
+        .filter_map(|(i, b)| Some((i, b.polygon()?)))
+        .collect();
+    let mut entries = Vec::new();
+    for (robot, name) in outlines.robots.iter().zip(&names.robots) {
+        let held = polygons.iter().find(|(_, p)| p.contains(robot.at));
+        if held.is_none() {
+            let message = format!(
+                "its centre ({}, {}) m lies in no block: the robot holds nothing",
+                short(robot.at.x),
+                short(robot.at.y)
+            );
+            draft.remark(
+                &robot.element,
+                message,
+                "draw its centre where it grips a block",
+            );
+        }
+        entries.push(RobotEntry {
+            id: Some(name.clone()),
+            holds: held.map(|(i, _)| names.bodies[*i].clone()),
+            at: held.map(|_| round.pair(robot.at)),
+            ..RobotEntry::default()
+        });
+    }
+    entries
+}
+
+fn hex([r, g, b]: [u8; 3]) -> String {
+    format!("#{r:02x}{g:02x}{b:02x}")
+}
+
+fn material(fill: [u8; 3]) -> String {
+    format!("fill-{}", &hex(fill)[1..])
+}
+
+/// A length with three digits.
+pub(super) fn short(x: f64) -> String {
+    rounded(format!("{x:.2e}"))
+}
+
+/// A scale with six digits.
+pub(super) fn digits(x: f64) -> String {
+    rounded(format!("{x:.5e}"))
+}
+
+fn rounded(text: String) -> String {
+    text.parse::<f64>().map_or(text, |x| x.to_string())
+}
+
+/// Coordinates without the noise of their making.
+struct Rounding {
+    /// The power of ten by which they are whole numbers; 0 for no rounding.
+    factor: f64,
+}
+
+impl Rounding {
+    /// To a power of ten no larger than `step`.
+    fn to(step: f64) -> Rounding {
+        let power = -libm::floor(libm::log10(step));
+        // Beyond that, whole numbers run out, or there is nothing to be rounded.
+        let factor = if (0.0..=15.0).contains(&power) {
+            libm::pow(10.0, power)
+        } else {
+            0.0
+        };
+        Rounding { factor }
+    }
+
+    fn number(&self, x: f64) -> f64 {
+        let rounded = (x * self.factor).round() / self.factor;
+        // A −0 reads badly, and adding 0 makes it 0.
+        if self.factor > 0.0 {
+            rounded + 0.0
+        } else {
+            x + 0.0
+        }
+    }
+
+    fn pair(&self, p: Point) -> Pair {
+        [self.number(p.x), self.number(p.y)]
+    }
+
+    fn ring(&self, body: &Body, ring: usize) -> Vec<Pair> {
+        body.rings[ring].iter().map(|c| self.pair(c.at)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_lose_their_noise_and_nothing_else() {
+        let round = Rounding::to(3.7e-9);
+        assert_eq!(round.number(0.1 + 0.2), 0.3);
+        assert_eq!(round.number(-1e-12).to_bits(), 0);
+        assert_eq!(round.number(123.456_789_012), 123.456_789_012);
+        assert_eq!(Rounding::to(0.0).number(1.0 / 3.0), 1.0 / 3.0);
+        assert_eq!(Rounding::to(1e5).number(1.5e9), 1.5e9);
+        assert_eq!(short(0.001_234_9), "0.00123");
+    }
+}

@@ -1,0 +1,266 @@
+//! GeoJSON into a [`Draft`]: polygons with their properties, coordinates as metres with y up.
+
+use serde_json::{Map, Value};
+
+use super::draft::{Draft, Form, Kind, Part, Rule, Values};
+use super::track::Track;
+use crate::geometry::Point;
+
+/// What a GeoJSON text holds.
+///
+/// # Errors
+/// Why it cannot be read at all.
+pub(super) fn read(text: &str, scale: f64) -> Result<Draft, String> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let value: Value = serde_json::from_str(text).map_err(|e| e.to_string())?;
+    let Value::Object(object) = &value else {
+        return Err("its outermost value is no object".into());
+    };
+    if object.contains_key("drystone") {
+        return Err("it is a scene file already, and no GeoJSON".into());
+    }
+    let mut reader = Reader {
+        draft: Draft::default(),
+        scale,
+    };
+    reader.object(object, "", &About::default());
+    Ok(reader.draft)
+}
+
+/// What a feature says of its geometry.
+#[derive(Clone, Debug, Default)]
+struct About {
+    name: String,
+    kind: Option<Kind>,
+    fill: Option<[u8; 3]>,
+    values: Values,
+}
+
+struct Reader {
+    draft: Draft,
+    scale: f64,
+}
+
+impl Reader {
+    fn object(&mut self, object: &Map<String, Value>, at: &str, about: &About) {
+        let kind = object.get("type").and_then(Value::as_str).unwrap_or("");
+        match kind {
+            "FeatureCollection" => self.each(object, "features", at, about),
+            "GeometryCollection" => self.each(object, "geometries", at, about),
+            "Feature" => {
+                let about = self.about(object, at);
+                if about.kind == Some(Kind::Ignored) {
+                    let note = format!(
+                        "{} is left out: it asks for it by its name",
+                        told(at, &about.name)
+                    );
+                    self.draft.notes.push(note);
+                    return;
+                }
+                match object.get("geometry") {
+                    Some(Value::Object(geometry)) => {
+                        self.object(geometry, &below(at, "geometry"), &about);
+                    }
+                    _ => self.remark(at, &about, "it has no geometry; left out"),
+                }
+            }
+            "Polygon" => match object.get("coordinates").and_then(|c| self.rings(c)) {
+                Some(rings) => self.polygon(rings, at, about),
+                None => self.unreadable(at, about),
+            },
+            "MultiPolygon" => match object.get("coordinates").and_then(Value::as_array) {
+                Some(polygons) => {
+                    for (i, polygon) in polygons.iter().enumerate() {
+                        let at = format!("{}[{i}]", below(at, "coordinates"));
+                        match self.rings(polygon) {
+                            Some(rings) => self.polygon(rings, &at, about),
+                            None => self.unreadable(&at, about),
+                        }
+                    }
+                }
+                None => self.unreadable(at, about),
+            },
+            "Point" if about.kind == Some(Kind::Robot) => {
+                match object.get("coordinates").and_then(|c| self.point(c)) {
+                    Some(spot) => self.part(Form::Spot(spot), at, about),
+                    None => self.unreadable(at, about),
+                }
+            }
+            "Point" | "MultiPoint" | "LineString" | "MultiLineString" => {
+                self.remark(at, about, &format!("a {kind} encloses nothing; left out"));
+            }
+            "" => self.remark(at, about, "it has no type; left out"),
+            _ => self.remark(
+                at,
+                about,
+                &format!("{kind} is no type of GeoJSON; left out"),
+            ),
+        }
+    }
+
+    fn each(&mut self, object: &Map<String, Value>, key: &str, at: &str, about: &About) {
+        let at = below(at, key);
+        let Some(list) = object.get(key).and_then(Value::as_array) else {
+            self.remark(&at, about, "it is no list; left out");
+            return;
+        };
+        for (i, entry) in list.iter().enumerate() {
+            let at = format!("{at}[{i}]");
+            match entry {
+                Value::Object(entry) => self.object(entry, &at, about),
+                _ => self.remark(&at, about, "it is no object; left out"),
+            }
+        }
+    }
+
+    fn about(&mut self, feature: &Map<String, Value>, at: &str) -> About {
+        let none = Map::new();
+        let properties = feature
+            .get("properties")
+            .and_then(Value::as_object)
+            .unwrap_or(&none);
+        let text = |value: Option<&Value>| match value {
+            Some(Value::String(text)) if !text.trim().is_empty() => Some(text.trim().to_owned()),
+            Some(Value::Number(number)) => Some(number.to_string()),
+            _ => None,
+        };
+        let name = text(properties.get("id"))
+            .or_else(|| text(properties.get("name")))
+            .or_else(|| text(feature.get("id")))
+            .unwrap_or_default();
+        let mut about = About {
+            kind: Kind::of(&name),
+            name,
+            ..About::default()
+        };
+        let word = properties.get("kind").and_then(Value::as_str);
+        match word.map(str::to_ascii_lowercase).as_deref() {
+            Some("block") => about.kind = Some(Kind::Block),
+            Some(word) => match Kind::of(word) {
+                Some(kind) => about.kind = Some(kind),
+                None => {
+                    let why = format!(
+                        "its kind `{word}` is none of block, ground, robot and ignore; not taken"
+                    );
+                    self.remark(at, &about, &why);
+                }
+            },
+            None => {}
+        }
+        if properties.get("ground").and_then(Value::as_bool) == Some(true) {
+            about.kind = Some(Kind::Ground);
+        }
+        let mut number = |key: &str| {
+            let value = properties.get(key).filter(|v| !v.is_null())?;
+            let number = value.as_f64();
+            if number.is_none() {
+                self.draft.remark(
+                    told(at, &about.name),
+                    format!("its {key} is no number; not taken"),
+                    "",
+                );
+            }
+            number
+        };
+        about.values = Values {
+            friction: number("friction"),
+            density: number("density"),
+            weight: number("weight"),
+        };
+        if let Some(fill) = properties.get("fill").and_then(Value::as_str) {
+            match fill.trim().parse::<svgtypes::Color>() {
+                Ok(c) => about.fill = Some([c.red, c.green, c.blue]),
+                Err(_) => self.remark(at, &about, "its fill is no colour; not taken"),
+            }
+        }
+        about
+    }
+
+    fn rings(&self, value: &Value) -> Option<Vec<Vec<Point>>> {
+        let ring = |ring: &Value| {
+            let points = ring.as_array()?.iter().map(|p| self.point(p));
+            points.collect::<Option<Vec<Point>>>()
+        };
+        value.as_array()?.iter().map(ring).collect()
+    }
+
+    fn point(&self, value: &Value) -> Option<Point> {
+        let numbers = value.as_array()?;
+        let number = |i: usize| numbers.get(i)?.as_f64();
+        Some(Point::new(number(0)?, number(1)?) * self.scale)
+    }
+
+    fn polygon(&mut self, rings: Vec<Vec<Point>>, at: &str, about: &About) {
+        let tracks = rings.iter().filter_map(|r| Track::closed(r)).collect();
+        self.part(Form::Tracks(tracks, Rule::EvenOdd), at, about);
+    }
+
+    fn part(&mut self, form: Form, at: &str, about: &About) {
+        self.draft.parts.push(Part {
+            kind: about.kind.unwrap_or(Kind::Block),
+            name: about.name.clone(),
+            element: told(at, &about.name),
+            form,
+            fill: about.fill,
+            values: about.values,
+        });
+    }
+
+    fn unreadable(&mut self, at: &str, about: &About) {
+        self.remark(
+            at,
+            about,
+            "its coordinates are no lists of numbers as its type has them; left out",
+        );
+    }
+
+    fn remark(&mut self, at: &str, about: &About, message: &str) {
+        self.draft.remark(told(at, &about.name), message, "");
+    }
+}
+
+fn below(at: &str, key: &str) -> String {
+    if at.is_empty() {
+        key.to_owned()
+    } else {
+        format!("{at}.{key}")
+    }
+}
+
+fn told(at: &str, name: &str) -> String {
+    match (at, name) {
+        ("", "") => "the outermost object".into(),
+        (at, "") => at.to_owned(),
+        ("", name) => format!("\"{name}\""),
+        (at, name) => format!("{at} \"{name}\""),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn features_bring_their_names_kinds_and_values() {
+        let text = r##"{ "type": "FeatureCollection", "features": [
+            { "type": "Feature", "properties": { "name": "soil", "ground": true, "friction": 0.4 },
+              "geometry": { "type": "Polygon", "coordinates": [[[0, 0, 7], [4, 0, 7], [4, -1, 7], [0, 0, 7]]] } },
+            { "type": "Feature", "id": 12, "properties": { "density": 3, "fill": "#8b6b3d", "weight": "heavy" },
+              "geometry": { "type": "MultiPolygon", "coordinates": [[[[0, 0], [1, 0], [0, 1]]], [[[5, 0], [6, 0], [5, 1]]]] } },
+            { "type": "Feature", "properties": { "name": "robot a" }, "geometry": { "type": "Point", "coordinates": [0.2, 0.2] } },
+            { "type": "Feature", "properties": { "kind": "cloud" }, "geometry": { "type": "LineString", "coordinates": [] } },
+            { "type": "Feature", "properties": null, "geometry": null }, 7 ] }"##;
+        let draft = read(text, 2.0).expect("readable");
+        let kinds: Vec<Kind> = draft.parts.iter().map(|p| p.kind).collect();
+        assert_eq!(kinds, [Kind::Ground, Kind::Block, Kind::Block, Kind::Robot]);
+        assert_eq!(draft.parts[0].values.friction, Some(0.4));
+        assert_eq!(draft.parts[1].name, "12");
+        assert_eq!(draft.parts[1].fill, Some([0x8b, 0x6b, 0x3d]));
+        assert!(matches!(draft.parts[3].form, Form::Spot(p) if p == Point::new(0.4, 0.4)));
+        let remarks: Vec<&str> = draft.remarks.iter().map(|r| r.message.as_str()).collect();
+        assert_eq!(remarks.len(), 5, "{remarks:?}");
+        assert!(remarks[1].contains("its kind `cloud` is none of"));
+        assert_eq!(draft.remarks[0].element, "features[1] \"12\"");
+        assert!(read("[1]", 1.0).is_err() && read("{", 1.0).is_err());
+    }
+}

@@ -1,0 +1,57 @@
+//! Names: one of its own for every block and robot.
+
+use std::collections::BTreeSet;
+
+use super::draft::Kind;
+use super::outline::Outlines;
+
+/// What bodies and robots are called in the scene and in what is told.
+pub(super) struct Names {
+    /// One per body: a block's id, `ground[0]` for a part of the ground.
+    pub(super) bodies: Vec<String>,
+    pub(super) robots: Vec<String>,
+}
+
+/// Names as the drawing gives them; twins get numbers, and who has none is called by its number.
+pub(super) fn given(outlines: &mut Outlines) -> Names {
+    // "ground" in a result is the ground.
+    let mut taken = Taken(BTreeSet::from(["ground".to_owned()]));
+    let wanted: BTreeSet<&str> = outlines.bodies.iter().map(|b| b.name.as_str()).collect();
+    let ground = outlines.ground();
+    let mut bodies = Vec::new();
+    for (i, body) in outlines.bodies.iter().enumerate() {
+        bodies.push(match (body.kind, body.name.as_str()) {
+            (Kind::Ground, _) => format!("ground[{i}]"),
+            (_, "") => taken.first_free("", i + 1 - ground, &wanted),
+            (_, name) if taken.0.insert(name.to_owned()) => name.to_owned(),
+            (_, name) => taken.first_free(&format!("{name}-"), 2, &wanted),
+        });
+    }
+    let mut taken = Taken(BTreeSet::new());
+    let wanted: BTreeSet<&str> = outlines.robots.iter().map(|r| r.name.as_str()).collect();
+    let mut robots = Vec::new();
+    for (i, robot) in outlines.robots.iter().enumerate() {
+        robots.push(match robot.name.as_str() {
+            "" => taken.first_free("r", i, &wanted),
+            name if taken.0.insert(name.to_owned()) => name.to_owned(),
+            name => taken.first_free(&format!("{name}-"), 2, &wanted),
+        });
+    }
+    Names { bodies, robots }
+}
+
+struct Taken(BTreeSet<String>);
+
+impl Taken {
+    /// The first number from `from` on with which a name is free and nobody's own.
+    fn first_free(&mut self, stem: &str, from: usize, wanted: &BTreeSet<&str>) -> String {
+        let mut number = from;
+        loop {
+            let name = format!("{stem}{number}");
+            if !wanted.contains(name.as_str()) && self.0.insert(name.clone()) {
+                return name;
+            }
+            number += 1;
+        }
+    }
+}

@@ -1,0 +1,276 @@
+//! Snapping: what nearly touches is made to touch.
+//!
+//! Corners of different bodies that lie within a gap of each other become one place. Then corners within a gap of another
+//! body's side come onto it: a straight side, with all that lies along it, becomes one line and draws the corners there; a
+//! side that stands for a piece of a curve takes the corner in. Invariant: no body loses its shape, and no two bodies lie
+//! deeper in each other than they were drawn; a body that would is left as it was drawn.
+
+mod line;
+mod node;
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use rstar::{AABB, RTree, RTreeObject};
+
+use super::region::{Rings, area, polygon};
+use super::track::Corner;
+use crate::geometry::{Bounds, Pieces, Polygon, overlap};
+use line::Lines;
+use node::Nodes;
+
+/// So many times bodies that came out wrong are put back and the rest is tried again.
+const ROUNDS: usize = 12;
+
+/// What became of the bodies of a drawing.
+pub(super) struct Outcome {
+    pub(super) bodies: Vec<Rings>,
+    pub(super) moved: Vec<Moved>,
+    /// Bodies that had to stay as they were drawn.
+    pub(super) kept: Vec<usize>,
+}
+
+/// A body that was changed.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Moved {
+    pub(super) body: usize,
+    /// How many of its corners moved or came in.
+    pub(super) corners: usize,
+    /// How far the farthest moved, in metres.
+    pub(super) distance: f64,
+    /// What it touches now.
+    pub(super) to: BTreeSet<usize>,
+}
+
+/// The bodies with what lies within `gap` of each other brought together. The earlier body stays where two meet. An
+/// overlap of up to `noise` is none.
+pub(super) fn snapped(bodies: &[Rings], gap: f64, noise: f64) -> Outcome {
+    let mut kept = vec![false; bodies.len()];
+    for _ in 0..ROUNDS {
+        let outcome = attempt(bodies, gap, &kept);
+        let wrong = spoilt(bodies, &outcome.bodies, noise);
+        let fresh: Vec<usize> = wrong.into_iter().filter(|b| !kept[*b]).collect();
+        if fresh.is_empty() {
+            let kept = (0..bodies.len()).filter(|b| kept[*b]).collect();
+            return Outcome { kept, ..outcome };
+        }
+        for body in fresh {
+            kept[body] = true;
+        }
+    }
+    Outcome {
+        bodies: bodies.to_vec(),
+        moved: Vec::new(),
+        kept: (0..bodies.len()).collect(),
+    }
+}
+
+/// A side of a body, between two nodes.
+struct Side {
+    body: usize,
+    ring: usize,
+    corner: usize,
+    ends: [usize; 2],
+    curved: bool,
+    bounds: Bounds,
+}
+
+impl RTreeObject for Side {
+    type Envelope = AABB<[f64; 2]>;
+    fn envelope(&self) -> Self::Envelope {
+        envelope(self.bounds)
+    }
+}
+
+fn envelope(b: Bounds) -> AABB<[f64; 2]> {
+    AABB::from_corners([b.min.x, b.min.y], [b.max.x, b.max.y])
+}
+
+fn attempt(bodies: &[Rings], gap: f64, kept: &[bool]) -> Outcome {
+    let mut nodes = Nodes::of(bodies, gap, kept);
+    let sides = sides(bodies, &nodes);
+    let tree = RTree::bulk_load(sides);
+    let mut touching: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); bodies.len()];
+    for node in &nodes.all {
+        for a in &node.bodies {
+            touching[*a].extend(node.bodies.iter().filter(|b| *b != a));
+        }
+    }
+    // Where corners lie on straight sides, by the side; and those that curved sides take in, by how far along.
+    let mut on: BTreeMap<[usize; 2], BTreeSet<usize>> = BTreeMap::new();
+    let mut taken: BTreeMap<(usize, usize, usize), Vec<(f64, usize)>> = BTreeMap::new();
+    for (number, node) in nodes.all.iter().enumerate() {
+        let around = Bounds {
+            min: node.at,
+            max: node.at,
+        }
+        .grown(gap);
+        for side in tree.locate_in_envelope_intersecting(envelope(around)) {
+            if node.bodies.contains(&side.body) {
+                continue;
+            }
+            let (from, to) = (nodes.all[side.ends[0]].at, nodes.all[side.ends[1]].at);
+            let along = to - from;
+            let length = along.norm();
+            let reach = (node.at - from).dot(&along) / length;
+            let foot = from + along * (reach / length);
+            // Written so that a side of no length takes nothing.
+            let beside = reach > 0.0 && reach < length && (node.at - foot).norm() <= gap;
+            if !beside || (side.curved && kept[side.body]) {
+                continue;
+            }
+            for body in &node.bodies {
+                touching[*body].insert(side.body);
+                touching[side.body].insert(*body);
+            }
+            if side.curved {
+                let key = (side.body, side.ring, side.corner);
+                taken.entry(key).or_default().push((reach, number));
+            } else {
+                let [a, b] = side.ends;
+                on.entry([a.min(b), a.max(b)]).or_default().insert(number);
+            }
+        }
+    }
+    let lines = Lines::of(&nodes, &on, gap);
+    lines.settle(&mut nodes, gap);
+    rebuilt(bodies, &nodes, taken, touching, gap)
+}
+
+fn sides(bodies: &[Rings], nodes: &Nodes) -> Vec<Side> {
+    let mut sides = Vec::new();
+    for (body, rings) in bodies.iter().enumerate() {
+        for (ring, corners) in rings.iter().enumerate() {
+            for corner in 0..corners.len() {
+                let ends =
+                    [corner, (corner + 1) % corners.len()].map(|c| nodes.number(body, ring, c));
+                let places = ends.map(|n| nodes.all[n].at);
+                let Some(bounds) = Bounds::of(places) else {
+                    continue;
+                };
+                sides.push(Side {
+                    body,
+                    ring,
+                    corner,
+                    ends,
+                    curved: corners[corner].curved,
+                    bounds,
+                });
+            }
+        }
+    }
+    sides
+}
+
+/// The bodies with their corners where their nodes are.
+fn rebuilt(
+    bodies: &[Rings],
+    nodes: &Nodes,
+    mut taken: BTreeMap<(usize, usize, usize), Vec<(f64, usize)>>,
+    mut touching: Vec<BTreeSet<usize>>,
+    gap: f64,
+) -> Outcome {
+    let mut moved = Vec::new();
+    let mut out = Vec::new();
+    for (body, rings) in bodies.iter().enumerate() {
+        let (mut corners, mut distance) = (0, 0.0_f64);
+        let mut built = Vec::new();
+        for (ring, old) in rings.iter().enumerate() {
+            let mut new = Vec::with_capacity(old.len());
+            for (i, corner) in old.iter().enumerate() {
+                let at = nodes.all[nodes.number(body, ring, i)].at;
+                let by = (at - corner.at).norm();
+                // Less than a millionth of the gap is the rounding of numbers.
+                if by > 1e-6 * gap {
+                    corners += 1;
+                    distance = distance.max(by);
+                }
+                new.push(Corner { at, ..*corner });
+                if let Some(mut more) = taken.remove(&(body, ring, i)) {
+                    more.sort_by(|a, b| a.0.total_cmp(&b.0));
+                    corners += more.len();
+                    let come_in = |m: &(f64, usize)| Corner {
+                        at: nodes.all[m.1].at,
+                        curved: true,
+                    };
+                    new.extend(more.iter().map(come_in));
+                }
+            }
+            built.push(new);
+        }
+        if corners > 0 {
+            moved.push(Moved {
+                body,
+                corners,
+                distance,
+                to: std::mem::take(&mut touching[body]),
+            });
+        }
+        out.push(built);
+    }
+    Outcome {
+        bodies: out,
+        moved,
+        kept: Vec::new(),
+    }
+}
+
+/// Bodies that came out worse than they were drawn.
+fn spoilt(before: &[Rings], after: &[Rings], noise: f64) -> BTreeSet<usize> {
+    let mut wrong = BTreeSet::new();
+    let mut polygons: Vec<Option<Polygon>> = Vec::new();
+    for (body, (old, new)) in before.iter().zip(after).enumerate() {
+        let sound = old.iter().zip(new).all(|(old, new)| {
+            let (old, new) = (area(old), area(new));
+            // Turned over or nearly gone.
+            old * new > 0.0 && new.abs() > 0.5 * old.abs()
+        });
+        let made = polygon(new).ok().filter(|_| sound);
+        if made.is_none() {
+            wrong.insert(body);
+        }
+        polygons.push(made);
+    }
+    let pieces: Vec<Option<Pieces>> = polygons
+        .iter()
+        .map(|p| p.as_ref().map(Pieces::of))
+        .collect();
+    let drawn = |body: usize| polygon(&before[body]).ok().map(|p| Pieces::of(&p));
+    let entries = polygons
+        .iter()
+        .enumerate()
+        .filter_map(|(i, p)| p.as_ref().map(|p| Boxed(p.bounds(), i)));
+    let tree = RTree::bulk_load(entries.collect());
+    for Boxed(own, a) in &tree {
+        for Boxed(_, b) in tree.locate_in_envelope_intersecting(envelope(*own)) {
+            if b <= a {
+                continue;
+            }
+            let (Some(one), Some(two)) = (&pieces[*a], &pieces[*b]) else {
+                continue;
+            };
+            let Some(now) = overlap(one, two, noise) else {
+                continue;
+            };
+            let then = drawn(*a)
+                .zip(drawn(*b))
+                .and_then(|(one, two)| overlap(&one, &two, 0.0))
+                .map_or(0.0, |o| o.depth);
+            if now.depth > then + noise {
+                wrong.extend([*a, *b]);
+            }
+        }
+    }
+    wrong
+}
+
+struct Boxed(Bounds, usize);
+
+impl RTreeObject for Boxed {
+    type Envelope = AABB<[f64; 2]>;
+    fn envelope(&self) -> Self::Envelope {
+        envelope(self.0)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,174 @@
+//! Walls and arches whose corners are off by a little, healed.
+
+use super::*;
+use crate::geometry::Point;
+
+fn ring(corners: &[(f64, f64)]) -> Rings {
+    let corner = |p: &(f64, f64)| Corner {
+        at: Point::new(p.0, p.1),
+        curved: false,
+    };
+    vec![corners.iter().map(corner).collect()]
+}
+
+fn rectangle(x: f64, y: f64, w: f64, h: f64) -> Rings {
+    ring(&[(x, y), (x + w, y), (x + w, y + h), (x, y + h)])
+}
+
+/// Numbers between −1 and 1 that look like chance.
+fn noise(seed: &mut u64) -> f64 {
+    *seed = seed
+        .wrapping_mul(6_364_136_223_846_793_005)
+        .wrapping_add(1_442_695_040_888_963_407);
+    ((*seed >> 33) as f64) / f64::from(1_u32 << 30) - 1.0
+}
+
+fn shaken(bodies: Vec<Rings>, by: f64) -> Vec<Rings> {
+    let mut seed = 7;
+    let shake = |mut rings: Rings| {
+        for corner in rings.iter_mut().flatten() {
+            corner.at += crate::geometry::Vector::new(by * noise(&mut seed), by * noise(&mut seed));
+        }
+        rings
+    };
+    bodies.into_iter().map(shake).collect()
+}
+
+/// Farthest that a corner near a side of another body lies from it.
+fn misfit(bodies: &[Rings], gap: f64) -> f64 {
+    let mut worst = 0.0_f64;
+    for (i, a) in bodies.iter().enumerate() {
+        for (j, b) in bodies.iter().enumerate() {
+            for p in a.iter().flatten().filter(|_| i != j) {
+                for ring in b {
+                    for (from, to) in ring.iter().zip(ring.iter().cycle().skip(1)) {
+                        let along = (to.at - from.at).normalize();
+                        let d = p.at - from.at;
+                        let (s, off) = (d.dot(&along), d - along * d.dot(&along));
+                        if s > 0.0 && s < (to.at - from.at).norm() && off.norm() < gap {
+                            worst = worst.max(off.norm());
+                        }
+                    }
+                }
+            }
+        }
+    }
+    worst
+}
+
+fn wall(columns: usize, rows: usize) -> Vec<Rings> {
+    let mut bodies = vec![rectangle(-5.0, -1.0, columns as f64 + 10.0, 1.0)];
+    for row in 0..rows {
+        for column in 0..columns {
+            let shift = 0.5 * (row % 2) as f64;
+            bodies.push(rectangle(column as f64 + shift, 0.5 * row as f64, 1.0, 0.5));
+        }
+    }
+    bodies
+}
+
+#[test]
+fn a_wall_with_every_corner_off_by_a_little_closes_its_joints() {
+    let drawn = shaken(wall(12, 7), 0.004);
+    let outcome = snapped(&drawn, 0.02, 1e-6);
+    assert!(outcome.kept.is_empty(), "{:?}", outcome.kept);
+    assert!(misfit(&drawn, 0.02) > 1e-3);
+    assert!(
+        misfit(&outcome.bodies, 0.02) < 1e-9,
+        "{}",
+        misfit(&outcome.bodies, 0.02)
+    );
+    assert_eq!(spoilt(&drawn, &outcome.bodies, 1e-6), BTreeSet::new());
+    for moved in &outcome.moved {
+        assert!(moved.distance < 0.02 && !moved.to.is_empty(), "{moved:?}");
+    }
+}
+
+#[test]
+fn what_is_exact_stays_as_it_is_to_the_last_bit() {
+    let drawn = wall(5, 4);
+    let outcome = snapped(&drawn, 0.02, 1e-6);
+    assert!(outcome.moved.is_empty() && outcome.kept.is_empty());
+    assert_eq!(outcome.bodies, drawn);
+}
+
+#[test]
+fn a_body_thinner_than_the_gap_is_not_flattened() {
+    let drawn = vec![
+        rectangle(0.0, 0.0, 4.0, 1.0),
+        rectangle(1.0, 1.0, 2.0, 0.01),
+        rectangle(0.0, 1.01, 4.0, 1.0),
+    ];
+    let outcome = snapped(&drawn, 0.05, 1e-6);
+    for (old, new) in drawn.iter().zip(&outcome.bodies) {
+        assert!(area(&new[0]) > 0.5 * area(&old[0]));
+    }
+    assert_eq!(spoilt(&drawn, &outcome.bodies, 1e-6), BTreeSet::new());
+}
+
+#[test]
+fn the_earlier_body_stays_and_the_later_comes_to_it() {
+    let drawn = vec![
+        rectangle(-1.0, -1.0, 9.0, 1.0),
+        rectangle(2.0, 0.003, 1.0, 2.0),
+    ];
+    let outcome = snapped(&drawn, 0.01, 1e-6);
+    assert_eq!(outcome.bodies[0], drawn[0]);
+    assert_eq!(outcome.bodies[1][0][0].at, Point::new(2.0, 0.0));
+    assert_eq!(outcome.bodies[1][0][1].at, Point::new(3.0, 0.0));
+    assert_eq!(outcome.moved.len(), 1);
+    assert_eq!((outcome.moved[0].body, outcome.moved[0].corners), (1, 2));
+    assert!((outcome.moved[0].distance - 0.003).abs() < 1e-12);
+    // Beyond the gap it is a gap.
+    assert!(snapped(&drawn, 0.002, 1e-6).moved.is_empty());
+}
+
+#[test]
+fn an_overlap_of_less_than_the_gap_is_healed_and_a_deep_one_stays_as_it_is() {
+    let shallow = vec![
+        rectangle(0.0, 0.0, 4.0, 1.0),
+        rectangle(1.0, 0.996, 2.0, 1.0),
+    ];
+    let healed = snapped(&shallow, 0.01, 1e-6);
+    assert!(misfit(&healed.bodies, 0.01) < 1e-12);
+    let deep = vec![rectangle(0.0, 0.0, 4.0, 1.0), rectangle(1.0, 0.7, 2.0, 1.0)];
+    assert_eq!(snapped(&deep, 0.01, 1e-6).bodies, deep);
+}
+
+#[test]
+fn a_curve_takes_in_the_corners_of_the_curve_that_lies_on_it() {
+    let arc = |steps: usize, radius: f64, back: bool| {
+        let mut points: Vec<Corner> = (0..=steps)
+            .map(|k| {
+                let (sin, cos) =
+                    libm::sincos(core::f64::consts::PI * (0.25 + 0.5 * k as f64 / steps as f64));
+                Corner {
+                    at: Point::new(radius * cos, radius * sin),
+                    curved: true,
+                }
+            })
+            .collect();
+        if back {
+            points.reverse();
+        }
+        if let Some(last) = points.last_mut() {
+            last.curved = false;
+        }
+        points
+    };
+    let band = |inner: f64, outer: f64, steps: [usize; 2]| {
+        let mut ring = arc(steps[1], outer, false);
+        ring.extend(arc(steps[0], inner, true));
+        vec![ring]
+    };
+    let drawn = vec![band(1.0, 2.0, [9, 14]), band(2.0, 3.0, [11, 14])];
+    let gap = 2.0 * (1.0 - libm::cos(core::f64::consts::PI / 44.0)) + 1e-3;
+    let outcome = snapped(&drawn, gap, 1e-6);
+    assert!(outcome.kept.is_empty());
+    assert!(
+        misfit(&outcome.bodies, gap) < 1e-12,
+        "{}",
+        misfit(&outcome.bodies, gap)
+    );
+    assert_eq!(outcome.bodies[0][0].len(), drawn[0][0].len() + 10);
+}

@@ -1,0 +1,180 @@
+//! The basic shapes of SVG as tracks.
+
+use core::f64::consts::FRAC_PI_2;
+
+use roxmltree::Node;
+use svgtypes::PointsParser;
+
+use super::path;
+use super::viewport::{Viewport, length};
+use crate::geometry::{Point, Vector};
+use crate::import::track::{Arc, Piece, Track};
+
+/// The tracks of a shape, in its own coordinates.
+///
+/// # Errors
+/// What is wrong with it, in words.
+pub(super) fn tracks(node: Node<'_, '_>, viewport: Viewport) -> Result<Vec<Track>, String> {
+    let tag = node.tag_name().name();
+    let across = |name| length(node, name, viewport.width);
+    let down = |name| length(node, name, viewport.height);
+    let diagonal = libm::hypot(viewport.width, viewport.height) / core::f64::consts::SQRT_2;
+    let round = |name| length(node, name, diagonal);
+    let positive = |name: &str, value: Option<f64>| match value {
+        Some(v) if v > 0.0 => Ok(v),
+        Some(v) => Err(format!("its {name} is {v}")),
+        None => Err(format!("it has no {name}")),
+    };
+    match tag {
+        "rect" => {
+            let at = Point::new(across("x").unwrap_or(0.0), down("y").unwrap_or(0.0));
+            let width = positive("width", across("width"))?;
+            let height = positive("height", down("height"))?;
+            let radius = |own: Option<f64>, other: Option<f64>, side: f64| {
+                own.or(other).unwrap_or(0.0).clamp(0.0, side / 2.0)
+            };
+            let (rx, ry) = (across("rx"), down("ry"));
+            let radii = Vector::new(radius(rx, ry, width), radius(ry, rx, height));
+            Ok(vec![rectangle(at, Vector::new(width, height), radii)])
+        }
+        "circle" | "ellipse" => {
+            let centre = Point::new(across("cx").unwrap_or(0.0), down("cy").unwrap_or(0.0));
+            let (rx, ry) = if tag == "circle" {
+                let r = positive("radius", round("r"))?;
+                (r, r)
+            } else {
+                let (rx, ry) = (across("rx"), down("ry"));
+                (
+                    positive("radius rx", rx.or(ry))?,
+                    positive("radius ry", ry.or(rx))?,
+                )
+            };
+            Ok(vec![Track::ellipse(centre, rx, ry)])
+        }
+        "polygon" | "polyline" => {
+            let text = node.attribute("points").unwrap_or("");
+            let points: Vec<Point> = PointsParser::from(text)
+                .map(|p| Point::new(p.0, p.1))
+                .collect();
+            let Some(track) = Track::closed(&points) else {
+                return Err("it has no points".into());
+            };
+            let closed = tag == "polygon";
+            Ok(vec![Track { closed, ..track }])
+        }
+        "line" => {
+            let place = |x, y| Point::new(across(x).unwrap_or(0.0), down(y).unwrap_or(0.0));
+            let pieces = vec![Piece::Line(place("x2", "y2"))];
+            Ok(vec![Track {
+                start: place("x1", "y1"),
+                pieces,
+                closed: false,
+            }])
+        }
+        _ => path::tracks(node.attribute("d").unwrap_or(""))
+            .map_err(|why| format!("its path data cannot be read ({why})")),
+    }
+}
+
+fn rectangle(at: Point, size: Vector, radii: Vector) -> Track {
+    let corner = |x: f64, y: f64| at + Vector::new(x * size.x, y * size.y);
+    if !(radii.x > 0.0 && radii.y > 0.0) {
+        let corners = [
+            corner(0.0, 0.0),
+            corner(1.0, 0.0),
+            corner(1.0, 1.0),
+            corner(0.0, 1.0),
+        ];
+        return Track {
+            start: corners[0],
+            pieces: corners[1..].iter().map(|p| Piece::Line(*p)).collect(),
+            closed: true,
+        };
+    }
+    let (u, v) = (Vector::new(radii.x, 0.0), Vector::new(0.0, radii.y));
+    let mut pieces = Vec::new();
+    // Clockwise on the page, from the end of the upper left rounding.
+    let roundings = [
+        (corner(1.0, 0.0) - u + v, -1.0, -v, u),
+        (corner(1.0, 1.0) - u - v, 0.0, u, v),
+        (corner(0.0, 1.0) + u - v, 1.0, v, -u),
+        (corner(0.0, 0.0) + u + v, 2.0, -u, -v),
+    ];
+    for (centre, quarters, from, to) in roundings {
+        pieces.push(Piece::Line(centre + from));
+        pieces.push(Piece::Arc(Arc {
+            centre,
+            u,
+            v,
+            from: quarters * FRAC_PI_2,
+            sweep: FRAC_PI_2,
+            to: centre + to,
+        }));
+    }
+    Track {
+        start: corner(0.0, 0.0) + u,
+        pieces,
+        closed: true,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::import::region::area;
+
+    fn shape(element: &str) -> Result<Vec<Track>, String> {
+        let document = roxmltree::Document::parse(element).expect("XML");
+        let viewport = Viewport {
+            width: 200.0,
+            height: 100.0,
+            copied: (None, None),
+        };
+        tracks(document.root_element(), viewport)
+    }
+
+    fn shape_area(element: &str) -> f64 {
+        let tracks = shape(element).expect("a shape");
+        area(&tracks[0].flattened(1e-4, 1e-9).expect("closed"))
+    }
+
+    #[test]
+    fn shapes_have_the_areas_they_should() {
+        let quarter = core::f64::consts::FRAC_PI_4;
+        for (element, expected) in [
+            ("<rect x='1' y='2' width='4' height='3'/>", 12.0),
+            (
+                "<rect width='4' height='3' rx='1'/>",
+                12.0 - 4.0 + 4.0 * quarter,
+            ),
+            (
+                "<rect width='4' height='3' rx='9' ry='0.5'/>",
+                12.0 - 4.0 + 4.0 * quarter,
+            ),
+            ("<rect width='10%' height='10%'/>", 200.0),
+            ("<circle cx='3' r='2'/>", 16.0 * quarter),
+            ("<ellipse rx='2' ry='1'/>", 8.0 * quarter),
+            ("<polygon points='0 0,4 0 4,3'/>", 6.0),
+            ("<path d='M0 0h4v3z'/>", 6.0),
+        ] {
+            let found = shape_area(element);
+            assert!(
+                (found - expected).abs() < 2e-3,
+                "{element}: {found} {expected}"
+            );
+        }
+    }
+
+    #[test]
+    fn shapes_without_a_size_say_so() {
+        for (element, why) in [
+            ("<rect width='4'/>", "it has no height"),
+            ("<circle r='-1'/>", "its radius is -1"),
+            ("<polygon/>", "it has no points"),
+            ("<path d='M0 0 L'/>", "its path data"),
+        ] {
+            let told = shape(element).expect_err("no shape");
+            assert!(told.starts_with(why), "{told}");
+        }
+    }
+}

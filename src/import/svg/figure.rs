@@ -1,0 +1,164 @@
+//! A figure that drystone drew, read back: its blocks, ground and robots, and nothing of its forces.
+
+use roxmltree::{Node, NodeType};
+
+use super::style::Style;
+use super::viewport::Viewport;
+use super::{Around, Walk, element, is, words};
+use crate::import::affine::Affine;
+use crate::import::draft::{Form, Kind, Part, Rule, Values};
+
+const SCALE: &str = "data-drystone-scale";
+const ORIGIN: &str = "data-drystone-origin";
+
+/// The frames of a figure of ours, in their order; `None` for any other drawing.
+pub(super) fn pictures<'a, 'd>(root: Node<'a, 'd>) -> Option<Vec<Node<'a, 'd>>> {
+    let found: Vec<Node<'a, 'd>> = root
+        .descendants()
+        .filter(|n| {
+            n.node_type() == NodeType::Element && n.has_attribute(SCALE) && n.has_attribute(ORIGIN)
+        })
+        .collect();
+    (!found.is_empty()).then_some(found)
+}
+
+impl<'a, 'd> Walk<'a, 'd> {
+    /// One frame of a figure, by its number from 0; the last where none is asked for.
+    pub(super) fn figure(
+        &mut self,
+        pictures: &[Node<'a, 'd>],
+        scale: Option<f64>,
+        frame: Option<usize>,
+    ) -> Result<(), String> {
+        let count = pictures.len();
+        let number = frame.unwrap_or(count - 1);
+        let Some(picture) = pictures.get(number).copied() else {
+            let has = if count == 1 {
+                "one frame".into()
+            } else {
+                format!("{count} frames")
+            };
+            return Err(format!("there is no frame {}: it has {has}", number + 1));
+        };
+        let numbers = |name: &str| -> Option<Vec<f64>> {
+            let text = picture.attribute(name)?;
+            let all = text
+                .split_whitespace()
+                .map(|t| t.parse::<f64>().ok().filter(|x| x.is_finite()));
+            all.collect()
+        };
+        let (pixels, origin) = (numbers(SCALE), numbers(ORIGIN));
+        let (Some([pixels]), Some([x, y])) = (pixels.as_deref(), origin.as_deref()) else {
+            return Err(format!(
+                "its {SCALE} and {ORIGIN} are not the three numbers that drystone writes"
+            ));
+        };
+        let metres = scale.unwrap_or(1.0 / pixels);
+        if !(metres.is_finite() && metres > 0.0) {
+            return Err(format!("its {SCALE} is {pixels}"));
+        }
+        let note = if count == 1 {
+            "a figure by drystone".into()
+        } else {
+            format!(
+                "a figure by drystone; taken from its frame {} of {count}",
+                number + 1
+            )
+        };
+        self.draft.notes.push(format!(
+            "{note}: colours and arrows tell forces and are not taken, and weights, friction and limits are not in it"
+        ));
+        let around = Around {
+            map: Affine([metres, 0.0, 0.0, -metres, -metres * x, metres * y]),
+            style: Style::ROOT,
+            viewport: Viewport {
+                width: 0.0,
+                height: 0.0,
+                copied: (None, None),
+            },
+            kind: None,
+            group: None,
+            copy: None,
+            depth: 0,
+        };
+        self.within(picture, &around);
+        Ok(())
+    }
+
+    fn within(&mut self, node: Node<'a, 'd>, around: &Around) {
+        // A figure of ours nests no deeper.
+        if around.depth > 4 {
+            return;
+        }
+        for child in node.children().filter(|n| is(*n, "g")) {
+            // An editor may have moved things.
+            let around = Around {
+                map: around.map.after(&self.transform(child, around)),
+                depth: around.depth + 1,
+                ..around.clone()
+            };
+            let title = child
+                .children()
+                .find(|n| is(*n, "title"))
+                .map(words)
+                .unwrap_or_default();
+            match child.attribute("class").unwrap_or("") {
+                "ground" => {
+                    for path in child.children().filter(|n| is(*n, "path")) {
+                        self.body(path, &around, Kind::Ground, "");
+                    }
+                }
+                "blocks" => {
+                    // Very many blocks come in one path for each colour, without names.
+                    for path in child.children().filter(|n| is(*n, "path")) {
+                        self.body(path, &around, Kind::Block, "");
+                    }
+                    self.within(child, &around);
+                }
+                "block" => {
+                    let name = title.strip_prefix("Block ").unwrap_or(&title);
+                    if let Some(path) = child.children().find(|n| is(*n, "path")) {
+                        self.body(path, &around, Kind::Block, name);
+                    }
+                }
+                "robots" => self.within(child, &around),
+                "robot" => {
+                    let name = title.strip_prefix("Robot ").unwrap_or(&title);
+                    let name = name.split_once(" holds block ").map_or(name, |n| n.0);
+                    if let Some(path) = child.children().find(|n| is(*n, "path")) {
+                        self.body(path, &around, Kind::Robot, name);
+                    }
+                }
+                "plans" => {
+                    for plan in child.children().filter(|n| is(*n, "g")) {
+                        self.skip(plan, &around, "is only planned");
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn body(&mut self, path: Node<'a, 'd>, around: &Around, kind: Kind, name: &str) {
+        let map = around.map.after(&self.transform(path, around));
+        let element = match (kind, name) {
+            (Kind::Block, name) if !name.is_empty() => format!("block \"{name}\""),
+            (Kind::Robot, name) => format!("robot \"{name}\""),
+            _ => self.lines.element(path),
+        };
+        match element::tracks(path, around.viewport) {
+            Ok(tracks) => self.draft.parts.push(Part {
+                kind,
+                name: name.to_owned(),
+                element,
+                form: Form::Tracks(
+                    tracks.iter().map(|t| t.mapped(&map)).collect(),
+                    Rule::NonZero,
+                ),
+                fill: None,
+                values: Values::default(),
+            }),
+            Err(why) => self.draft.remark(element, format!("{why}; left out"), ""),
+        }
+    }
+}

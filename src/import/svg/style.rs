@@ -1,0 +1,224 @@
+//! [`Style`]: what an element looks like, as far as it matters here: from presentation attributes, style sheets and `style`.
+
+use roxmltree::Node;
+use simplecss::{AttributeOperator, DeclarationTokenizer, PseudoClass, StyleSheet};
+use svgtypes::{Color, Paint, PaintFallback};
+
+use crate::import::draft::Rule;
+
+/// The looks an element has, most of them handed down.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Style {
+    pub(super) fill: Fill,
+    /// `currentColor`.
+    colour: Option<[u8; 3]>,
+    pub(super) rule: Rule,
+    pub(super) visible: bool,
+    /// Whether the element and all in it are taken out by `display: none`; not handed down but final.
+    pub(super) displayed: bool,
+    pub(super) clipped: bool,
+    pub(super) masked: bool,
+}
+
+/// What fills an element.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Fill {
+    /// Nobody said, and SVG would take black.
+    Unsaid,
+    None,
+    Colour([u8; 3]),
+    /// A gradient or a pattern.
+    Picture,
+    /// Something that is no paint.
+    Unknown,
+}
+
+impl Style {
+    pub(super) const ROOT: Style = Style {
+        fill: Fill::Unsaid,
+        colour: None,
+        rule: Rule::NonZero,
+        visible: true,
+        displayed: true,
+        clipped: false,
+        masked: false,
+    };
+
+    /// The style of an element within one of this style.
+    pub(super) fn of(&self, node: Node<'_, '_>, sheet: &StyleSheet<'_>) -> Style {
+        let mut style = Style {
+            displayed: true,
+            clipped: false,
+            masked: false,
+            ..*self
+        };
+        let own = said(node, sheet);
+        // `currentColor` in a fill means the colour of the same element, wherever it is said.
+        for (name, value) in own.iter().filter(|d| d.0 == "color") {
+            style.set(name, value, self);
+        }
+        for (name, value) in own.iter().filter(|d| d.0 != "color") {
+            style.set(name, value, self);
+        }
+        style
+    }
+
+    fn set(&mut self, name: &str, value: &str, outer: &Style) {
+        let value = value.trim();
+        match name {
+            "color" => {
+                if let Ok(colour) = value.parse::<Color>() {
+                    self.colour = Some(bytes(colour));
+                }
+            }
+            "fill" => {
+                self.fill = match Paint::from_str(value) {
+                    Ok(Paint::None) => Fill::None,
+                    Ok(Paint::Inherit) => outer.fill,
+                    Ok(Paint::CurrentColor) => self.current(),
+                    Ok(Paint::Color(colour)) => Fill::Colour(bytes(colour)),
+                    Ok(Paint::FuncIRI(_, Some(PaintFallback::Color(colour)))) => {
+                        Fill::Colour(bytes(colour))
+                    }
+                    Ok(Paint::FuncIRI(_, _)) => Fill::Picture,
+                    Ok(Paint::ContextFill | Paint::ContextStroke) => Fill::Unsaid,
+                    Err(_) => Fill::Unknown,
+                };
+            }
+            "fill-rule" => match value {
+                "evenodd" => self.rule = Rule::EvenOdd,
+                "nonzero" => self.rule = Rule::NonZero,
+                _ => {}
+            },
+            "visibility" => match value {
+                "visible" => self.visible = true,
+                "hidden" | "collapse" => self.visible = false,
+                _ => {}
+            },
+            "display" => self.displayed = value != "none",
+            "clip-path" => self.clipped = value != "none",
+            "mask" => self.masked = value != "none",
+            _ => {}
+        }
+    }
+
+    fn current(&self) -> Fill {
+        self.colour.map_or(Fill::Unsaid, Fill::Colour)
+    }
+}
+
+fn bytes(colour: Color) -> [u8; 3] {
+    [colour.red, colour.green, colour.blue]
+}
+
+/// Everything said of an element, what counts more coming later.
+fn said<'v>(node: Node<'v, '_>, sheet: &'v StyleSheet<'_>) -> Vec<(&'v str, &'v str)> {
+    let mut plain: Vec<(&str, &str)> = node
+        .attributes()
+        .filter(|a| a.namespace().is_none() && a.name() != "style")
+        .map(|a| (a.name(), a.value()))
+        .collect();
+    let mut important = Vec::new();
+    let inline = node.attribute("style").unwrap_or("");
+    let rules = sheet
+        .rules
+        .iter()
+        .filter(|rule| rule.selector.matches(&Matched(node)))
+        .flat_map(|rule| rule.declarations.iter().copied());
+    for declaration in rules.chain(DeclarationTokenizer::from(inline)) {
+        let list = if declaration.important {
+            &mut important
+        } else {
+            &mut plain
+        };
+        list.push((declaration.name, declaration.value));
+    }
+    plain.extend(important);
+    plain
+}
+
+struct Matched<'a, 'd>(Node<'a, 'd>);
+
+impl simplecss::Element for Matched<'_, '_> {
+    fn parent_element(&self) -> Option<Self> {
+        self.0.parent_element().map(Matched)
+    }
+
+    fn prev_sibling_element(&self) -> Option<Self> {
+        self.0.prev_sibling_element().map(Matched)
+    }
+
+    fn has_local_name(&self, name: &str) -> bool {
+        self.0.tag_name().name() == name
+    }
+
+    fn attribute_matches(&self, name: &str, operator: AttributeOperator<'_>) -> bool {
+        self.0
+            .attribute(name)
+            .is_some_and(|value| operator.matches(value))
+    }
+
+    fn pseudo_class_matches(&self, class: PseudoClass<'_>) -> bool {
+        class == PseudoClass::FirstChild && self.0.prev_sibling_element().is_none()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn style(element: &str, css: &str) -> Style {
+        let text = format!("<svg fill='red' color='#010203'>{element}</svg>");
+        let document = roxmltree::Document::parse(&text).expect("XML");
+        let root = document.root_element();
+        let sheet = StyleSheet::parse(css);
+        let outer = Style::ROOT.of(root, &sheet);
+        outer.of(root.first_element_child().expect("an element"), &sheet)
+    }
+
+    #[test]
+    fn what_is_said_closer_counts_more() {
+        let cases = [
+            ("<g/>", "", [255, 0, 0]),
+            ("<g fill='#0f0'/>", "", [0, 255, 0]),
+            (
+                "<g fill='#0f0' class='a'/>",
+                ".a { fill: blue }",
+                [0, 0, 255],
+            ),
+            (
+                "<g class='a' style='fill:#8b6b3d'/>",
+                ".a { fill: blue }",
+                [0x8b, 0x6b, 0x3d],
+            ),
+            (
+                "<g class='a' style='fill:#000'/>",
+                ".a { fill: blue !important }",
+                [0, 0, 255],
+            ),
+            ("<g style='fill: inherit'/>", "", [255, 0, 0]),
+            ("<g fill='currentColor'/>", "", [1, 2, 3]),
+            (
+                "<g fill='currentColor' style='color:rgb(4,5,6)'/>",
+                "",
+                [4, 5, 6],
+            ),
+            ("<g fill='url(#a) #070809'/>", "", [7, 8, 9]),
+        ];
+        for (element, css, fill) in cases {
+            assert_eq!(style(element, css).fill, Fill::Colour(fill), "{element}");
+        }
+        assert_eq!(style("<g fill='none'/>", "").fill, Fill::None);
+        assert_eq!(style("<g fill='url(#a)'/>", "").fill, Fill::Picture);
+        assert_eq!(style("<g fill='#zz'/>", "").fill, Fill::Unknown);
+    }
+
+    #[test]
+    fn what_hides_is_seen() {
+        assert!(!style("<g style='display:none'/>", "").displayed);
+        assert!(!style("<g visibility='hidden'/>", "").visible);
+        assert!(style("<g clip-path='url(#c)'/>", "").clipped);
+        assert!(style("<g mask='url(#m)'/>", "").masked);
+        assert_eq!(style("<g fill-rule='evenodd'/>", "").rule, Rule::EvenOdd);
+    }
+}

@@ -1,0 +1,235 @@
+//! [`Viewport`]: lengths and view boxes, and how large a drawing says it is.
+
+use core::str::FromStr;
+
+use roxmltree::Node;
+use svgtypes::{Align, AspectRatio, Length, LengthUnit, ViewBox};
+
+use super::Around;
+use crate::import::affine::Affine;
+
+/// What percentages are of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Viewport {
+    pub(super) width: f64,
+    pub(super) height: f64,
+    /// The size that a copy gives the symbol it copies.
+    pub(super) copied: (Option<f64>, Option<f64>),
+}
+
+/// The root's page.
+pub(super) struct Page {
+    pub(super) viewport: Viewport,
+    /// Left and lower edge in user units.
+    pub(super) left: f64,
+    pub(super) bottom: f64,
+    /// Metres per user unit and the size that tells it, where there is a physical size.
+    pub(super) unit: Option<(f64, String)>,
+}
+
+/// What the root element says of its size.
+pub(super) fn page(root: Node<'_, '_>) -> Page {
+    let sizes =
+        ["width", "height"].map(|name| root.attribute(name).and_then(|t| Length::from_str(t).ok()));
+    let view = view_box(root);
+    let pixels = |i: usize| {
+        sizes[i]
+            .and_then(|l| in_pixels(l, None))
+            .filter(|p| *p > 0.0)
+    };
+    let view = view.or_else(|| Some(ViewBox::new(0.0, 0.0, pixels(0)?, pixels(1)?)));
+    let metres = |i: usize| sizes[i].and_then(physical).filter(|m| *m > 0.0);
+    let mut unit = None;
+    if let Some(view) = view {
+        // As a viewer shows it: where width and height disagree, the smaller scale holds.
+        let per_width = metres(0).map(|m| m / view.w);
+        let per_height = metres(1).map(|m| m / view.h);
+        let scale = match (per_width, per_height) {
+            (Some(w), Some(h)) => Some(w.min(h)),
+            (w, h) => w.or(h),
+        };
+        if let Some(scale) = scale.filter(|s| s.is_finite() && *s > 0.0) {
+            unit = Some((neat(scale), told(root, per_width.is_some())));
+        }
+    } else if metres(0).or(metres(1)).is_some() {
+        // Without a view box a unit is a pixel of 1/96 in.
+        unit = Some((0.0254 / 96.0, told(root, metres(0).is_some())));
+    }
+    let shown = view.unwrap_or(ViewBox::new(0.0, 0.0, 0.0, 0.0));
+    Page {
+        viewport: Viewport {
+            width: shown.w,
+            height: shown.h,
+            copied: (None, None),
+        },
+        left: shown.x,
+        bottom: shown.y + shown.h,
+        unit,
+    }
+}
+
+/// The size that told the scale, in words.
+fn told(root: Node<'_, '_>, by_width: bool) -> String {
+    let (name, way) = if by_width {
+        ("width", "wide")
+    } else {
+        ("height", "high")
+    };
+    format!("{} {way}", root.attribute(name).unwrap_or("").trim())
+}
+
+/// The map and percentages within a nested `<svg>` or a `<symbol>`.
+pub(super) fn enter(node: Node<'_, '_>, inner: &mut Around) {
+    let (copied_width, copied_height) = inner.viewport.copied;
+    let outer = inner.viewport;
+    let (mut x, mut y) = (0.0, 0.0);
+    let mut size = (copied_width, copied_height);
+    if node.tag_name().name() == "svg" {
+        x = length(node, "x", outer.width).unwrap_or(0.0);
+        y = length(node, "y", outer.height).unwrap_or(0.0);
+        size.0 = size.0.or(length(node, "width", outer.width));
+        size.1 = size.1.or(length(node, "height", outer.height));
+    }
+    let (width, height) = (
+        size.0.unwrap_or(outer.width),
+        size.1.unwrap_or(outer.height),
+    );
+    inner.map = inner.map.after(&Affine::moving(x, y));
+    inner.viewport = Viewport {
+        width,
+        height,
+        copied: (None, None),
+    };
+    if let Some(view) = view_box(node)
+        && width > 0.0
+        && height > 0.0
+    {
+        let ratio = node
+            .attribute("preserveAspectRatio")
+            .and_then(|t| AspectRatio::from_str(t).ok());
+        inner.map = inner
+            .map
+            .after(&fitted(view, width, height, ratio.unwrap_or_default()));
+        inner.viewport.width = view.w;
+        inner.viewport.height = view.h;
+    }
+}
+
+/// A length in user units; `None` where it is not given or no length.
+pub(super) fn length(node: Node<'_, '_>, name: &str, whole: f64) -> Option<f64> {
+    in_pixels(Length::from_str(node.attribute(name)?).ok()?, Some(whole))
+}
+
+fn view_box(node: Node<'_, '_>) -> Option<ViewBox> {
+    let text = node.attribute("viewBox")?;
+    let view = ViewBox::from_str(text).ok()?;
+    [view.x, view.y, view.w, view.h]
+        .iter()
+        .all(|v| v.is_finite())
+        .then_some(view)
+}
+
+/// The map of a view box into a viewport of its own.
+fn fitted(view: ViewBox, width: f64, height: f64, ratio: AspectRatio) -> Affine {
+    let (sx, sy) = (width / view.w, height / view.h);
+    if ratio.align == Align::None {
+        return Affine::scaling(sx, sy).after(&Affine::moving(-view.x, -view.y));
+    }
+    let scale = if ratio.slice { sx.max(sy) } else { sx.min(sy) };
+    let (free_x, free_y) = (width - scale * view.w, height - scale * view.h);
+    let (x, y) = match ratio.align {
+        Align::XMinYMin | Align::None => (0.0, 0.0),
+        Align::XMidYMin => (0.5, 0.0),
+        Align::XMaxYMin => (1.0, 0.0),
+        Align::XMinYMid => (0.0, 0.5),
+        Align::XMidYMid => (0.5, 0.5),
+        Align::XMaxYMid => (1.0, 0.5),
+        Align::XMinYMax => (0.0, 1.0),
+        Align::XMidYMax => (0.5, 1.0),
+        Align::XMaxYMax => (1.0, 1.0),
+    };
+    Affine::moving(x * free_x, y * free_y)
+        .after(&Affine::scaling(scale, scale))
+        .after(&Affine::moving(-view.x, -view.y))
+}
+
+fn in_pixels(length: Length, whole: Option<f64>) -> Option<f64> {
+    let n = length.number;
+    let pixels = match length.unit {
+        LengthUnit::None | LengthUnit::Px => n,
+        LengthUnit::Percent => n / 100.0 * whole?,
+        // A browser's letters, where nobody says otherwise.
+        LengthUnit::Em => 16.0 * n,
+        LengthUnit::Ex => 8.0 * n,
+        _ => physical(length)? / 0.0254 * 96.0,
+    };
+    pixels.is_finite().then_some(pixels)
+}
+
+/// Metres, of a length in a unit that is as long everywhere.
+fn physical(length: Length) -> Option<f64> {
+    let metres = match length.unit {
+        LengthUnit::Mm => 1e-3,
+        LengthUnit::Cm => 1e-2,
+        LengthUnit::In => 0.0254,
+        LengthUnit::Pt => 0.0254 / 72.0,
+        LengthUnit::Pc => 0.0254 / 6.0,
+        _ => return None,
+    };
+    Some(length.number * metres)
+}
+
+/// A scale without the noise of its division: 0.001 for 210 mm over 210 units.
+fn neat(scale: f64) -> f64 {
+    format!("{scale:.14e}").parse().unwrap_or(scale)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn unit(attributes: &str) -> Option<f64> {
+        let text = format!("<svg {attributes}/>");
+        let document = roxmltree::Document::parse(&text).expect("XML");
+        page(document.root_element()).unit.map(|u| u.0)
+    }
+
+    #[test]
+    fn a_drawing_of_a_physical_size_tells_its_unit() {
+        assert_eq!(
+            unit("width='210mm' height='297mm' viewBox='0 0 210 297'"),
+            Some(0.001)
+        );
+        assert_eq!(unit("width='20cm' viewBox='0 0 50 10'"), Some(0.004));
+        for pixels in ["width='10in' height='5in'", "width='5mm'"] {
+            let found = unit(pixels).expect("a size");
+            assert!((found / 0.0254 * 96.0 - 1.0).abs() < 1e-13, "{found}");
+        }
+        assert_eq!(
+            unit("width='72pt' height='72pt' viewBox='0 0 2 1'"),
+            Some(0.0127)
+        );
+        for none in [
+            "width='800px' height='600px'",
+            "width='100%' viewBox='0 0 5 5'",
+            "viewBox='0 0 5 5'",
+            "",
+        ] {
+            assert_eq!(unit(none), None, "{none}");
+        }
+    }
+
+    #[test]
+    fn a_view_box_is_fitted_as_it_says() {
+        use crate::geometry::Point;
+        let view = ViewBox::new(10.0, 0.0, 4.0, 2.0);
+        let at = |ratio: &str| {
+            let ratio = AspectRatio::from_str(ratio).expect("a ratio");
+            fitted(view, 8.0, 8.0, ratio).point(Point::new(14.0, 2.0))
+        };
+        assert_eq!(at("xMidYMid"), Point::new(8.0, 6.0));
+        assert_eq!(at("xMinYMax"), Point::new(8.0, 8.0));
+        assert_eq!(at("none"), Point::new(8.0, 8.0));
+        assert_eq!(at("xMinYMin slice"), Point::new(16.0, 8.0));
+    }
+}

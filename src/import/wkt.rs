@@ -1,0 +1,278 @@
+//! Well-known text into a [`Draft`]: one geometry per line, with its name before it where it has one.
+
+use super::draft::{Draft, Form, Kind, Part, Rule, Values};
+use super::track::Track;
+use crate::geometry::Point;
+
+/// Collections lie at most so deep in each other.
+const DEEPEST: usize = 50;
+
+/// What lines of well-known text hold; lines that begin with `#` are passed over.
+pub(super) fn read(text: &str, scale: f64) -> Draft {
+    let mut draft = Draft::default();
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    for (number, line) in text.lines().enumerate() {
+        let line = line.trim();
+        if line.is_empty() || line.starts_with('#') {
+            continue;
+        }
+        let (name, rest) = named(line);
+        let mut element = format!("line {}", number + 1);
+        if !name.is_empty() {
+            element = format!("{element} \"{name}\"");
+        }
+        let kind = Kind::of(name);
+        if kind == Some(Kind::Ignored) {
+            draft
+                .notes
+                .push(format!("{element} is left out: it asks for it by its name"));
+            continue;
+        }
+        let mut reader = Reader {
+            rest,
+            scale,
+            robot: kind == Some(Kind::Robot),
+            found: Vec::new(),
+        };
+        let read = reader.geometry(0).and_then(|()| {
+            if reader.rest.trim().is_empty() {
+                Ok(())
+            } else {
+                Err(reader.stuck("the end of the line"))
+            }
+        });
+        if let Err(why) = read {
+            draft.remark(
+                element,
+                format!("{why}; left out"),
+                "write a line as: name; POLYGON ((0 0, 2 0, 2 1, 0 0))",
+            );
+            continue;
+        }
+        if reader.found.is_empty() {
+            draft.remark(&element, "it is empty; left out", "");
+        }
+        draft
+            .parts
+            .extend(reader.found.into_iter().map(|form| Part {
+                kind: kind.unwrap_or(Kind::Block),
+                name: name.to_owned(),
+                element: element.clone(),
+                form,
+                fill: None,
+                values: Values::default(),
+            }));
+    }
+    draft
+}
+
+/// A line's name and geometry. What a database puts before a geometry, `SRID=…;`, is no name.
+fn named(line: &str) -> (&str, &str) {
+    let geometry = line.find('(').unwrap_or(line.len());
+    match line[..geometry].rfind([';', '\t']) {
+        Some(end) => {
+            let name = line[..end].trim_matches(|c: char| c.is_whitespace() || c == ';');
+            let is_system = name
+                .get(..5)
+                .is_some_and(|s| s.eq_ignore_ascii_case("srid="));
+            (
+                if is_system {
+                    ""
+                } else {
+                    name.trim_matches('"')
+                },
+                &line[end + 1..],
+            )
+        }
+        None => ("", line),
+    }
+}
+
+struct Reader<'t> {
+    rest: &'t str,
+    scale: f64,
+    /// Whether a point is something: a robot's grip.
+    robot: bool,
+    found: Vec<Form>,
+}
+
+impl Reader<'_> {
+    fn geometry(&mut self, depth: usize) -> Result<(), String> {
+        if depth > DEEPEST {
+            return Err(format!(
+                "collections lie more than {DEEPEST} deep in each other"
+            ));
+        }
+        let mut word = self.word();
+        if word.is_empty() {
+            return Err(self.stuck("a geometry such as POLYGON"));
+        }
+        if matches!(self.peek_word().as_str(), "Z" | "M" | "ZM") {
+            self.word();
+        }
+        for ending in ["ZM", "Z", "M"] {
+            if let Some(plain) = word
+                .strip_suffix(ending)
+                .filter(|p| p.ends_with(['N', 'T']))
+            {
+                word = plain.to_owned();
+            }
+        }
+        if self.peek_word() == "EMPTY" {
+            self.word();
+            return Ok(());
+        }
+        match word.as_str() {
+            "POLYGON" => self.polygon(),
+            "MULTIPOLYGON" => self.list(Self::polygon),
+            "POINT" if self.robot => {
+                self.expect('(')?;
+                let spot = self.point()?;
+                self.found.push(Form::Spot(spot));
+                self.expect(')')
+            }
+            "GEOMETRYCOLLECTION" => self.list(|reader| reader.geometry(depth + 1)),
+            "POINT" | "LINESTRING" | "MULTIPOINT" | "MULTILINESTRING" => {
+                Err(format!("a {word} encloses nothing"))
+            }
+            _ => Err(format!("{word} is no geometry that is known here")),
+        }
+    }
+
+    fn polygon(&mut self) -> Result<(), String> {
+        let mut tracks = Vec::new();
+        self.list(|reader| {
+            let mut points = Vec::new();
+            reader.list(|reader| {
+                points.push(reader.point()?);
+                Ok(())
+            })?;
+            tracks.extend(Track::closed(&points));
+            Ok(())
+        })?;
+        self.found.push(Form::Tracks(tracks, Rule::EvenOdd));
+        Ok(())
+    }
+
+    fn list(
+        &mut self,
+        mut entry: impl FnMut(&mut Self) -> Result<(), String>,
+    ) -> Result<(), String> {
+        self.expect('(')?;
+        loop {
+            entry(self)?;
+            if !self.accept(',') {
+                return self.expect(')');
+            }
+        }
+    }
+
+    /// Two numbers; a third and fourth are height and measure, which the plane has not.
+    fn point(&mut self) -> Result<Point, String> {
+        let p = Point::new(self.number()?, self.number()?) * self.scale;
+        for _ in 0..2 {
+            if self.number().is_err() {
+                break;
+            }
+        }
+        Ok(p)
+    }
+
+    fn number(&mut self) -> Result<f64, String> {
+        self.rest = self.rest.trim_start();
+        let end = self
+            .rest
+            .find(|c: char| !(c.is_ascii_alphanumeric() || matches!(c, '.' | '-' | '+')))
+            .unwrap_or(self.rest.len());
+        match self.rest[..end].parse::<f64>() {
+            Ok(number) => {
+                self.rest = &self.rest[end..];
+                Ok(number)
+            }
+            Err(_) => Err(self.stuck("a number")),
+        }
+    }
+
+    fn word(&mut self) -> String {
+        let word = self.peek_word();
+        self.rest = &self.rest.trim_start()[word.len()..];
+        word
+    }
+
+    fn peek_word(&self) -> String {
+        let letters = self.rest.trim_start().chars();
+        letters
+            .take_while(char::is_ascii_alphabetic)
+            .map(|c| c.to_ascii_uppercase())
+            .collect()
+    }
+
+    fn accept(&mut self, mark: char) -> bool {
+        match self.rest.trim_start().strip_prefix(mark) {
+            Some(rest) => {
+                self.rest = rest;
+                true
+            }
+            None => false,
+        }
+    }
+
+    fn expect(&mut self, mark: char) -> Result<(), String> {
+        if self.accept(mark) {
+            Ok(())
+        } else {
+            Err(self.stuck(&format!("`{mark}`")))
+        }
+    }
+
+    fn stuck(&self, wanted: &str) -> String {
+        let found: String = self.rest.trim_start().chars().take(20).collect();
+        if found.is_empty() {
+            format!("it ends where {wanted} should be")
+        } else {
+            format!("there is `{found}` where {wanted} should be")
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_are_named_geometries() {
+        let text = "# a comment\nground; POLYGON((0 0, 4 0, 4 -1, 0 0))\n\
+            a\tMULTIPOLYGON (((0 0,1 0,0 1,0 0)), ((5 0,6 0,5 1),(5.1 0.1,5.2 0.1,5.1 0.2)))\n\
+            SRID=25832;polygon z ((0 0 1, 1e0 0 1, 0 +1 1))\n\
+            robot-1; POINT (0.2 0.3)\n\nGEOMETRYCOLLECTION(POLYGONZ((0 0 1,1 0 1,0 1 1)),POLYGON EMPTY)\n\
+            guide; POLYGON((0 0,1 0,0 1))\nb; LINESTRING (0 0, 1 1)\nPOLYGON ((0 0, 1 x))\nPOLYGON EMPTY\nPOLYGON((0 0,1 0,0 1)) x\n(";
+        let draft = read(text, 1.0);
+        let found: Vec<(&str, Kind)> = draft
+            .parts
+            .iter()
+            .map(|p| (p.name.as_str(), p.kind))
+            .collect();
+        assert_eq!(
+            found,
+            [
+                ("ground", Kind::Ground),
+                ("a", Kind::Block),
+                ("a", Kind::Block),
+                ("", Kind::Block),
+                ("robot-1", Kind::Robot),
+                ("", Kind::Block)
+            ]
+        );
+        assert!(matches!(&draft.parts[2].form, Form::Tracks(tracks, _) if tracks.len() == 2));
+        assert!(matches!(draft.parts[4].form, Form::Spot(p) if p == Point::new(0.2, 0.3)));
+        let remarks: Vec<&str> = draft.remarks.iter().map(|r| r.message.as_str()).collect();
+        assert_eq!(remarks.len(), 5, "{remarks:?}");
+        assert_eq!(remarks[0], "a LINESTRING encloses nothing; left out");
+        assert_eq!(
+            remarks[1],
+            "there is `x))` where a number should be; left out"
+        );
+        assert_eq!(draft.remarks[0].element, "line 9 \"b\"");
+        assert_eq!(draft.notes.len(), 1);
+    }
+}

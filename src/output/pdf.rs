@@ -1,0 +1,312 @@
+//! [`write()`]: a drawing as a PDF page of its own size, in lines and in words that can be searched.
+//!
+//! It is made from the SVG, as the PNG is, so that they cannot disagree. The only file that names krilla. Our fonts are
+//! embedded, cut down to the glyphs that are used. Nothing in it tells of a day or a machine: same drawing, same bytes.
+
+use krilla::Document;
+use krilla::color::rgb;
+use krilla::geom::{Path, PathBuilder, Point, Transform};
+use krilla::metadata::Metadata;
+use krilla::num::NormalizedF32;
+use krilla::page::PageSettings;
+use krilla::paint::{Fill, FillRule, LineCap, LineJoin, Paint, Stroke, StrokeDash};
+use krilla::surface::Surface;
+use krilla::tagging::{ContentTag, Tag, TagGroup, TagTree};
+use krilla::text::{Font, GlyphId, KrillaGlyph};
+use resvg::tiny_skia::PathSegment;
+use resvg::usvg;
+
+use super::{MM_PER_INCH, PIXELS_PER_INCH, svg, tree};
+use crate::drawing::{Drawing, Face};
+
+/// Why there is no PDF.
+#[derive(Debug, thiserror::Error)]
+pub enum PdfError {
+    /// The page would be too large or too small.
+    #[error(
+        "a page of {width:.4} × {height:.4} mm is out of range; each side must be {LEAST_MM} to {MOST_MM} mm long. \
+         Choose another width"
+    )]
+    Size {
+        /// Width asked for, mm.
+        width: f64,
+        /// Height that follows from it, mm.
+        height: f64,
+    },
+    /// The drawing cannot be written so.
+    #[error("the drawing cannot be written as PDF: {0}")]
+    Unwritable(String),
+}
+
+/// Shortest side of a page, mm.
+pub const LEAST_MM: f64 = 2.0;
+/// Longest side of a page, mm: readers open no page of more than 14 400 points.
+pub const MOST_MM: f64 = 5080.0;
+
+/// Points per inch.
+const POINTS_PER_INCH: f64 = 72.0;
+
+/// A drawing as a PDF of one page, `width_mm` wide or, where nothing is said, a 96th of an inch per pixel.
+///
+/// # Errors
+/// [`PdfError::Size`] where a side of the page would be shorter than [`LEAST_MM`] or longer than [`MOST_MM`].
+///
+/// # Example
+/// ```
+/// use drystone::drawing::Drawing;
+/// let drawing = Drawing { width: 800.0, height: 300.0, title: "Nothing".into(),
+///     description: String::new(), background: None, items: Vec::new() };
+/// let pdf = drystone::output::pdf::write(&drawing, Some(84.0))?;
+/// assert!(pdf.starts_with(b"%PDF-"));
+/// # Ok::<(), drystone::output::pdf::PdfError>(())
+/// ```
+pub fn write(drawing: &Drawing, width_mm: Option<f64>) -> Result<Vec<u8>, PdfError> {
+    let natural_mm = drawing.width * MM_PER_INCH / PIXELS_PER_INCH;
+    let width = width_mm.unwrap_or(natural_mm);
+    let height = width * drawing.height / drawing.width;
+    let fits = |side: f64| (LEAST_MM..=MOST_MM).contains(&side);
+    if !(fits(width) && fits(height)) {
+        return Err(PdfError::Size { width, height });
+    }
+    let tree = tree::read(&svg::write(drawing)).map_err(PdfError::Unwritable)?;
+    let points = |mm: f64| (mm * POINTS_PER_INCH / MM_PER_INCH) as f32;
+    let page = PageSettings::from_wh(points(width), points(height))
+        .ok_or(PdfError::Size { width, height })?;
+    let scale = points(width) / drawing.width as f32;
+
+    let mut document = Document::new();
+    document.set_metadata(
+        Metadata::new()
+            .title(drawing.title.clone())
+            .description(drawing.description.clone())
+            .language("en".to_owned())
+            .creator("drystone".to_owned())
+            .producer("drystone".to_owned()),
+    );
+    let mut page = document.start_page_with(page);
+    let mut surface = page.surface();
+    let figure = surface.start_tagged(ContentTag::Other);
+    surface.push_transform(&Transform::from_scale(scale, scale));
+    Pen {
+        surface: &mut surface,
+        fonts: Vec::new(),
+    }
+    .group(tree.root());
+    surface.pop();
+    surface.end_tagged();
+    surface.finish();
+    page.finish();
+
+    let told = [drawing.title.as_str(), drawing.description.as_str()].join(". ");
+    let mut tags = TagTree::new();
+    tags.push(TagGroup::with_children(
+        Tag::Figure(Some(told)),
+        vec![figure.into()],
+    ));
+    document.set_tag_tree(tags);
+    document
+        .finish()
+        .map_err(|e| PdfError::Unwritable(e.to_string()))
+}
+
+struct Pen<'s, 'd> {
+    surface: &'s mut Surface<'d>,
+    fonts: Vec<(Face, Font)>,
+}
+
+impl Pen<'_, '_> {
+    fn group(&mut self, group: &usvg::Group) {
+        let mut pushed = 0;
+        if !group.transform().is_identity() {
+            self.surface.push_transform(&transform(group.transform()));
+            pushed += 1;
+        }
+        if let Some(clip) = group.clip_path().and_then(|c| outline_of(c.root())) {
+            self.surface.push_clip_path(&clip, &FillRule::NonZero);
+            pushed += 1;
+        }
+        if group.opacity().get() < 1.0 {
+            self.surface.push_opacity(share(group.opacity()));
+            pushed += 1;
+        }
+        for node in group.children() {
+            match node {
+                usvg::Node::Group(group) => self.group(group),
+                usvg::Node::Path(path) => self.path(path),
+                usvg::Node::Text(text) => self.text(text),
+                // A drawing has none.
+                usvg::Node::Image(_) => {}
+            }
+        }
+        for _ in 0..pushed {
+            self.surface.pop();
+        }
+    }
+
+    fn path(&mut self, path: &usvg::Path) {
+        let Some(outline) = outline(path.data()) else {
+            return;
+        };
+        let (fill, stroke) = (path.fill().and_then(fill), path.stroke().and_then(stroke));
+        // Of two paints PDF always puts the line on top, and we mostly want it below.
+        for (fill, stroke) in passes(fill, stroke, path.paint_order()) {
+            self.surface.set_fill(fill);
+            self.surface.set_stroke(stroke);
+            self.surface.draw_path(&outline);
+        }
+    }
+
+    fn text(&mut self, text: &usvg::Text) {
+        for span in text.layouted() {
+            let (fill, stroke) = (
+                span.fill.as_ref().and_then(fill),
+                span.stroke.as_ref().and_then(stroke),
+            );
+            for run in tree::runs(span) {
+                let Some(font) = self.font(run.face) else {
+                    continue;
+                };
+                for (fill, stroke) in passes(fill.clone(), stroke.clone(), span.paint_order) {
+                    // The seam around letters is drawn as outlines, so that no word is there twice.
+                    let outlined = fill.is_none();
+                    self.surface.set_fill(fill);
+                    self.surface.set_stroke(stroke);
+                    self.run(&run, font.clone(), outlined);
+                }
+            }
+        }
+    }
+
+    fn run(&mut self, run: &tree::Run, font: Font, outlined: bool) {
+        let mut words = String::new();
+        let mut glyphs = Vec::with_capacity(run.glyphs.len());
+        let Some(first) = run.glyphs.first() else {
+            return;
+        };
+        for (number, placed) in run.glyphs.iter().enumerate() {
+            let begin = words.len();
+            words.push_str(&placed.characters);
+            let next = run.glyphs.get(number + 1).map(|n| n.at.0 - placed.at.0);
+            glyphs.push(KrillaGlyph::new(
+                GlyphId::new(u32::from(placed.glyph)),
+                (next.unwrap_or(0.0) / run.size) as f32,
+                0.0,
+                ((first.at.1 - placed.at.1) / run.size) as f32,
+                0.0,
+                begin..words.len(),
+                None,
+            ));
+        }
+        let at = Point::from_xy(first.at.0 as f32, first.at.1 as f32);
+        let size = run.size as f32;
+        self.surface
+            .draw_glyphs(at, &glyphs, font, &words, size, outlined);
+    }
+
+    fn font(&mut self, face: Face) -> Option<Font> {
+        if let Some((_, font)) = self.fonts.iter().find(|(of, _)| *of == face) {
+            return Some(font.clone());
+        }
+        let font = Font::new(face.data().into(), 0)?;
+        self.fonts.push((face, font.clone()));
+        Some(font)
+    }
+}
+
+/// The paints in the order in which they are laid on: each once, the fill last where it is to lie over the line.
+fn passes(
+    fill: Option<Fill>,
+    stroke: Option<Stroke>,
+    order: usvg::PaintOrder,
+) -> Vec<(Option<Fill>, Option<Stroke>)> {
+    match (fill, stroke) {
+        (None, None) => Vec::new(),
+        (Some(fill), Some(stroke)) => {
+            let mut both = vec![(Some(fill), None), (None, Some(stroke))];
+            if order == usvg::PaintOrder::StrokeAndFill {
+                both.reverse();
+            }
+            both
+        }
+        one => vec![one],
+    }
+}
+
+fn paint(paint: &usvg::Paint) -> Option<Paint> {
+    match paint {
+        usvg::Paint::Color(c) => Some(rgb::Color::new(c.red, c.green, c.blue).into()),
+        // A drawing has plain colours only.
+        _ => None,
+    }
+}
+
+fn share(share: usvg::Opacity) -> NormalizedF32 {
+    NormalizedF32::new(share.get()).unwrap_or(NormalizedF32::ONE)
+}
+
+fn fill(of: &usvg::Fill) -> Option<Fill> {
+    Some(Fill {
+        paint: paint(of.paint())?,
+        opacity: share(of.opacity()),
+        rule: match of.rule() {
+            usvg::FillRule::NonZero => FillRule::NonZero,
+            usvg::FillRule::EvenOdd => FillRule::EvenOdd,
+        },
+    })
+}
+
+fn stroke(of: &usvg::Stroke) -> Option<Stroke> {
+    Some(Stroke {
+        paint: paint(of.paint())?,
+        width: of.width().get(),
+        miter_limit: of.miterlimit().get(),
+        line_cap: match of.linecap() {
+            usvg::LineCap::Butt => LineCap::Butt,
+            usvg::LineCap::Round => LineCap::Round,
+            usvg::LineCap::Square => LineCap::Square,
+        },
+        line_join: match of.linejoin() {
+            usvg::LineJoin::Miter | usvg::LineJoin::MiterClip => LineJoin::Miter,
+            usvg::LineJoin::Round => LineJoin::Round,
+            usvg::LineJoin::Bevel => LineJoin::Bevel,
+        },
+        opacity: share(of.opacity()),
+        dash: of.dasharray().map(|array| StrokeDash {
+            array: array.to_vec(),
+            offset: of.dashoffset(),
+        }),
+    })
+}
+
+fn transform(t: usvg::Transform) -> Transform {
+    Transform::from_row(t.sx, t.ky, t.kx, t.sy, t.tx, t.ty)
+}
+
+/// The outlines of all shapes of a group, as one.
+fn outline_of(group: &usvg::Group) -> Option<Path> {
+    let mut pen = PathBuilder::new();
+    for node in group.children() {
+        if let usvg::Node::Path(path) = node {
+            put(&mut pen, path.data());
+        }
+    }
+    pen.finish()
+}
+
+fn outline(data: &resvg::tiny_skia::Path) -> Option<Path> {
+    let mut pen = PathBuilder::new();
+    put(&mut pen, data);
+    pen.finish()
+}
+
+fn put(pen: &mut PathBuilder, data: &resvg::tiny_skia::Path) {
+    for segment in data.segments() {
+        match segment {
+            PathSegment::MoveTo(p) => pen.move_to(p.x, p.y),
+            PathSegment::LineTo(p) => pen.line_to(p.x, p.y),
+            PathSegment::QuadTo(a, p) => pen.quad_to(a.x, a.y, p.x, p.y),
+            PathSegment::CubicTo(a, b, p) => pen.cubic_to(a.x, a.y, b.x, b.y, p.x, p.y),
+            PathSegment::Close => pen.close(),
+        }
+    }
+}

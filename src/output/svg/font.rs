@@ -1,0 +1,166 @@
+//! [`embedded`]: our fonts cut down to what a drawing uses, for browsers, as data within the SVG.
+//!
+//! The cut drops the tables by which a font sets words (which glyph a character has, how pairs are kerned), since the
+//! writers of PDF do that themselves. A browser needs them, so they are made anew from the places at which the words of
+//! this drawing stand in its picture.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use write_fonts::FontBuilder;
+use write_fonts::read::{FontRef, TableProvider as _};
+use write_fonts::tables::cmap::Cmap;
+use write_fonts::types::{GlyphId, Tag};
+
+use crate::drawing::Face;
+use crate::output::tree::Run;
+
+/// A style sheet with the fonts of some words, each family's name beginning with `mark`.
+///
+/// # Errors
+/// What stands against cutting a font.
+pub(super) fn embedded(runs: &[Run], mark: &str) -> Result<String, String> {
+    let mut sheet = String::new();
+    for face in Face::ALL {
+        let of_face: Vec<&Run> = runs.iter().filter(|run| run.face == face).collect();
+        if of_face.is_empty() {
+            continue;
+        }
+        let font = cut(face, &of_face).map_err(|why| format!("{face:?}: {why}"))?;
+        let kind = if font.starts_with(b"OTTO") {
+            "otf"
+        } else {
+            "ttf"
+        };
+        sheet.push_str(&format!(
+            "@font-face{{font-family:'{}';font-weight:{};font-style:{};src:url(data:font/{kind};base64,{})}}\n",
+            family(face, mark),
+            face.weight(),
+            if face.italic() { "italic" } else { "normal" },
+            STANDARD.encode(font)
+        ));
+    }
+    Ok(sheet)
+}
+
+/// The name of a face's family in a drawing of its own: other drawings on the page have other letters.
+pub(super) fn family(face: Face, mark: &str) -> String {
+    match face {
+        Face::Serif | Face::SerifItalic | Face::SerifBold => format!("{mark}-serif"),
+        Face::Sans | Face::SansBold => format!("{mark}-sans"),
+    }
+}
+
+/// A face with the glyphs of some words alone.
+fn cut(face: Face, runs: &[&Run]) -> Result<Vec<u8>, String> {
+    let whole = FontRef::new(face.data()).map_err(|e| e.to_string())?;
+    let mut characters = BTreeMap::new();
+    for c in runs
+        .iter()
+        .flat_map(|r| &r.glyphs)
+        .flat_map(|g| g.characters.chars())
+    {
+        if let Some(glyph) = face.glyph(c) {
+            characters.insert(c, glyph);
+        }
+    }
+    let glyphs: BTreeSet<u16> = characters.values().copied().collect();
+    let glyphs: Vec<u16> = glyphs.into_iter().collect();
+    let numbers = subsetter::GlyphRemapper::new_from_glyphs_sorted(&glyphs);
+    let new = |glyph: u16| numbers.get(glyph).unwrap_or_default();
+    let small = subsetter::subset(face.data(), 0, &numbers).map_err(|e| e.to_string())?;
+    let small = FontRef::new(&small).map_err(|e| e.to_string())?;
+    let table = Cmap::from_mappings(
+        characters
+            .iter()
+            .map(|(c, g)| (*c, GlyphId::new(u32::from(new(*g))))),
+    )
+    .map_err(|e| e.to_string())?;
+
+    let mut font = FontBuilder::new();
+    font.add_table(&table).map_err(|e| e.to_string())?;
+    for tag in [Tag::new(b"OS/2"), Tag::new(b"name")] {
+        if let Some(data) = whole.table_data(tag) {
+            font.add_raw(tag, data.as_bytes().to_vec());
+        }
+    }
+    if let Some(post) = whole.table_data(Tag::new(b"post")) {
+        // Version 3: the table without the names of glyphs, which have other numbers now.
+        let mut head = post
+            .as_bytes()
+            .get(..32)
+            .ok_or("a post table cut short")?
+            .to_vec();
+        head[..4].copy_from_slice(&[0, 3, 0, 0]);
+        font.add_raw(Tag::new(b"post"), head);
+    }
+    let pairs = kerning(&whole, face, runs)?;
+    let pairs: BTreeMap<(u16, u16), i16> = pairs
+        .into_iter()
+        .map(|((a, b), by)| ((new(a), new(b)), by))
+        .collect();
+    if let Some(table) = kern(&pairs) {
+        font.add_raw(Tag::new(b"kern"), table);
+    }
+    font.copy_missing_tables(small);
+    Ok(font.build())
+}
+
+/// By how much the second of two glyphs stands nearer (below 0) or farther than it would alone, in font units.
+fn kerning(
+    font: &FontRef<'_>,
+    face: Face,
+    runs: &[&Run],
+) -> Result<BTreeMap<(u16, u16), i16>, String> {
+    let units = f64::from(font.head().map_err(|e| e.to_string())?.units_per_em());
+    let widths = font.hmtx().map_err(|e| e.to_string())?;
+    let mut pairs = BTreeMap::new();
+    for run in runs {
+        for pair in run.glyphs.windows(2) {
+            let [a, b] = pair else { continue };
+            // A ligature's glyph is not among those that were kept, and says nothing about its letters.
+            let own = |placed: &crate::output::tree::Placed| {
+                let mut characters = placed.characters.chars();
+                let only = characters.next().filter(|_| characters.next().is_none());
+                only.and_then(|c| face.glyph(c)) == Some(placed.glyph)
+            };
+            let Some(alone) = widths.advance(GlyphId::new(u32::from(a.glyph))) else {
+                continue;
+            };
+            let by = (b.at.0 - a.at.0) / run.size * units - f64::from(alone);
+            // Half a unit is rounding; the letters are as the font has them.
+            if own(a) && own(b) && by.abs() > 0.5 {
+                pairs.entry((a.glyph, b.glyph)).or_insert(by.round() as i16);
+            }
+        }
+    }
+    Ok(pairs)
+}
+
+/// A `kern` table, version 0, of one horizontal subtable of pairs (format 0); `None` where there is nothing to say.
+fn kern(pairs: &BTreeMap<(u16, u16), i16>) -> Option<Vec<u8>> {
+    let count = u16::try_from(pairs.len())
+        .ok()
+        .filter(|n| (1..=10_000).contains(n))?;
+    let log = count.ilog2() as u16;
+    let range = 6 << log;
+    let header = [
+        0,
+        1,
+        0,
+        14 + 6 * count,
+        1,
+        count,
+        range,
+        log,
+        6 * count - range,
+    ];
+    let mut table: Vec<u8> = header.iter().flat_map(|n: &u16| n.to_be_bytes()).collect();
+    for ((left, right), by) in pairs {
+        table.extend(left.to_be_bytes());
+        table.extend(right.to_be_bytes());
+        table.extend(by.to_be_bytes());
+    }
+    Some(table)
+}

@@ -1,0 +1,197 @@
+//! Numbers, and the steps of outlines: as few characters as tell a hundredth of a pixel.
+
+use std::fmt::Write as _;
+
+use crate::drawing::{Outline, PagePoint, Segment};
+
+/// The one number printer: at most two decimals, a hundredth of a pixel, no needless zero, no −0.
+///
+/// # Panics
+/// For a number that is not finite.
+pub(super) fn number(value: f64) -> String {
+    assert!(
+        value.is_finite(),
+        "a drawing holds the number {value}; every number of a drawing is finite"
+    );
+    let mut text = format!("{value:.2}");
+    let kept = text.trim_end_matches('0').trim_end_matches('.').len();
+    text.truncate(kept);
+    if text == "-0" { "0".to_owned() } else { text }
+}
+
+/// The path data of an outline.
+pub(super) fn steps(outline: &Outline) -> String {
+    let mut pen = Steps::default();
+    for segment in &outline.segments {
+        match *segment {
+            Segment::Move(p) => pen.begin(p),
+            Segment::Line(p) => pen.line(p),
+            Segment::Curve(a, b, c) => pen.curve('c', &[a, b, c]),
+            Segment::Close => pen.close(),
+        }
+    }
+    pen.data
+}
+
+/// Path data in the making. Steps are told from where the last one ended, which takes fewer digits than places on the
+/// page, and count in whole hundredths, so that roundings do not add up.
+#[derive(Default)]
+pub(super) struct Steps {
+    /// What is written so far.
+    pub data: String,
+    begin: (i64, i64),
+    at: (i64, i64),
+    letter: char,
+}
+
+impl Steps {
+    /// Begins a new part.
+    pub fn begin(&mut self, to: PagePoint) {
+        self.at = hundredths(to);
+        self.begin = self.at;
+        self.put('M', &[self.at.0, self.at.1]);
+    }
+
+    /// A straight line.
+    pub fn line(&mut self, to: PagePoint) {
+        let to = hundredths(to);
+        let (x, y) = (to.0 - self.at.0, to.1 - self.at.1);
+        match (x, y) {
+            // A line of no length is a dot where its ends are round; it stays.
+            (_, 0) => self.put('h', &[x]),
+            (0, _) => self.put('v', &[y]),
+            _ => self.put('l', &[x, y]),
+        }
+        self.at = to;
+    }
+
+    /// A curve through its control points to its end: `q` has one of them, `c` two.
+    pub fn curve(&mut self, letter: char, points: &[PagePoint]) {
+        let places: Vec<(i64, i64)> = points.iter().map(|p| hundredths(*p)).collect();
+        let from = self.at;
+        let steps: Vec<i64> = places
+            .iter()
+            .flat_map(|p| [p.0 - from.0, p.1 - from.1])
+            .collect();
+        self.put(letter, &steps);
+        self.at = places.last().copied().unwrap_or(from);
+    }
+
+    /// Straight back to where the part began.
+    pub fn close(&mut self) {
+        self.put('z', &[]);
+        self.at = self.begin;
+    }
+
+    fn put(&mut self, letter: char, numbers: &[i64]) {
+        // A letter need not be said twice; after a move, though, it would mean a line.
+        let said = letter == self.letter && !matches!(letter, 'M' | 'z');
+        if !said {
+            self.data.push(letter);
+            self.letter = letter;
+        }
+        for (place, number) in numbers.iter().enumerate() {
+            if (said || place > 0) && *number >= 0 {
+                self.data.push(' ');
+            }
+            put(&mut self.data, *number);
+        }
+    }
+}
+
+/// A place in whole hundredths of a pixel.
+fn hundredths(point: PagePoint) -> (i64, i64) {
+    let whole = |value: f64| {
+        assert!(
+            value.is_finite(),
+            "a drawing holds the number {value}; every number of a drawing is finite"
+        );
+        // `as` holds on at the ends, nine orders of magnitude beyond any page.
+        (value * 100.0).round() as i64
+    };
+    (whole(point.x), whole(point.y))
+}
+
+/// Hundredths as a decimal number without a needless zero.
+fn put(data: &mut String, hundredths: i64) {
+    let (whole, part) = (
+        hundredths.unsigned_abs() / 100,
+        hundredths.unsigned_abs() % 100,
+    );
+    if hundredths < 0 {
+        data.push('-');
+    }
+    // A `String` takes every character; this cannot fail.
+    let _ = match (whole, part) {
+        (whole, 0) => write!(data, "{whole}"),
+        (0, part) if part % 10 == 0 => write!(data, ".{}", part / 10),
+        (0, part) => write!(data, ".{part:02}"),
+        (whole, part) if part % 10 == 0 => write!(data, "{whole}.{}", part / 10),
+        (whole, part) => write!(data, "{whole}.{part:02}"),
+    };
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short_and_never_minus_zero() {
+        let cases = [
+            (0.0, "0"),
+            (-0.0, "0"),
+            (-0.004, "0"),
+            (1.5, "1.5"),
+            (-2.25, "-2.25"),
+            (100.0, "100"),
+            (1.0 / 3.0, "0.33"),
+        ];
+        for (value, expected) in cases {
+            assert_eq!(number(value), expected);
+        }
+        for (hundredths, expected) in [
+            (0, "0"),
+            (-5, "-.05"),
+            (70, ".7"),
+            (-1230, "-12.3"),
+            (4, ".04"),
+            (101, "1.01"),
+        ] {
+            let mut text = String::new();
+            put(&mut text, hundredths);
+            assert_eq!(text, expected);
+        }
+    }
+
+    #[test]
+    fn steps_lead_where_the_outline_leads() {
+        let p = PagePoint::new;
+        let outline = Outline {
+            segments: vec![
+                Segment::Move(p(10.0, 20.0)),
+                Segment::Line(p(15.5, 20.004)),
+                Segment::Line(p(15.5, 12.25)),
+                Segment::Line(p(14.0, 12.0)),
+                Segment::Line(p(13.0, 13.0)),
+                Segment::Curve(p(1.0, 2.0), p(3.0, 3.0), p(13.5, 12.96)),
+                Segment::Close,
+                Segment::Move(p(-0.001, -1.0)),
+                Segment::Line(p(-0.001, -1.0)),
+            ],
+        };
+        let expected = "M10 20h5.5v-7.75l-1.5-.25-1 1c-12-11-10-10 .5-.04zM0-1h0";
+        assert_eq!(steps(&outline), expected);
+    }
+
+    #[test]
+    fn roundings_do_not_add_up() {
+        let outline = Outline::line((0..=3000).map(|i| PagePoint::new(f64::from(i) / 3.0, 0.5)));
+        let data = steps(&outline);
+        let sum: f64 = data
+            .trim_start_matches("M0 .5h")
+            .split(' ')
+            .map(|n| n.parse::<f64>().expect("a number"))
+            .sum();
+        assert!((sum - 1000.0).abs() < 1e-6, "{sum}");
+    }
+}

@@ -1,0 +1,119 @@
+//! [`read`]: an SVG of ours as resvg understands it, every word set in our own fonts.
+//!
+//! What is drawn in pixels, written as PDF or turned into outlines all begins here, so that words stand in the same
+//! places everywhere. Whatever fonts the machine has, none of them is looked at. A character that our fonts lack shows
+//! as a box.
+
+use std::sync::{Arc, OnceLock};
+
+use resvg::tiny_skia::Transform;
+use resvg::usvg::{self, Group, Node, fontdb};
+
+use crate::drawing::Face;
+
+/// An SVG document as a tree of shapes and words that are laid out.
+///
+/// # Errors
+/// What resvg has against the text.
+pub(super) fn read(svg: &str) -> Result<usvg::Tree, String> {
+    let options = usvg::Options {
+        font_family: "Libertinus Serif".to_owned(),
+        fontdb: Arc::clone(&fonts().0),
+        // A drawing is whole in itself: nothing is fetched from the machine it is drawn on.
+        image_href_resolver: usvg::ImageHrefResolver {
+            resolve_string: Box::new(|_, _| None),
+            ..usvg::ImageHrefResolver::default()
+        },
+        ..usvg::Options::default()
+    };
+    usvg::Tree::from_str(svg, &options).map_err(|e| e.to_string())
+}
+
+/// The words of a tree, the lowest first.
+pub(super) fn texts(group: &Group) -> Vec<&usvg::Text> {
+    let mut found = Vec::new();
+    for node in group.children() {
+        match node {
+            Node::Group(group) => found.extend(texts(group)),
+            Node::Text(text) => found.push(text.as_ref()),
+            Node::Path(_) | Node::Image(_) => {}
+        }
+    }
+    found
+}
+
+/// A glyph where it stands.
+#[derive(Clone, Debug)]
+pub(super) struct Placed {
+    /// Its number in its font.
+    pub glyph: u16,
+    /// The characters it stands for.
+    pub characters: String,
+    /// Where it begins, pixels to the right and down.
+    pub at: (f64, f64),
+}
+
+/// Glyphs of one face and size beside each other, in the order in which they stand.
+#[derive(Clone, Debug)]
+pub(super) struct Run {
+    /// Their font.
+    pub face: Face,
+    /// Its size in pixels.
+    pub size: f64,
+    /// The glyphs.
+    pub glyphs: Vec<Placed>,
+}
+
+/// The glyphs of a line of words.
+pub(super) fn runs(span: &usvg::layout::Span) -> Vec<Run> {
+    let mut runs: Vec<Run> = Vec::new();
+    for glyph in &span.positioned_glyphs {
+        let Some(face) = face(glyph.font) else {
+            continue;
+        };
+        let mut origin = resvg::tiny_skia::Point::zero();
+        let transform: Transform = glyph.transform();
+        transform.map_point(&mut origin);
+        let placed = Placed {
+            glyph: u16::try_from(glyph.id.0).unwrap_or_default(),
+            characters: glyph.text.clone(),
+            at: (f64::from(origin.x), f64::from(origin.y)),
+        };
+        match runs.last_mut().filter(|run| run.face == face) {
+            Some(run) => run.glyphs.push(placed),
+            None => runs.push(Run {
+                face,
+                size: f64::from(glyph.font_size()),
+                glyphs: vec![placed],
+            }),
+        }
+    }
+    runs
+}
+
+/// Which of our faces a font of the tree is.
+fn face(id: fontdb::ID) -> Option<Face> {
+    let known = &fonts().1;
+    known
+        .iter()
+        .find(|(of, _)| *of == id)
+        .map(|(_, face)| *face)
+}
+
+/// Our fonts, and the name under which resvg knows each.
+type Fonts = (Arc<fontdb::Database>, Vec<(fontdb::ID, Face)>);
+
+fn fonts() -> &'static Fonts {
+    static FONTS: OnceLock<Fonts> = OnceLock::new();
+    FONTS.get_or_init(|| {
+        let mut fonts = fontdb::Database::new();
+        let mut known = Vec::new();
+        for face in Face::ALL {
+            let source = fontdb::Source::Binary(Arc::new(face.data()));
+            known.extend(fonts.load_font_source(source).iter().map(|id| (*id, face)));
+        }
+        fonts.set_serif_family("Libertinus Serif");
+        fonts.set_sans_serif_family("Inter");
+        (Arc::new(fonts), known)
+    })
+}

@@ -1,0 +1,234 @@
+//! [`illustrate`]: the chapters of an mdBook with their scenes drawn, as mdBook's preprocessors exchange them.
+//!
+//! A fenced block that begins with `drystone` holds a scene, or names one with `file=…`; it becomes the figure with its
+//! caption. What follows the word are options, `name=value` or `name` alone:
+//!
+//! | option | what it says |
+//! |---|---|
+//! | `file=scene.json` | the scene, relative to the chapter's own file |
+//! | `kind=mechanism` | what the figure shows: `forces`, `mechanism`, `thrust`, `kernel`, `utilisation` or `freebody` |
+//! | `block=a` | the block of a free-body diagram |
+//! | `theme=dark` | the theme |
+//! | `width=600` | width of the page, pixels |
+//! | `amounts` | every arrow bears its amount |
+//! | `nocaption` | no caption below the figure |
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use pulldown_cmark::{CodeBlockKind, Event, Options, Parser, Tag};
+use serde_json::Value;
+
+use crate::analysis::Analysis;
+use crate::drawing::{Drawing, Theme};
+use crate::figure::{self, Kind};
+use crate::output::svg;
+use crate::scene::{BlockId, Scene};
+
+/// The word with which a block of ours begins.
+const WORD: &str = "drystone";
+
+/// Everything that keeps a book from being illustrated.
+#[derive(Debug, thiserror::Error)]
+#[error("{}", .0.join("\n\n"))]
+pub struct BookProblems(pub Vec<String>);
+
+/// The book of a preprocessor's input, `[context, book]` as JSON text, with its scenes drawn, as JSON text.
+///
+/// # Errors
+/// Text that is no such input; and of every block whose scene cannot be drawn the chapter, the line and why.
+pub fn illustrate(input: &str) -> Result<String, BookProblems> {
+    let no_book = |why: &str| {
+        BookProblems(vec![format!(
+            "this is no input of an mdBook preprocessor ({why}); mdbook runs the command itself, from \
+             [preprocessor.drystone] in book.toml"
+        )])
+    };
+    let mut input: Value = serde_json::from_str(input).map_err(|e| no_book(&e.to_string()))?;
+    let root = PathBuf::from(input[0]["root"].as_str().unwrap_or("."));
+    let source = input[0]["config"]["book"]["src"].as_str().unwrap_or("src");
+    let source = root.join(source);
+    let Some(book) = input.get_mut(1).map(Value::take) else {
+        return Err(no_book("it has no second part"));
+    };
+    let mut book = book;
+    let mut problems = Vec::new();
+    // mdBook 0.5 calls the chapters items, its forerunners sections.
+    let key = if book["items"].is_array() {
+        "items"
+    } else {
+        "sections"
+    };
+    let Some(items) = book[key].as_array_mut() else {
+        return Err(no_book("the book has no chapters"));
+    };
+    for item in items {
+        chapter(&mut item["Chapter"], &source, &mut problems);
+    }
+    if problems.is_empty() {
+        Ok(book.to_string())
+    } else {
+        Err(BookProblems(problems))
+    }
+}
+
+fn chapter(chapter: &mut Value, source: &Path, problems: &mut Vec<String>) {
+    let path = chapter["source_path"].as_str().or(chapter["path"].as_str());
+    let path = source.join(path.unwrap_or("draft.md"));
+    if let Some(content) = chapter["content"].as_str() {
+        let drawn = illustrated(content, &path, problems);
+        chapter["content"] = Value::String(drawn);
+    }
+    if let Some(items) = chapter["sub_items"].as_array_mut() {
+        for item in items {
+            self::chapter(&mut item["Chapter"], source, problems);
+        }
+    }
+}
+
+/// A chapter's text with every block of ours replaced by its figure.
+fn illustrated(content: &str, path: &Path, problems: &mut Vec<String>) -> String {
+    let mut drawn = String::new();
+    let mut done = 0;
+    let mut parser = Parser::new_ext(content, Options::all()).into_offset_iter();
+    while let Some((event, place)) = parser.next() {
+        let Event::Start(Tag::CodeBlock(CodeBlockKind::Fenced(info))) = event else {
+            continue;
+        };
+        let Some(options) = info
+            .strip_prefix(WORD)
+            .filter(|rest| rest.is_empty() || rest.starts_with([' ', ',', '\t']))
+        else {
+            continue;
+        };
+        let mut body = String::new();
+        for (event, _) in parser.by_ref() {
+            match event {
+                Event::Text(text) => body.push_str(&text),
+                _ => break,
+            }
+        }
+        let line = content[..place.start].matches('\n').count() + 1;
+        match figure(options, &body, path) {
+            Ok(html) => {
+                drawn.push_str(&content[done..place.start]);
+                drawn.push_str(&html);
+                done = place.end;
+            }
+            Err(why) => problems.push(format!("{}, line {line}: {why}", path.display())),
+        }
+    }
+    drawn.push_str(&content[done..]);
+    drawn
+}
+
+/// What the words after ours ask for.
+struct Wanted {
+    file: Option<String>,
+    kind: String,
+    block: Option<String>,
+    caption: bool,
+    options: figure::Options,
+}
+
+impl Wanted {
+    fn read(words: &str) -> Result<Wanted, String> {
+        let mut wanted = Wanted {
+            file: None,
+            kind: "forces".to_owned(),
+            block: None,
+            caption: true,
+            options: figure::Options {
+                // The caption below says the title.
+                captions: true,
+                ..figure::Options::default()
+            },
+        };
+        for word in words.split([' ', ',', '\t']).filter(|w| !w.is_empty()) {
+            let (name, value) = word.split_once('=').unwrap_or((word, ""));
+            match (name, value) {
+                ("file", value) if !value.is_empty() => wanted.file = Some(value.to_owned()),
+                ("kind", value) if !value.is_empty() => value.clone_into(&mut wanted.kind),
+                ("block", value) if !value.is_empty() => wanted.block = Some(value.to_owned()),
+                ("theme", value) => {
+                    wanted.options.theme = Theme::named(value).ok_or(format!(
+                        "there is no theme {value:?}; known are {}",
+                        Theme::NAMES.join(", ")
+                    ))?;
+                }
+                ("width", value) => {
+                    let width = value.parse().ok().filter(|w| (100.0..=4000.0).contains(w));
+                    wanted.options.width =
+                        Some(width.ok_or("width= takes pixels, from 100 to 4000")?);
+                }
+                ("amounts", "") => wanted.options.amounts = true,
+                ("nocaption", "") => wanted.caption = false,
+                _ => {
+                    return Err(format!(
+                        "unknown option {word:?}; known are file=, kind=, block=, theme=, width=, amounts, nocaption"
+                    ));
+                }
+            }
+        }
+        Ok(wanted)
+    }
+}
+
+fn figure(words: &str, body: &str, chapter: &Path) -> Result<String, String> {
+    let wanted = Wanted::read(words)?;
+    let text = match &wanted.file {
+        Some(file) => {
+            let path = chapter.parent().unwrap_or(Path::new("")).join(file);
+            fs::read_to_string(&path).map_err(|e| format!("cannot read {}: {e}", path.display()))?
+        }
+        None => body.to_owned(),
+    };
+    let scene = Scene::from_json(&text).map_err(|problems| {
+        let whose = match &wanted.file {
+            Some(file) => format!("the scene {file} is wrong; lines are its own"),
+            None => "the scene is wrong; lines count from the block's first".to_owned(),
+        };
+        format!("{whose}:\n{problems}")
+    })?;
+    let analysis = Analysis::of(&scene);
+    let drawing = drawing(&analysis, &wanted)?;
+    let words = svg::Options {
+        // A reader's machine need not have our fonts, and letters as outlines look alike on all.
+        words: svg::Words::Outlines,
+        ..svg::Options::default()
+    };
+    let svg = svg::write_with(&drawing, &words).map_err(|e| e.to_string())?;
+    // Markdown ends a block of HTML at an empty line.
+    let lines: Vec<&str> = svg.lines().filter(|l| !l.trim().is_empty()).collect();
+    let caption = if wanted.caption {
+        maud::html! { figcaption { (figure::caption(&analysis)) } }.into_string()
+    } else {
+        String::new()
+    };
+    Ok(format!(
+        "<figure class=\"drystone\" style=\"overflow-x: auto\">\n{}\n{caption}\n</figure>\n\n",
+        lines.join("\n")
+    ))
+}
+
+fn drawing(analysis: &Analysis<'_>, wanted: &Wanted) -> Result<Drawing, String> {
+    let kind = match wanted.kind.as_str() {
+        "freebody" => {
+            let scene = analysis.scene;
+            let block = match &wanted.block {
+                Some(id) => scene.blocks.iter().position(|b| b.id == *id),
+                None => (scene.blocks.len() == 1).then_some(0),
+            };
+            let block = BlockId(block.ok_or("block= names no block of the scene")?);
+            let frame = scene.frames.iter().rposition(|f| f.placed.contains(&block));
+            return frame
+                .and_then(|f| figure::freebody(analysis, f, block, &wanted.options))
+                .ok_or("the block is never placed".to_owned());
+        }
+        name => Kind::named(name).ok_or(format!(
+            "there is no kind of figure {name:?}; known are {}, freebody",
+            Kind::ALL.map(Kind::name).join(", ")
+        ))?,
+    };
+    Ok(figure::draw(analysis, kind, &wanted.options))
+}

@@ -1,0 +1,82 @@
+//! A motion freed from the solver's error: every contact opens or stays as it is, to the last bit or by a hair.
+//!
+//! A motion from an interior-point method violates contacts by a billionth of its speed, and forces of a billion loads
+//! could use that. So the violations are blown up to size 1 and the shortest change that undoes them is sought, which
+//! gains the solver's nine digits once more. Where nothing is wedged every contact can open at once, and the change asks
+//! for a little of that: then no rounding is left to doubt. Where something is, contacts that cannot open stay closed to
+//! rounding.
+
+use super::{Care, Effort, Status, careful};
+use crate::program::{Column, Force, Program, columns, shortest};
+
+/// How far contacts are opened, in parts of the fastest speed: beyond the rounding of a speed, and far below what matters.
+const HAIR: f64 = 1e-12;
+
+/// Contacts are looked after that are less open than so many violations.
+const NEAR: f64 = 1e3;
+
+/// Rounds in which contacts are added that the last change closed.
+const ROUNDS: usize = 4;
+
+/// A grip whose limit is so many times the heaviest load holds as if it had none.
+const LAVISH: f64 = 1e4;
+
+/// The motion near a given one, of fastest speed about 1, that no contact can object to, if one is found.
+///
+/// A motion that needs its violations, such as that of a flat wedge into its notch, loses its power by the change.
+pub fn opened(program: &Program, motion: &[f64], effort: &mut Effort) -> Option<Vec<f64>> {
+    let firm = LAVISH * program.need.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    let (mut held, mut contacts) = (Vec::new(), Vec::new());
+    for column in columns(program) {
+        match column.force {
+            // Of a component's two signs one is enough to hold it.
+            Force::Grip { sign, .. } if column.limit > firm && sign > 0.0 => held.push(column),
+            Force::Grip { .. } => {}
+            _ => contacts.push(column),
+        }
+    }
+    [HAIR, 0.0]
+        .into_iter()
+        .find_map(|hair| changed(motion, &held, &contacts, hair, effort))
+}
+
+/// The motion changed so that the contacts open by a hair, if they can, and what is held does not move.
+fn changed(
+    motion: &[f64],
+    held: &[Column],
+    contacts: &[Column],
+    hair: f64,
+    effort: &mut Effort,
+) -> Option<Vec<f64>> {
+    let mut motion = motion.to_vec();
+    for _ in 0..ROUNDS {
+        let torn = held.iter().map(|c| c.dot(&motion).abs());
+        let closing = contacts.iter().map(|c| hair - c.dot(&motion));
+        let worst = torn.chain(closing).fold(0.0, f64::max);
+        if worst <= 0.5 * hair {
+            return Some(motion);
+        }
+        let size = worst.max(HAIR);
+        let mut rows: Vec<(&Column, f64)> =
+            held.iter().map(|c| (c, -c.dot(&motion) / size)).collect();
+        for column in contacts {
+            let wanted = (hair - column.dot(&motion)) / size;
+            if wanted > -NEAR {
+                rows.push((column, wanted));
+            }
+        }
+        let conic = shortest(motion.len(), &rows, held.len());
+        let answer = careful(&conic, Care::Quick, effort);
+        if answer.status != Status::Solved {
+            return None;
+        }
+        for (v, d) in motion.iter_mut().zip(&answer.x) {
+            *v += size * d;
+        }
+        // Without a hair to open by there is nothing to measure but rounding.
+        if hair == 0.0 && size <= HAIR {
+            return Some(motion);
+        }
+    }
+    (hair == 0.0).then_some(motion)
+}

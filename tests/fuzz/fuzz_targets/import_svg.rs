@@ -1,0 +1,20 @@
+//! Any bytes are either a sound scene or a reason, as SVG, GeoJSON and well-known text alike; never a panic.
+
+#![no_main]
+
+use drystone::Scene;
+use drystone::import::{Format, Options, import};
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| {
+    let text = String::from_utf8_lossy(bytes);
+    for format in [Format::Svg, Format::GeoJson, Format::Wkt] {
+        match import(&text, format, &Options::default()) {
+            Ok(imported) => {
+                assert!(!imported.scene.blocks.is_empty());
+                assert!(Scene::from_json(&imported.scene.to_json()).is_ok());
+            }
+            Err(refusal) => assert!(refusal.problems.iter().any(|p| !p.message.is_empty())),
+        }
+    }
+});

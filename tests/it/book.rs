@@ -1,0 +1,79 @@
+//! The mdBook preprocessor: what it makes of a book's chapters, and what it says where it cannot.
+
+use drystone::report::book::illustrate;
+use serde_json::{Value, json};
+
+const SCENE: &str = r#"{ "drystone": 1, "title": "An overhang",
+  "ground": [{ "polygon": [[0, 0], [2, 0], [2, -1], [0, -1]] }],
+  "blocks": [{ "id": "plank", "polygon": [[1, 0], [5, 0], [5, 1], [1, 1]], "weight": 8 }] }"#;
+
+/// What mdbook hands a preprocessor for a book of one chapter with one below it.
+fn input(chapter: &str, below: &str) -> String {
+    let chapter_of = |name: &str, content: &str, items: Value| {
+        json!({ "Chapter": { "name": name, "content": content, "number": [1], "sub_items": items,
+            "path": format!("{name}.md"), "source_path": format!("{name}.md"), "parent_names": [] } })
+    };
+    let inner = chapter_of("inner", below, json!([]));
+    let root = env!("CARGO_MANIFEST_DIR");
+    let context = json!({ "root": root, "renderer": "html", "mdbook_version": "0.5.1",
+        "config": { "book": { "src": "assets/thesis" } } });
+    json!([context, { "items": [chapter_of("outer", chapter, json!([inner])), "Separator"] }])
+        .to_string()
+}
+
+fn contents(book: &str) -> [String; 2] {
+    let book: Value = serde_json::from_str(book).expect("a book");
+    assert_eq!(book["items"][1], "Separator");
+    let outer = &book["items"][0]["Chapter"];
+    let inner = &outer["sub_items"][0]["Chapter"];
+    [outer, inner].map(|c| c["content"].as_str().expect("content").to_owned())
+}
+
+#[test]
+fn scenes_become_figures_with_captions_and_the_rest_of_a_chapter_stays() {
+    let chapter = format!(
+        "# One\n\n```drystone\n{SCENE}\n```\n\nAfter it.\n\n```rust\nlet drystone = 1;\n```\n"
+    );
+    let below = "A list:\n\n- item\n\n```drystone file=figure-8-right.json kind=mechanism theme=dark\n```\n";
+    let [outer, inner] = contents(&illustrate(&input(&chapter, below)).expect("drawn"));
+    assert!(
+        outer.starts_with("# One\n\n<figure class=\"drystone\""),
+        "{outer}"
+    );
+    assert!(outer.contains("<svg xmlns") && outer.contains("<title id="));
+    assert!(outer.contains("<figcaption>An overhang. It falls: block plank would have to stick"));
+    assert!(
+        outer.ends_with("\n\nAfter it.\n\n```rust\nlet drystone = 1;\n```\n"),
+        "{outer}"
+    );
+    let figure =
+        &outer[outer.find("<figure").expect("there")..outer.find("</figure>").expect("there")];
+    assert!(!figure.contains("\n\n"), "an empty line would end the HTML");
+    assert!(inner.contains("<figcaption>Figure 8, right: a bridge of five blocks. It falls"));
+    assert!(inner.contains("#15181d"), "the dark page");
+}
+
+#[test]
+fn every_broken_scene_is_told_with_its_chapter_and_line() {
+    let chapter = "one\ntwo\n\n```drystone\n{ \"drystone\": 1, \"blocks\": [{}] }\n```\n";
+    let below = "```drystone file=nowhere.json\n```\n\n```drystone kind=spiral file=figure-1.json\n```\n\n```drystone colour=red\n```\n";
+    let problems = illustrate(&input(chapter, below))
+        .expect_err("all are broken")
+        .to_string();
+    for said in [
+        "outer.md, line 4: the scene is wrong",
+        "inner.md, line 1: cannot read",
+        "nowhere.json",
+        "inner.md, line 4: there is no kind of figure \"spiral\"; known are forces, mechanism",
+        "inner.md, line 7: unknown option \"colour=red\"",
+    ] {
+        assert!(problems.contains(said), "{said} is not in {problems}");
+    }
+    for no_book in ["", "{}", "[1, 2]", "[{}, {}]"] {
+        let problems = illustrate(no_book).expect_err("no book").to_string();
+        assert!(
+            problems.contains("mdbook runs the command itself"),
+            "{problems}"
+        );
+    }
+}

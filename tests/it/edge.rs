@@ -1,0 +1,136 @@
+//! On either side of the edge: verdicts are right and decided as near to it as the band, and what falls is proved to fall.
+
+use drystone::analysis::{FrameAnalysis, Proof, Verdict};
+use drystone::study::study;
+use serde_json::{Value, json};
+
+use crate::hard::wedge;
+use crate::structure::{arch, block, first, on_floor, rectangle, scene, verdict, wall};
+
+const STANDS: Verdict = Verdict::Stable;
+const FALLS: Verdict = Verdict::Unstable;
+
+/// A scene whose weights act by a share across gravity as well, as the margins turn it.
+fn pushed(mut file: Value, share: f64) -> Value {
+    file["gravity"] = json!([10.0 * share, -10.0]);
+    for block in file["blocks"].as_array_mut().expect("a list") {
+        let weight = block["weight"].as_f64().expect("a number");
+        block["weight"] = json!(weight * libm::hypot(1.0, share));
+    }
+    file
+}
+
+fn rules_out(frame: &FrameAnalysis) -> f64 {
+    assert_eq!(frame.verdict, FALLS, "{}", frame.doubt);
+    frame.proof.rules_out()
+}
+
+/// 410 bricks whose edge is at a share of 0.481616: programs that must decide between "balanced" and "no balance" end
+/// nowhere for shares about it, and motions with a ten-thousandth of their speed in violations seem to fall.
+#[test]
+fn a_large_wall_is_decided_on_either_side_of_its_edge() {
+    for share in [0.4815, 0.4816157] {
+        let frame = first(&pushed(wall(20, 20), share));
+        assert_eq!(frame.verdict, STANDS, "{share}: {:?}", frame.proof);
+    }
+    for share in [0.481617, 0.482] {
+        let frame = first(&pushed(wall(20, 20), share));
+        assert!(
+            rules_out(&frame) > 1e12,
+            "{share}: {:?} {}",
+            frame.proof,
+            frame.doubt
+        );
+    }
+}
+
+/// The least thickness at which a certified reference stands, found by halving, and a millionth to either side.
+#[test]
+fn an_arch_is_decided_a_millionth_beside_its_minimum_thickness() {
+    for (voussoirs, least) in THINNEST {
+        for (thickness, expected) in [(least - 1e-6, FALLS), (least + 1e-6, STANDS)] {
+            let file = arch(voussoirs, thickness, 0.9);
+            assert_eq!(verdict(&file), expected, "{voussoirs} at {thickness}");
+            let known = study(&[scene(&file)], &[], &mut |_| {})
+                .cases
+                .remove(0)
+                .truth;
+            assert_eq!(known.verdict, expected, "{voussoirs} at {thickness}");
+        }
+    }
+}
+
+/// Least thickness over radius of semicircular arches by their number of voussoirs.
+const THINNEST: [(usize, f64); 2] = [(27, 0.106_720_9), (181, 0.107_462_3)];
+
+/// A wedge the wrong way up opens its contacts by a ten-millionth of its way, no more than a solver's error.
+#[test]
+fn a_flat_wedge_that_falls_is_proved_to_fall() {
+    for exponent in 2..=7 {
+        let half_angle = libm::exp10(-f64::from(exponent));
+        let frame = first(&wedge(-half_angle));
+        assert!(
+            rules_out(&frame).is_infinite(),
+            "1e-{exponent}: {:?}",
+            frame.proof
+        );
+        // The wedge that stands, lifted by a little more than its weight.
+        let mut file = wedge(half_angle);
+        file["loads"] = json!([{ "block": "wedge", "force": [0, 6.0 * (1.0 + 1e-5)] }]);
+        let frame = first(&file);
+        assert!(
+            rules_out(&frame).is_infinite(),
+            "1e-{exponent}: {:?}",
+            frame.proof
+        );
+    }
+}
+
+/// Several blocks locked between two walls: their thrust has no upper end, and no motion opens every contact.
+#[test]
+fn a_row_of_blocks_locked_between_walls() {
+    let row = |friction: f64| {
+        let blocks: Vec<Value> = (0..5)
+            .map(|k| block(&format!("{k}"), rectangle(f64::from(k), 0.0, 1.0, 1.0), 6.0))
+            .collect();
+        let sides = [-2.0, 5.0].map(|x| json!({ "polygon": rectangle(x, -1.0, 2.0, 3.0) }));
+        json!({ "drystone": 1, "friction": friction, "ground": sides, "blocks": blocks })
+    };
+    for friction in [0.02, 0.5] {
+        let frame = first(&row(friction));
+        assert_eq!(frame.verdict, STANDS, "{friction}: {}", frame.doubt);
+        // Each wall's friction carries half of the weight, 15 N.
+        let ends = frame
+            .contacts
+            .iter()
+            .filter(|c| c.friction_force.abs() > 14.9);
+        let thrust: Vec<f64> = ends
+            .map(|c| c.normal_forces[0] + c.normal_forces[1])
+            .collect();
+        assert_eq!(thrust.len(), 2, "{friction}");
+        for pressed in thrust {
+            assert!(
+                pressed >= 15.0 / friction * (1.0 - 1e-9),
+                "{friction}: {pressed}"
+            );
+        }
+    }
+    // Without friction they fall, and slide along faces that cannot open: known to rounding, and no better.
+    let frame = first(&row(0.0));
+    assert!(rules_out(&frame) > 1e12, "{:?}", frame.proof);
+    // Pressed into a gap that narrows below, the same row stands without any friction.
+    assert_eq!(verdict(&wedge(1e-3)), STANDS);
+}
+
+/// What a motion leaves open is told: its violation times the forces it names is its power.
+#[test]
+fn a_motion_says_what_it_rules_out() {
+    let file = on_floor(0.5, vec![block("a", rectangle(0.0, 1.0, 1.0, 1.0), 6.0)]);
+    assert!(rules_out(&first(&file)).is_infinite(), "nothing touches it");
+    let doubtful = Proof::Mechanism {
+        power: 0.25,
+        worst_violation: 1e-4,
+    };
+    assert_eq!(doubtful.rules_out(), 2500.0);
+    assert!(!doubtful.holds(), "forces of 2500 loads are no rarity");
+}

@@ -1,0 +1,316 @@
+//! Drawings as programs write them, from the file to a verdict; and our own figures, read back.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use drystone::analysis::Verdict;
+use drystone::import::{Format, Imported, Options, import};
+use drystone::scene::format::{LimitsEntry, SceneFile};
+use drystone::{Analysis, Scene, figure, output};
+use serde_json::Value;
+
+fn asset(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("assets")
+        .join(name)
+}
+
+fn read(name: &str, format: Format, options: &Options) -> Imported {
+    let text = fs::read_to_string(asset("import").join(name)).expect("an asset");
+    import(&text, format, options).unwrap_or_else(|refusal| panic!("{name}: {refusal:?}"))
+}
+
+fn ids(imported: &Imported) -> Vec<&str> {
+    let blocks = imported.scene.blocks.iter();
+    blocks.filter_map(|b| b.id.as_deref()).collect()
+}
+
+fn remarks(imported: &Imported) -> Vec<(&str, &str)> {
+    let one = imported.remarks.iter();
+    one.map(|r| {
+        (
+            r.element.as_str(),
+            r.message.split([';', ':']).next().unwrap_or(""),
+        )
+    })
+    .collect()
+}
+
+fn verdict(file: &SceneFile) -> Verdict {
+    let scene = Scene::from_json(&file.to_json()).expect("an imported scene is sound");
+    Analysis::of(&scene).frames[0].verdict
+}
+
+/// Pairs of bodies with an interface.
+fn touching(file: &SceneFile) -> usize {
+    let scene = Scene::from_json(&file.to_json()).expect("sound");
+    let analysis = Analysis::of(&scene);
+    let mut pairs: Vec<_> = analysis.frames[0]
+        .contacts
+        .iter()
+        .map(|c| c.interface.bodies)
+        .collect();
+    pairs.sort();
+    pairs.dedup();
+    pairs.len()
+}
+
+#[test]
+fn a_doorway_from_inkscape_stands_at_its_real_size() {
+    let imported = read("doorway.svg", Format::Svg, &Options::default());
+    assert_eq!(imported.scene.blocks.len(), 17);
+    assert_eq!(imported.scene.ground.len(), 1);
+    assert_eq!(imported.scene.title.as_deref(), Some("A doorway"));
+    assert_eq!(
+        remarks(&imported),
+        [("text \"text1\"", "a text is no block")]
+    );
+    assert!(
+        imported
+            .notes
+            .iter()
+            .any(|n| n.contains("0.001 m, since it is 210mm wide")),
+        "{:?}",
+        imported.notes
+    );
+    for skipped in ["g \"guides\"", "g \"older attempt\""] {
+        assert!(
+            imported.notes.iter().any(|n| n.contains(skipped)),
+            "{skipped}: {:?}",
+            imported.notes
+        );
+    }
+    let crane = &imported.scene.robots[0];
+    assert_eq!(
+        (crane.id.as_deref(), crane.holds.as_deref()),
+        (Some("crane"), Some("load"))
+    );
+    // Every brick of the left pier was off by some thousandths of a millimetre.
+    assert!(imported.snapped.len() >= 7, "{:?}", imported.snapped);
+    assert!(
+        imported
+            .snapped
+            .iter()
+            .all(|s| s.distance < 5e-6 && !s.to.is_empty())
+    );
+    // In each pier 2 with the ground, 4 in courses and 8 between them; the lintel on both, and two that stand alone.
+    assert_eq!(touching(&imported.scene), 2 * (2 + 4 + 8) + 2 + 2);
+    assert_eq!(verdict(&imported.scene), Verdict::Stable);
+    let unsnapped = Options {
+        gap: Some(0.0),
+        ..Options::default()
+    };
+    let text = fs::read_to_string(asset("import/doorway.svg")).expect("an asset");
+    assert!(
+        import(&text, Format::Svg, &unsnapped).is_err(),
+        "as drawn its blocks lie in each other"
+    );
+}
+
+#[test]
+fn an_arch_from_illustrator_stands_on_its_curves() {
+    let imported = read("arch.svg", Format::Svg, &Options::default());
+    let expected = [
+        "v1", "v2", "v3", "v4", "v5", "keystone", "v7", "v8", "v9", "v10", "v11",
+    ];
+    assert_eq!(ids(&imported), expected);
+    assert_eq!(remarks(&imported), []);
+    assert_eq!(imported.scene.robots[0].holds.as_deref(), Some("keystone"));
+    assert_eq!(touching(&imported.scene), 12);
+    let mut alone = imported.scene.clone();
+    alone.robots.clear();
+    assert_eq!(verdict(&alone), Verdict::Stable);
+    // Without its keystone it falls.
+    alone.blocks.remove(5);
+    assert_eq!(verdict(&alone), Verdict::Unstable);
+}
+
+#[test]
+fn a_drum_fills_the_hole_it_was_drawn_for() {
+    let imported = read("window.svg", Format::Svg, &Options::default());
+    assert_eq!(
+        ids(&imported),
+        ["quoin-left", "quoin-right", "panel", "drum", "cap"]
+    );
+    assert_eq!(
+        remarks(&imported),
+        [
+            ("circle \"drum\"", "a gradient or pattern is no material"),
+            ("path \"crack\"", "it is open"),
+        ]
+    );
+    assert_eq!(imported.scene.blocks[2].holes.len(), 1);
+    assert_eq!(touching(&imported.scene), 6);
+    assert_eq!(verdict(&imported.scene), Verdict::Stable);
+}
+
+#[test]
+fn geojson_and_wkt_become_scenes_with_their_values() {
+    let steps = read("steps.geojson", Format::GeoJson, &Options::default());
+    assert_eq!(ids(&steps), ["tread", "tread-2", "tread-3"]);
+    assert_eq!(steps.scene.blocks[0].density, Some(2400.0));
+    assert_eq!(steps.scene.ground[0].friction, Some(0.5));
+    assert_eq!(steps.scene.robots[0].holds.as_deref(), Some("tread-3"));
+    assert_eq!(steps.snapped[0].body, "tread-2");
+    assert_eq!(verdict(&steps.scene), Verdict::Stable);
+    let options = Options {
+        scale: Some(2.0),
+        ..Options::default()
+    };
+    let post = read("post.wkt", Format::Wkt, &options);
+    assert_eq!(ids(&post), ["footing", "post"]);
+    assert_eq!(
+        post.scene.blocks[1].polygon.as_ref().expect("a polygon")[2],
+        [2.5, 7.0]
+    );
+    assert_eq!(verdict(&post.scene), Verdict::Stable);
+}
+
+#[test]
+fn our_own_figures_read_back_give_the_same_verdicts() {
+    let mut frames = 0;
+    for entry in fs::read_dir(asset("thesis")).expect("scenes") {
+        let path = entry.expect("readable").path();
+        let text = fs::read_to_string(&path).expect("a scene");
+        let scene = Scene::from_json(&text).expect("sound");
+        let analysis = Analysis::of(&scene);
+        let svg = output::svg::write(&figure::forces(&analysis, &figure::Options::default()));
+        let json: Value = serde_json::from_str(&text).expect("JSON");
+        let limits: Vec<Option<LimitsEntry>> = json["robots"]
+            .as_array()
+            .into_iter()
+            .flatten()
+            .map(|r| serde_json::from_value(r["limits"].clone()).ok())
+            .collect();
+        for (number, (frame, found)) in scene.frames.iter().zip(&analysis.frames).enumerate() {
+            let first = &scene.blocks[frame.placed[0].0];
+            let options = Options {
+                frame: Some(number),
+                scene: SceneFile {
+                    friction: Some(json["friction"].as_f64().expect("given")),
+                    kernel: Some(json["kernel"].as_f64().expect("given")),
+                    gravity: Some([0.0, -1.0]),
+                    density: Some(first.weight / first.body.polygon.area()),
+                    ..SceneFile::default()
+                },
+                ..Options::default()
+            };
+            let told = format!("{} frame {number}", path.display());
+            let mut imported =
+                import(&svg, Format::Svg, &options).unwrap_or_else(|r| panic!("{told}: {r:?}"));
+            assert_eq!(imported.remarks, [], "{told}");
+            let names: Vec<&str> = frame
+                .placed
+                .iter()
+                .map(|id| scene.blocks[id.0].id.as_str())
+                .collect();
+            assert_eq!(ids(&imported), names, "{told}");
+            assert_eq!(imported.scene.ground.len(), scene.ground.len(), "{told}");
+            assert_eq!(imported.scene.robots.len(), frame.holds.len(), "{told}");
+            // A drawing holds no limits and no weights: the scene's own are put in.
+            for (robot, hold) in imported.scene.robots.iter_mut().zip(&frame.holds) {
+                let own = &scene.robots[hold.robot.0];
+                assert_eq!(robot.id.as_deref(), Some(own.id.as_str()), "{told}");
+                assert_eq!(
+                    robot.holds.as_deref(),
+                    Some(scene.blocks[hold.block.0].id.as_str()),
+                    "{told}"
+                );
+                robot.limits = limits[hold.robot.0].clone();
+            }
+            for (block, id) in imported.scene.blocks.iter_mut().zip(&frame.placed) {
+                block.weight = Some(scene.blocks[id.0].weight);
+            }
+            let read = Scene::from_json(&imported.scene.to_json()).expect("sound");
+            for (block, id) in read.blocks.iter().zip(&frame.placed) {
+                let drawn = &scene.blocks[id.0].body.polygon;
+                let off = (block.body.polygon.centroid() - drawn.centroid()).norm();
+                assert!(off < 1e-3, "{told}: {} is off by {off} m", block.id);
+            }
+            let again = Analysis::of(&read);
+            assert_eq!(again.frames[0].verdict, found.verdict, "{told}");
+            assert_eq!(
+                again.frames[0].contacts.len(),
+                found.contacts.len(),
+                "{told}"
+            );
+            frames += 1;
+        }
+    }
+    assert!(frames >= 19, "{frames}");
+}
+
+#[test]
+fn mangled_drawings_are_told_and_never_a_panic() {
+    let mut seed = 1_u64;
+    let mut random = move |below: usize| {
+        seed = seed
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (seed >> 33) as usize % below.max(1)
+    };
+    let bits: [&[u8]; 10] = [
+        b"1e308",
+        b"-",
+        b"<g>",
+        b"z",
+        b"\"",
+        b"NaN",
+        b"0",
+        b"a1 1 0 0 1 ",
+        b"#",
+        b"1e-300",
+    ];
+    for (name, format) in [
+        ("doorway.svg", Format::Svg),
+        ("arch.svg", Format::Svg),
+        ("window.svg", Format::Svg),
+        ("steps.geojson", Format::GeoJson),
+        ("post.wkt", Format::Wkt),
+    ] {
+        let whole = fs::read(asset("import").join(name)).expect("an asset");
+        for _ in 0..150 {
+            let mut bytes = whole.clone();
+            for _ in 0..=random(4) {
+                let at = random(bytes.len());
+                let to = (at + random(12)).min(bytes.len());
+                match random(3) {
+                    0 => drop(bytes.splice(at..to, bits[random(bits.len())].iter().copied())),
+                    1 => drop(bytes.drain(at..to)),
+                    _ => bytes[at] = b"0123456789.-eMLHVCSQTAZ <>\"/"[random(28)],
+                }
+            }
+            let text = String::from_utf8_lossy(&bytes);
+            match import(&text, format, &Options::default()) {
+                Ok(imported) => assert!(
+                    Scene::from_json(&imported.scene.to_json()).is_ok(),
+                    "{text}"
+                ),
+                Err(refusal) => assert!(!refusal.problems.is_empty()),
+            }
+        }
+    }
+}
+
+#[test]
+fn a_figure_of_very_many_blocks_is_read_back_too() {
+    let mut blocks = Vec::new();
+    for row in 0..35 {
+        for column in 0..30 {
+            let corners = crate::structure::rectangle(f64::from(column), f64::from(row), 1.0, 1.0);
+            blocks.push(crate::structure::block(
+                &format!("{row}-{column}"),
+                corners,
+                1.0,
+            ));
+        }
+    }
+    let scene = crate::structure::scene(&crate::structure::on_floor(0.7, blocks));
+    let svg = output::svg::write(&figure::forces(
+        &Analysis::of(&scene),
+        &figure::Options::default(),
+    ));
+    let imported = import(&svg, Format::Svg, &Options::default()).expect("a scene");
+    assert_eq!(imported.scene.blocks.len(), 1050);
+    assert_eq!(imported.remarks, []);
+}

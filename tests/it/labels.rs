@@ -1,0 +1,253 @@
+//! Labels hide nothing: measured on the drawings themselves, whoever placed them.
+
+use drystone::analysis::Analysis;
+use drystone::drawing::{Anchor, Drawing, Group, Item, PagePoint, Segment, Text, text};
+use drystone::figure::{self, Options};
+use drystone::scene::BlockId;
+
+use crate::pictures::{gallery, scene};
+
+/// An upright box: left, top, right, bottom.
+type Box4 = [f64; 4];
+
+/// The ink of a text: from the height of capitals to the base line, and its descenders where it has any.
+fn ink(text: &Text) -> Box4 {
+    let wide = text::width(&text.words, text.face, text.size);
+    let left = match text.anchor {
+        Anchor::Start => text.at.x,
+        Anchor::Middle => text.at.x - wide / 2.0,
+        Anchor::End => text.at.x - wide,
+    };
+    let deep = if text
+        .words
+        .contains(['g', 'j', 'p', 'q', 'y', 'µ', '(', ')', ','])
+    {
+        0.2
+    } else {
+        0.0
+    };
+    [
+        left,
+        text.at.y - 0.72 * text.size,
+        left + wide,
+        text.at.y + deep * text.size,
+    ]
+}
+
+fn union(a: Box4, b: Box4) -> Box4 {
+    [
+        a[0].min(b[0]),
+        a[1].min(b[1]),
+        a[2].max(b[2]),
+        a[3].max(b[3]),
+    ]
+}
+
+fn texts(group: &Group) -> Vec<Text> {
+    let mut found = Vec::new();
+    for item in &group.items {
+        match item {
+            Item::Text(text) => found.push(text.clone()),
+            Item::Group(inner) => found.extend(texts(inner)),
+            Item::Path(_) => {}
+        }
+    }
+    found
+}
+
+/// Every group of a class, with those inside others.
+fn of_class<'d>(items: &'d [Item], class: &str, found: &mut Vec<&'d Group>) {
+    for item in items {
+        if let Item::Group(group) = item {
+            if group.class == class {
+                found.push(group);
+            }
+            of_class(&group.items, class, found);
+        }
+    }
+}
+
+fn classes<'d>(items: &'d [Item], wanted: &[&str]) -> Vec<&'d Group> {
+    let mut found = Vec::new();
+    for class in wanted {
+        of_class(items, class, &mut found);
+    }
+    found
+}
+
+/// The straight pieces of a group's own paths, curves as their control polygons.
+fn pieces(group: &Group) -> Vec<[PagePoint; 2]> {
+    let mut pieces = Vec::new();
+    for item in &group.items {
+        let Item::Path(path) = item else { continue };
+        let (mut start, mut last) = (None, None);
+        for segment in &path.outline.segments {
+            let points = match segment {
+                Segment::Move(p) => {
+                    (start, last) = (Some(*p), Some(*p));
+                    vec![]
+                }
+                Segment::Line(p) => vec![*p],
+                Segment::Curve(a, b, c) => vec![*a, *b, *c],
+                Segment::Close => start.into_iter().collect(),
+            };
+            for point in points {
+                pieces.extend(last.map(|from| [from, point]));
+                last = Some(point);
+            }
+        }
+    }
+    pieces
+}
+
+/// Whether a line runs through a box: cut to the box's slabs, something of it is left.
+fn through([a, b]: [PagePoint; 2], bounds: Box4) -> bool {
+    let (mut from, mut to) = (0.0_f64, 1.0_f64);
+    for (start, along, low, high) in [
+        (a.x, b.x - a.x, bounds[0], bounds[2]),
+        (a.y, b.y - a.y, bounds[1], bounds[3]),
+    ] {
+        if along == 0.0 {
+            if start <= low || start >= high {
+                return false;
+            }
+        } else {
+            let (p, q) = ((low - start) / along, (high - start) / along);
+            from = from.max(p.min(q));
+            to = to.min(p.max(q));
+        }
+    }
+    from < to
+}
+
+/// Every label of a drawing whose ink lies on another label, or on a path of one of these classes.
+fn hidden(items: &[Item], labels: &[&str], barred: &[&str]) -> (usize, Vec<String>) {
+    let mut labelled: Vec<(String, Box4)> = Vec::new();
+    for label in classes(items, labels) {
+        let all = texts(label);
+        let words: String = all.iter().map(|t| t.words.as_str()).collect();
+        if let Some(bounds) = all.iter().map(ink).reduce(union) {
+            labelled.push((words, bounds));
+        }
+    }
+    let mut complaints = Vec::new();
+    for (i, (words, a)) in labelled.iter().enumerate() {
+        for (other, b) in &labelled[..i] {
+            if a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3] {
+                complaints.push(format!("{words} lies on {other}"));
+            }
+        }
+        for group in classes(items, barred) {
+            if pieces(group).iter().any(|piece| through(*piece, *a)) {
+                complaints.push(format!("{words} lies on {} {}", group.class, group.title));
+            }
+        }
+    }
+    (labelled.len(), complaints)
+}
+
+/// A drawing's panels, or all of it.
+fn panels(drawing: &Drawing) -> Vec<&[Item]> {
+    let frames = classes(&drawing.items, &["picture"]);
+    frames.iter().map(|g| g.items.as_slice()).collect()
+}
+
+#[test]
+fn names_and_amounts_lie_on_nothing_in_the_whole_gallery() {
+    let mut count = 0;
+    for amounts in [false, true] {
+        let options = Options {
+            amounts,
+            ..Options::default()
+        };
+        for (name, scene) in gallery() {
+            let drawing = figure::forces(&Analysis::of(&scene), &options);
+            for items in panels(&drawing) {
+                let (labels, complaints) = hidden(
+                    items,
+                    &["name", "robot-name", "amount"],
+                    &["block", "plan", "robot", "force", "torque"],
+                );
+                count += labels;
+                assert!(complaints.is_empty(), "{name}: {complaints:?}");
+            }
+        }
+    }
+    assert!(count > 150, "only {count} labels were looked at");
+}
+
+#[test]
+fn a_hidden_label_is_found() {
+    let scene = scene("assets/thesis/figure-4.json");
+    let drawing = figure::forces(&Analysis::of(&scene), &Options::default());
+    let mut items = panels(&drawing)[0].to_vec();
+    let weight = classes(&items, &["force"])[0];
+    let at = pieces(weight)[0][0];
+    let words = Text::new(
+        at,
+        "hidden",
+        drystone::drawing::Face::Sans,
+        12.0,
+        drystone::drawing::Colour::BLACK,
+    )
+    .anchored(Anchor::Middle);
+    items.push(Group::of_class("name").with(words).into());
+    let (_, complaints) = hidden(&items, &["name"], &["force"]);
+    assert!(
+        complaints.iter().any(|c| c.starts_with("hidden lies on")),
+        "{complaints:?}"
+    );
+}
+
+#[test]
+fn every_name_of_a_free_body_is_legible() {
+    let mut count = 0;
+    for (name, scene) in gallery() {
+        let analysis = Analysis::of(&scene);
+        for (frame, found) in scene.frames.iter().enumerate().take(3) {
+            for block in &found.placed {
+                let drawing = figure::freebody(&analysis, frame, *block, &Options::default())
+                    .expect("the block is placed");
+                let (labels, complaints) =
+                    hidden(&drawing.items, &["name"], &["force", "block", "guides"]);
+                count += labels;
+                assert!(
+                    complaints.is_empty(),
+                    "{name}, block {block:?}: {complaints:?}"
+                );
+            }
+        }
+    }
+    assert!(count > 200, "only {count} names were looked at");
+}
+
+#[test]
+fn the_free_body_of_the_slope_names_and_tells_every_force() {
+    let scene = scene("assets/thesis/figure-1.json");
+    let analysis = Analysis::of(&scene);
+    let drawing = figure::freebody(&analysis, 0, BlockId(0), &Options::default()).expect("placed");
+    for name in ["F_s1", "F_fl1", "F_fr1", "F_s2", "F_fl2", "F_fr2"] {
+        assert!(
+            drawing
+                .description
+                .contains(&format!("force {name} on block a")),
+            "{name}"
+        );
+    }
+    // 6 N on a slope of 20°: the two friction forces together hold 6·sin 20° back, up the slope and to the right of ŝ.
+    for said in ["F_fr1 + F_fr2 = 2.05 N", "mg = 6 N", "s = (−0.342; 0.94)"] {
+        assert!(
+            drawing.description.contains(said),
+            "{said}: {}",
+            drawing.description
+        );
+    }
+    assert_eq!(
+        figure::freebody(&analysis, 1, BlockId(0), &Options::default()),
+        None
+    );
+    assert_eq!(
+        figure::freebody(&analysis, 0, BlockId(1), &Options::default()),
+        None
+    );
+}

@@ -1,0 +1,130 @@
+//! `accuracy`, the levels of `check`, and what it is to be undecided.
+
+use std::fs;
+
+use serde_json::{Value, json};
+
+use super::Bench;
+
+/// A frictionless wedge of some half-angle in its notch, all turned by 30° so that no face runs along an axis.
+fn wedge(half_angle: f64) -> String {
+    let d = half_angle;
+    let turned = |shape: &str| json!({ "shape": shape, "angle": 30 });
+    let gravity = 30f64.to_radians();
+    json!({ "drystone": 1, "friction": 0, "gravity": [libm::sin(gravity), -libm::cos(gravity)],
+        "shapes": {
+            "left": { "polygon": [[-3, 0], [-0.5, 0], [-0.5 - d, 1], [-3, 1]] },
+            "right": { "polygon": [[0.5, 0], [3, 0], [3, 1], [0.5 + d, 1]] },
+            "wedge": { "polygon": [[-0.5, 0], [0.5, 0], [0.5 + d, 1], [-0.5 - d, 1]] } },
+        "ground": [turned("left"), turned("right")],
+        "blocks": [{ "id": "wedge", "shape": "wedge", "angle": 30, "weight": 6 }] })
+    .to_string()
+}
+
+#[test]
+fn a_study_is_written_in_every_form() {
+    let bench = Bench::new();
+    let forms = ["html", "csv", "json", "svg", "md"];
+    let outputs: Vec<String> = forms
+        .iter()
+        .map(|form| format!("-o study.{form}"))
+        .collect();
+    let line = format!(
+        "accuracy stands.json --tolerances 1e-4,1e-8 {}",
+        outputs.join(" ")
+    );
+    let ran = bench.run(&line);
+    assert_eq!((ran.code, ran.out.as_str()), (0, ""), "{}", ran.err);
+    let text = |form: &str| fs::read_to_string(bench.path(&format!("study.{form}"))).expect(form);
+    assert!(text("html").starts_with("<!DOCTYPE html>"));
+    assert!(text("svg").starts_with("<svg") && text("svg").contains("What accuracy costs"));
+    assert!(text("csv").lines().count() > 4 && text("csv").contains("A lintel"));
+    let study: Value = serde_json::from_str(&text("json")).expect("JSON");
+    assert!(study.is_object());
+    assert!(text("md").contains('|'));
+    // A form that is not known is told before anything is measured or written.
+    let ran = bench.run("accuracy stands.json -o study.txt -o other.csv");
+    assert_eq!(ran.code, 2);
+    assert!(
+        ran.err.contains(".html, .csv, .json, .svg or .md"),
+        "{}",
+        ran.err
+    );
+    assert!(!bench.path("other.csv").exists());
+    assert_eq!(
+        bench.run("accuracy stands.json -o no/such/folder.csv").code,
+        4
+    );
+}
+
+#[test]
+fn what_cannot_be_proved_ends_with_three_and_says_why() {
+    let bench = Bench::new();
+    // A thrust of 10⁹ weights balances to seven digits: enough for a verdict, too little for one a hundred times better.
+    fs::write(bench.path("flat.json"), wedge(1e-9)).expect("writable");
+    let ran = bench.run("check --accuracy proved flat.json");
+    assert_eq!(ran.code, 3, "{}", ran.out);
+    assert!(ran.out.contains("undecided"), "{}", ran.out);
+    assert!(ran.out.contains("of the heaviest load"), "{}", ran.out);
+    // Of 10¹³ weights it balances to three digits, which is no proof; nor does it fall.
+    fs::write(bench.path("flatter.json"), wedge(1e-13)).expect("writable");
+    let ran = bench.run("check flatter.json");
+    assert_eq!(ran.code, 3, "{}", ran.out);
+    assert!(ran.out.contains("undecided"), "{}", ran.out);
+    assert_eq!(bench.run("check flatter.json stands.json").code, 3);
+    assert_eq!(
+        bench.run("check flatter.json falls.json").code,
+        1,
+        "what is known comes first"
+    );
+    assert_eq!(bench.run("render flatter.json -o flatter.svg").code, 0);
+    assert_eq!(
+        bench
+            .run("render flatter.json -o flatter.svg --strict")
+            .code,
+        3
+    );
+    let ran = bench.run("check --json flatter.json");
+    let result: Value = serde_json::from_str(&ran.out).expect("JSON");
+    assert_eq!(result["frames"][0]["verdict"], "undecided");
+}
+
+#[test]
+fn every_level_gives_the_same_verdicts() {
+    let bench = Bench::new();
+    for level in ["draft", "standard", "proved"] {
+        assert_eq!(
+            bench
+                .run(&format!("check --accuracy {level} stands.json"))
+                .code,
+            0,
+            "{level}"
+        );
+        assert_eq!(
+            bench
+                .run(&format!("check --accuracy {level} falls.json"))
+                .code,
+            1,
+            "{level}"
+        );
+    }
+    let ran = bench.run("check --accuracy best stands.json");
+    assert_eq!(ran.code, 2);
+    assert!(ran.err.contains("draft"), "{}", ran.err);
+}
+
+#[test]
+fn a_falling_frame_says_which_forces_its_motion_rules_out() {
+    let bench = Bench::new();
+    let ran = bench.run("check --json falls.json");
+    let result: Value = serde_json::from_str(&ran.out).expect("JSON");
+    let frames = result["frames"].as_array().expect("frames");
+    assert_eq!(frames[0]["proof"]["no_balance_below"], "unbounded");
+    assert!(frames[1]["proof"].get("no_balance_below").is_none());
+    assert!(
+        bench
+            .run("check falls.json")
+            .out
+            .contains("no balance at all")
+    );
+}

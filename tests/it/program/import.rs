@@ -1,0 +1,188 @@
+//! `drystone import`
+
+use std::fs;
+
+use super::Bench;
+
+const DRAWING: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="8cm" viewBox="0 0 80 60">
+  <rect id="ground" y="50" width="80" height="10"/>
+  <rect id="post" x="20" y="20.02" width="10" height="30" fill="#8b6b3d"/></svg>"##;
+const DOUBTFUL: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 80 60">
+  <rect id="post" x="20" y="20" width="10" height="30"/><text id="words">x</text><path d="M0 0 L9 9"/></svg>"#;
+const OVERLAP: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 80 60">
+  <rect id="a" x="20" y="20" width="10" height="30"/><rect id="b" x="25" y="20" width="10" height="30"/></svg>"#;
+
+fn bench() -> Bench {
+    let bench = Bench::new();
+    for (name, text) in [
+        ("drawing.svg", DRAWING),
+        ("doubtful.svg", DOUBTFUL),
+        ("overlap.svg", OVERLAP),
+    ] {
+        fs::write(bench.path(name), text).expect("writable");
+    }
+    bench
+}
+
+#[test]
+fn a_drawing_becomes_a_scene_that_check_takes() {
+    let bench = bench();
+    let ran = bench.run("import drawing.svg -o scene.json --friction 0.6 --density 2000 --kernel 0.1 --gravity 9.81 --thickness 0.2");
+    assert_eq!((ran.code, ran.out.as_str()), (0, ""), "{}", ran.err);
+    assert!(
+        ran.err
+            .contains("drawing.svg: 1 block, 1 part of the ground, 0 robots"),
+        "{}",
+        ran.err
+    );
+    assert!(
+        ran.err
+            .contains("a unit of the drawing is 0.001 m, since it is 8cm wide"),
+        "{}",
+        ran.err
+    );
+    assert!(
+        ran.err
+            .contains("snapped post: 2 corners by up to 2.00e-5 m, to ground[0]"),
+        "{}",
+        ran.err
+    );
+    let scene = fs::read_to_string(bench.path("scene.json")).expect("written");
+    assert!(
+        scene.contains(r#""kernel": 0.1"#) && scene.contains(r#""gravity": [0.0,-9.81]"#),
+        "{scene}"
+    );
+    assert_eq!(bench.run("check scene.json").code, 0);
+}
+
+#[test]
+fn standard_input_and_output_want_the_format() {
+    let bench = bench();
+    let ran = bench.run_with("import - --format svg --quiet", DRAWING.as_bytes());
+    assert_eq!((ran.code, ran.err.as_str()), (0, ""));
+    assert!(ran.out.starts_with("{\n  \"drystone\": 1,"), "{}", ran.out);
+    let again = bench.run_with("import - --format svg -o -", DRAWING.as_bytes());
+    assert_eq!(again.out, ran.out, "same drawing, same bytes");
+    let untold = bench.run_with("import -", DRAWING.as_bytes());
+    assert_eq!(untold.code, 2);
+    assert!(
+        untold.err.contains("say --format svg, geojson or wkt"),
+        "{}",
+        untold.err
+    );
+    let wkt = bench.run_with("import - --format wkt", b"a; POLYGON ((0 0, 2 0, 2 1))");
+    assert!(
+        wkt.code == 0 && wkt.out.contains(r#""id": "a""#),
+        "{}",
+        wkt.err
+    );
+}
+
+#[test]
+fn what_was_done_is_told_as_json() {
+    let bench = bench();
+    let ran = bench.run("import drawing.svg -o scene.json --json --quiet");
+    let told: serde_json::Value = serde_json::from_str(&ran.out).expect("JSON");
+    assert_eq!(told["blocks"], 1);
+    assert_eq!(told["snapped"][0]["body"], "post");
+    assert_eq!(told["snapped"][0]["to"], serde_json::json!(["ground[0]"]));
+    assert_eq!(bench.run("import drawing.svg --json").code, 2);
+    assert_eq!(bench.run("import drawing.svg --json -o -").code, 2);
+}
+
+#[test]
+fn doubts_are_warnings_unless_strict() {
+    let bench = bench();
+    let ran = bench.run("import doubtful.svg -o scene.json");
+    assert_eq!(ran.code, 0);
+    for told in [
+        "warning: doubtful.svg: text \"words\": a text is no block",
+        "warning: doubtful.svg: <path> in line 2: it is open",
+    ] {
+        assert!(ran.err.contains(told), "{}", ran.err);
+    }
+    let strict = bench.run("import doubtful.svg -o strict.json --strict");
+    assert_eq!(strict.code, 2);
+    assert!(
+        strict.err.contains("error: doubtful.svg: text \"words\""),
+        "{}",
+        strict.err
+    );
+    assert!(!bench.made().contains(&"strict.json".to_owned()));
+}
+
+#[test]
+fn what_is_wrong_writes_nothing_and_ends_with_2() {
+    let bench = bench();
+    let overlap = bench.run("import overlap.svg -o scene.json");
+    assert_eq!(overlap.code, 2);
+    assert!(
+        overlap
+            .err
+            .contains("overlap.svg: rect \"b\": block `b` and block `a` overlap by 150 m²"),
+        "{}",
+        overlap.err
+    );
+    for (line, why) in [
+        (
+            "import missing.svg -o scene.json",
+            "cannot read missing.svg",
+        ),
+        (
+            "import drawing.svg --scale 0 -o scene.json",
+            "--scale: 0 is no length",
+        ),
+        ("import drawing.svg --friction -1 -o scene.json", "friction"),
+        (
+            "import drawing.svg --frame 2 -o scene.json",
+            "only a figure that drystone drew has frames",
+        ),
+        (
+            "import drawing.svg --gravity down -o scene.json",
+            "give one number",
+        ),
+        (
+            "import stands.json -o scene.json",
+            "it is a scene file already",
+        ),
+        ("import drawing.svgz -o scene.json", "unpack it first"),
+    ] {
+        let ran = bench.run(line);
+        assert_eq!(ran.code, 2, "{line}: {}", ran.err);
+        assert!(ran.err.contains(why), "{line}: {}", ran.err);
+    }
+    assert!(!bench.made().contains(&"scene.json".to_owned()));
+    let nowhere = bench.run("import drawing.svg -o nowhere/scene.json");
+    assert_eq!(nowhere.code, 4, "{}", nowhere.err);
+}
+
+#[test]
+fn a_figure_is_read_back_frame_by_frame() {
+    let bench = bench();
+    assert_eq!(bench.run("render falls.json -o figure.svg").code, 0);
+    let held = bench.run("import figure.svg -o held.json --friction 0.6");
+    assert_eq!(held.code, 0, "{}", held.err);
+    assert!(
+        held.err.contains("taken from its frame 2 of 2"),
+        "{}",
+        held.err
+    );
+    assert!(
+        held.err.contains("2 blocks, 1 part of the ground, 1 robot"),
+        "{}",
+        held.err
+    );
+    assert_eq!(bench.run("check held.json").code, 0);
+    assert_eq!(
+        bench.run("import figure.svg -o alone.json --frame a").code,
+        0
+    );
+    assert_eq!(bench.run("check alone.json").code, 1);
+    let beyond = bench.run("import figure.svg -o beyond.json --frame 3");
+    assert_eq!(beyond.code, 2);
+    assert!(
+        beyond.err.contains("there is no frame 3: it has 2 frames"),
+        "{}",
+        beyond.err
+    );
+}
