@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod check;
+mod figures;
 mod import;
 mod render;
 mod words;
