@@ -19,7 +19,7 @@ const NEAR: f64 = 1e3;
 const LEFT: f64 = 1e-4;
 
 /// Violations that are the rounding of speeds.
-const ROUNDED: f64 = 4.0 * f64::EPSILON;
+const ROUNDED: f64 = 16.0 * f64::EPSILON;
 
 /// Rounds of changes, each for what the last one left or closed.
 const ROUNDS: usize = 5;
@@ -55,11 +55,7 @@ fn changed(
     effort: &mut Effort,
 ) -> Option<Vec<f64>> {
     let mut motion = motion.to_vec();
-    // What cannot open leaves the program no room inside, unless each change may leave a little for the next.
-    let (left, small) = match hair {
-        0.0 => (LEFT, ROUNDED),
-        hair => (0.0, 0.5 * hair),
-    };
+    let small = if hair == 0.0 { ROUNDED } else { 0.5 * hair };
     for round in 0..=ROUNDS {
         let torn = held.iter().map(|c| c.dot(&motion).abs());
         let closing = contacts.iter().map(|c| hair - c.dot(&motion));
@@ -70,6 +66,12 @@ fn changed(
         if round == ROUNDS {
             break;
         }
+        // What cannot open leaves the program no room inside, unless each change may leave a little for the next, and
+        // the rounding of the speeds at that.
+        let left = match hair {
+            0.0 => LEFT.max(ROUNDED / worst),
+            _ => 0.0,
+        };
         let mut rows: Vec<(&Column, f64)> =
             held.iter().map(|c| (c, -c.dot(&motion) / worst)).collect();
         for column in contacts {
@@ -81,7 +83,7 @@ fn changed(
         let conic = shortest(motion.len(), &rows, held.len());
         let answer = careful(&conic, Care::Quick, effort);
         if answer.status != Status::Solved {
-            return None;
+            return (hair == 0.0 && round > 0).then_some(motion);
         }
         for (v, d) in motion.iter_mut().zip(&answer.x) {
             *v += worst * d;

@@ -27,20 +27,11 @@ impl Case<'_> {
         }
         if proof.rules_out().is_finite() {
             let unit: Vec<f64> = y.iter().map(|v| v / fastest).collect();
-            match opened(program, &unit, effort) {
-                Some(freed) => {
-                    (_, motion) = self.moved(&freed);
-                    proof = self.mechanism(&motion);
-                }
-                None if proof.rules_out() < Self::BEYOND_DOUBT => return None,
-                None => {}
-            }
+            (_, motion) = self.moved(&opened(program, &unit, effort)?);
+            proof = self.mechanism(&motion);
         }
         self.believes(&proof).then_some((motion, proof))
     }
-
-    /// A motion that could not be freed is believed when it rules out balances of less than so many heaviest loads.
-    const BEYOND_DOUBT: f64 = 1e12;
 
     /// Whether a proved motion does more work than forces within the proof's band could take up.
     pub(super) fn outweighs_the_band(&self, motion: &[Motion], proof: &Proof) -> bool {
