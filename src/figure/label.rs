@@ -5,6 +5,7 @@
 
 use super::arrow::{ForceArrow, TurnArrow};
 use super::panel::Pen;
+use super::stage::Stage;
 use super::words::quantity;
 use crate::drawing::placement::{Ink, Placed, Wish, place};
 use crate::drawing::{
@@ -59,6 +60,20 @@ pub(crate) fn labels(pen: &Pen<'_>, view: Bounds, mut ink: Ink) -> Group {
         group.description = format!("{missing} {labels} no room");
     }
     group
+}
+
+/// What a figure says of the labels that its frames are too full for; `None` where there are none.
+pub(crate) fn left_out(stage: &Stage<'_>) -> Option<String> {
+    let options = stage.options;
+    let frames = &stage.analysis.scene.frames;
+    let most = frames.iter().map(|f| f.placed.len()).max().unwrap_or(0);
+    let what = match (options.labels, options.amounts) {
+        (true, true) => "names and amounts",
+        (true, false) => "names",
+        (false, true) => "amounts",
+        (false, false) => return None,
+    };
+    (most > MOST_BLOCKS).then(|| format!("{most} blocks: {what} left out"))
 }
 
 fn wanted(pen: &Pen<'_>) -> Vec<Label> {

@@ -34,6 +34,8 @@ pub(crate) enum Entry {
     Scale(f64, f64, String),
     /// A line of a colour, so many pixels wide, and what it means.
     Line(Colour, f64, String),
+    /// What is left out.
+    Note(String),
     /// A sign so many pixels wide, drawn from the middle of its left end, and what it means.
     Sign(fn(PagePoint, &Theme) -> Vec<Item>, f64, String),
 }
@@ -68,6 +70,7 @@ impl Entry {
                 length + HEAD_LENGTH * width + 7.0 + wide(amount)
             }
             Entry::Line(_, _, meaning) => LINE + 7.0 + wide(meaning),
+            Entry::Note(words) => wide(words),
             Entry::Sign(_, width, meaning) => width + 7.0 + wide(meaning),
         }
     }
@@ -166,6 +169,7 @@ impl Entry {
                 let path = Path::stroked(line, Stroke::new(*colour, *width));
                 vec![path.into(), words(LINE + 7.0, meaning)]
             }
+            Entry::Note(note) => vec![words(0.0, note)],
             Entry::Sign(sign, width, meaning) => {
                 let mut items = sign(at, theme);
                 items.push(words(width + 7.0, meaning));

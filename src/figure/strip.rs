@@ -2,6 +2,7 @@
 //! panel shows is its [`Kind`]'s affair.
 
 use super::kind::Kind;
+use super::label;
 use super::layout::{GAP, Layout};
 use super::legend;
 use super::option::{ArrowScale, Options};
@@ -64,7 +65,9 @@ impl Strip<'_> {
         let theme = &options.theme;
         let unit = self.layout.scale * self.stage.unit;
         let entries = if options.keys {
-            self.stage.kind.entries(self.stage, unit)
+            let mut entries = self.stage.kind.entries(self.stage, unit);
+            entries.extend(label::left_out(self.stage).map(legend::Entry::Note));
+            entries
         } else {
             Vec::new()
         };
