@@ -86,6 +86,16 @@ fn a_flat_wedge_that_falls_is_proved_to_fall() {
     }
 }
 
+/// Such a wedge stands with a thrust that sixteen digits cannot balance, and a motion into its notch violates its contacts
+/// by less than any solver's error: nobody may say that it falls.
+#[test]
+fn a_wedge_too_flat_for_sixteen_digits_never_falls() {
+    for exponent in 8..=13 {
+        let frame = first(&wedge(libm::exp10(-f64::from(exponent))));
+        assert_ne!(frame.verdict, FALLS, "1e-{exponent}: {:?}", frame.proof);
+    }
+}
+
 /// Several blocks locked between two walls: their thrust has no upper end, and no motion opens every contact.
 #[test]
 fn a_row_of_blocks_locked_between_walls() {
