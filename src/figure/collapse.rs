@@ -1,13 +1,11 @@
 //! [`reason`]: a mechanism in words: which blocks turn about what, which slide, and how many hinges there are.
 
-use std::collections::BTreeMap;
-
-use super::displacement::moving;
+use super::displacement::together;
 use super::joint::{Joint, joints};
 use super::words::{counted, listed};
 use crate::analysis::{Analysis, Motion, Verdict};
 use crate::drawing::text::NO_BREAK;
-use crate::scene::{BlockId, BodyId};
+use crate::scene::BodyId;
 
 /// So many rigid bodies are told one by one.
 const MOST_TOLD: usize = 3;
@@ -62,39 +60,11 @@ fn collapse(analysis: &Analysis<'_>, frame: usize) -> String {
 
 /// The blocks that move, those that stay together as one body; in the order of their first blocks.
 fn bodies(analysis: &Analysis<'_>, frame: usize, joints: &[Joint]) -> Vec<Vec<Motion>> {
-    let found = &analysis.frames[frame];
-    let motions: BTreeMap<BlockId, Motion> =
-        moving(analysis, frame).map(|m| (m.block, *m)).collect();
-    let mut parted = vec![false; found.contacts.len()];
+    let mut parted = vec![false; analysis.frames[frame].contacts.len()];
     for joint in joints {
         parted[joint.contact] = true;
     }
-    let mut next: BTreeMap<BlockId, Vec<BlockId>> = BTreeMap::new();
-    for (contact, _) in found.contacts.iter().zip(parted).filter(|c| !c.1) {
-        if let [BodyId::Block(a), BodyId::Block(b)] = contact.interface.bodies {
-            next.entry(a).or_default().push(b);
-            next.entry(b).or_default().push(a);
-        }
-    }
-    let mut seen: Vec<bool> = vec![false; analysis.scene.blocks.len()];
-    let mut bodies = Vec::new();
-    for first in motions.keys() {
-        if seen[first.0] {
-            continue;
-        }
-        let (mut body, mut left) = (Vec::new(), vec![*first]);
-        while let Some(block) = left.pop() {
-            let Some(motion) = motions.get(&block).filter(|_| !seen[block.0]) else {
-                continue;
-            };
-            seen[block.0] = true;
-            body.push(*motion);
-            left.extend(next.get(&block).into_iter().flatten());
-        }
-        body.sort_by_key(|m| m.block);
-        bodies.push(body);
-    }
-    bodies
+    together(analysis, frame, |contact| !parted[contact])
 }
 
 struct Teller<'a> {

@@ -1,13 +1,18 @@
 //! [`Displacement`]: how far a block has gone along a mechanism, as a finite rigid motion, so that it keeps its shape.
 
+use std::collections::BTreeMap;
+
 use crate::analysis::{Analysis, Motion, Verdict};
 use crate::geometry::{Bounds, Point, Vector, quarter_turn};
+use crate::scene::{BlockId, BodyId};
 
 /// The fastest point goes at least so many unit edges …
 const LEAST: f64 = 0.35;
 /// … and at least this share of the diagonal of all that moves: in an arch of many voussoirs a unit edge is too little
-/// for a hinge to be seen to open.
+/// for a hinge to be seen to open …
 const SHARE: f64 = 0.045;
+/// … but no block turns farther than so many radians.
+const MOST: f64 = 0.35;
 /// A block is still where its fastest point is slower than this, as a share of the fastest of all.
 const STILL: f64 = 1e-3;
 
@@ -63,49 +68,97 @@ impl Displacement {
 
 /// How each block of a frame that falls is displaced, by its number; `None` for a block that stays. Empty where the
 /// frame does not fall.
+///
+/// Blocks that touch go equally far for their speed; a heap that falls apart from others has its own measure.
 pub(crate) fn displacements(
     analysis: &Analysis<'_>,
     frame: usize,
     unit: f64,
 ) -> Vec<Option<Displacement>> {
     match analysis.frames[frame].verdict {
-        Verdict::Unstable => followed(analysis, frame, amplitude(analysis, frame, unit)),
+        Verdict::Unstable => followed(analysis, frame, |heap| amplitude(analysis, heap, unit)),
         _ => Vec::new(),
     }
 }
 
-/// How far the mechanism is followed: the way in metres of a point of speed 1.
-fn amplitude(analysis: &Analysis<'_>, frame: usize, unit: f64) -> f64 {
+/// How far the motion of a heap is followed: the way in metres of a point of speed 1.
+fn amplitude(analysis: &Analysis<'_>, heap: &[Motion], unit: f64) -> f64 {
     let scene = analysis.scene;
-    let moving: Vec<&Motion> = moving(analysis, frame).collect();
-    let fastest = moving.iter().map(|m| m.fastest(scene)).fold(0.0, f64::max);
-    let all = moving
+    let fastest = heap.iter().map(|m| m.fastest(scene)).fold(0.0, f64::max);
+    let spin = heap.iter().map(|m| m.spin.abs()).fold(0.0, f64::max);
+    let size = heap
         .iter()
         .map(|m| scene.blocks[m.block.0].body.polygon.bounds())
         .reduce(Bounds::union)
         .map_or(0.0, Bounds::diagonal);
-    if fastest > 0.0 {
-        f64::max(LEAST * unit, SHARE * all) / fastest
+    if fastest <= 0.0 {
+        return 0.0;
+    }
+    let way = f64::max(LEAST * unit.min(size), SHARE * size) / fastest;
+    if spin > 0.0 {
+        way.min(MOST / spin)
     } else {
-        0.0
+        way
     }
 }
 
-fn followed(analysis: &Analysis<'_>, frame: usize, amplitude: f64) -> Vec<Option<Displacement>> {
+fn followed(
+    analysis: &Analysis<'_>,
+    frame: usize,
+    amplitude: impl Fn(&[Motion]) -> f64,
+) -> Vec<Option<Displacement>> {
     let scene = analysis.scene;
     let mut displacements = vec![None; scene.blocks.len()];
-    for motion in moving(analysis, frame) {
-        let centroid = scene.blocks[motion.block.0].centroid;
-        displacements[motion.block.0] = Some(Displacement::of(motion, centroid, amplitude));
+    for heap in together(analysis, frame, |_| true) {
+        let amplitude = amplitude(&heap);
+        for motion in heap {
+            let centroid = scene.blocks[motion.block.0].centroid;
+            displacements[motion.block.0] = Some(Displacement::of(&motion, centroid, amplitude));
+        }
     }
     displacements
 }
 
-/// The motions of the blocks of a frame that are seen to move.
-pub(crate) fn moving<'a>(
-    analysis: &'a Analysis<'_>,
+/// The motions of the blocks that move, those together whose blocks are joined by contacts that `joins` tells by their
+/// numbers; in the order of their first blocks.
+pub(crate) fn together(
+    analysis: &Analysis<'_>,
     frame: usize,
-) -> impl Iterator<Item = &'a Motion> {
+    joins: impl Fn(usize) -> bool,
+) -> Vec<Vec<Motion>> {
+    let motions: BTreeMap<BlockId, Motion> =
+        moving(analysis, frame).map(|m| (m.block, *m)).collect();
+    let mut next: BTreeMap<BlockId, Vec<BlockId>> = BTreeMap::new();
+    for (number, contact) in analysis.frames[frame].contacts.iter().enumerate() {
+        if let ([BodyId::Block(a), BodyId::Block(b)], true) =
+            (contact.interface.bodies, joins(number))
+        {
+            next.entry(a).or_default().push(b);
+            next.entry(b).or_default().push(a);
+        }
+    }
+    let mut seen = vec![false; analysis.scene.blocks.len()];
+    let mut found = Vec::new();
+    for first in motions.keys() {
+        let (mut part, mut left) = (Vec::new(), vec![*first]);
+        while let Some(block) = left.pop() {
+            let Some(motion) = motions.get(&block).filter(|_| !seen[block.0]) else {
+                continue;
+            };
+            seen[block.0] = true;
+            part.push(*motion);
+            left.extend(next.get(&block).into_iter().flatten());
+        }
+        if !part.is_empty() {
+            part.sort_by_key(|m| m.block);
+            found.push(part);
+        }
+    }
+    found
+}
+
+/// The motions of the blocks of a frame that are seen to move.
+fn moving<'a>(analysis: &'a Analysis<'_>, frame: usize) -> impl Iterator<Item = &'a Motion> {
     let (scene, motions) = (analysis.scene, &analysis.frames[frame].mechanism);
     let speed = |m: &Motion| m.fastest(scene);
     let fastest = motions.iter().map(speed).fold(0.0, f64::max);
@@ -119,7 +172,7 @@ mod tests {
     use super::*;
     use crate::figure::stage::unit;
     use crate::geometry::{Pieces, Polygon, overlap};
-    use crate::scene::{BlockId, Scene};
+    use crate::scene::Scene;
 
     fn falling() -> Vec<Scene> {
         [
@@ -160,7 +213,7 @@ mod tests {
 
     /// How much displaced blocks lie in each other, m².
     fn shared(analysis: &Analysis<'_>, amplitude: f64) -> f64 {
-        let displaced = followed(analysis, 0, amplitude);
+        let displaced = followed(analysis, 0, |_| amplitude);
         let blocks: Vec<Polygon> = analysis
             .scene
             .blocks
@@ -182,7 +235,9 @@ mod tests {
         // A kernel lets blocks turn about points within an interface, so that what lies beyond dips in at once.
         for scene in falling().into_iter().filter(|s| s.kernel == 0.0) {
             let analysis = Analysis::of(&scene);
-            let amplitude = amplitude(&analysis, 0, unit(&scene));
+            let heaps = together(&analysis, 0, |_| true);
+            assert_eq!(heaps.len(), 1);
+            let amplitude = amplitude(&analysis, &heaps[0], unit(&scene));
             // Where the way is short the square is all there is.
             let (short, half) = (
                 shared(&analysis, amplitude / 4.0),
@@ -221,6 +276,42 @@ mod tests {
             let distance = (moved.moved(far) - moved.moved(centroid)).norm();
             assert!((distance - (far - centroid).norm()).abs() < 1e-12);
             assert!((moved.back(moved.moved(far)) - far).norm() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_small_block_beside_a_large_scene_is_not_whirled_about() {
+        let brick = |id: &str, x: f64, size: f64| {
+            format!(
+                r#"{{ "id": "{id}", "weight": 6,
+                     "polygon": [[{x},0],[{},0],[{},{size}],[{x},{size}]] }}"#,
+                x + size,
+                x + size
+            )
+        };
+        // Each stands with a third of its width on its own piece of ground, and tips.
+        let ground = |x: f64, size: f64| {
+            format!(
+                r#"{{ "polygon": [[{x},-1],[{},-1],[{},0],[{x},0]] }}"#,
+                x + size / 3.0,
+                x + size / 3.0
+            )
+        };
+        let text = format!(
+            r#"{{ "drystone": 1, "ground": [{}, {}], "blocks": [{}, {}] }}"#,
+            ground(0.0, 9.0),
+            ground(200.0, 0.3),
+            brick("large", 0.0, 9.0),
+            brick("small", 200.0, 0.3)
+        );
+        let scene = Scene::from_json(&text).unwrap_or_else(|problems| panic!("{problems}"));
+        let displaced = displacements(&Analysis::of(&scene), 0, unit(&scene));
+        for (block, displacement) in scene.blocks.iter().zip(displaced) {
+            let displacement = displacement.expect("it tips");
+            let turned = displacement.turned(Vector::new(1.0, 0.0));
+            assert!(libm::atan2(turned.y, turned.x).abs() < 0.36, "{}", block.id);
+            let way = (displacement.moved(block.centroid) - block.centroid).norm();
+            assert!(way > 0.02 * block.body.polygon.area().sqrt(), "{way}");
         }
     }
 }

@@ -62,7 +62,33 @@ pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Ca
             }
         }
     }
+    if pen.many() {
+        (slips, hinges) = (joined(slips), joined(hinges));
+    }
     pen.picture(view, blocks, vec![slips, hinges], ink)
+}
+
+/// All marks of a kind as few paths, for scenes of very many blocks: the n-th paths of all marks are one.
+fn joined(marks: Group) -> Group {
+    let mut paths: Vec<Path> = Vec::new();
+    for mark in marks.items {
+        let Item::Group(mark) = mark else { continue };
+        let shapes = mark.items.into_iter();
+        let shapes = shapes.filter_map(|item| match item {
+            Item::Path(path) => Some(path),
+            _ => None,
+        });
+        for (number, path) in shapes.enumerate() {
+            match paths.get_mut(number) {
+                Some(first) => first.outline.extend(path.outline),
+                None => paths.push(path),
+            }
+        }
+    }
+    Group {
+        items: paths.into_iter().map(Item::from).collect(),
+        ..Group::of_class(&marks.class)
+    }
 }
 
 /// What the signs of a mechanism mean, those that occur.
