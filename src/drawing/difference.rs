@@ -29,7 +29,7 @@ pub enum Sight {
 /// use drystone::drawing::{Colour, difference::{Sight, difference, seen}};
 /// let (red, green) = (Colour::hex(0xc00000), Colour::hex(0x607000));
 /// let apart = |sight| difference(seen(red, sight), seen(green, sight));
-/// assert!(apart(Sight::Full) > 50.0 && apart(Sight::Protanopia) < 30.0);
+/// assert!(apart(Sight::Protanopia) < 0.7 * apart(Sight::Full));
 /// ```
 pub fn seen(colour: Colour, sight: Sight) -> Colour {
     let rows = match sight {
