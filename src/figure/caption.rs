@@ -1,6 +1,6 @@
 //! [`caption`]: what a figure shows, in plain words, written from the result.
 
-use super::verdict::word;
+use super::verdict::{amount, shortened, word};
 use super::words::{letter, listed, quantity};
 use crate::analysis::{Analysis, Failure, FrameAnalysis, Verdict};
 use crate::scene::{BodyId, Scene};
@@ -58,12 +58,15 @@ fn lacks(scene: &Scene, found: &FrameAnalysis) -> String {
             .map(|b| scene.blocks[b.0].id.clone())
             .collect();
         let what = if names.len() == 1 { "block" } else { "blocks" };
-        parts.push(format!("nothing carries {what} {}", listed(&few(names))));
+        parts.push(format!(
+            "nothing carries {what} {}",
+            listed(&shortened(names, MOST))
+        ));
     }
     let mut failures: Vec<&Failure> = found.failures.iter().collect();
     failures.sort_by(|a, b| amount(b).total_cmp(&amount(a)));
     let failures: Vec<String> = failures.into_iter().map(|f| lacking(scene, f)).collect();
-    parts.extend(few(failures));
+    parts.extend(shortened(failures, MOST));
     if found.only_by_wedging == Some(true) {
         parts.push("only wedged, by forces that its loads alone do not build up".to_owned());
     }
@@ -72,24 +75,6 @@ fn lacks(scene: &Scene, found: &FrameAnalysis) -> String {
     }
     parts.retain(|p| !p.is_empty());
     parts.join("; ")
-}
-
-fn few(mut parts: Vec<String>) -> Vec<String> {
-    if parts.len() > MOST {
-        let left = parts.len() - MOST;
-        parts.truncate(MOST);
-        parts.push(format!("{left} more"));
-    }
-    parts
-}
-
-fn amount(failure: &Failure) -> f64 {
-    match failure {
-        Failure::Tension { force, .. }
-        | Failure::Friction { force, .. }
-        | Failure::RobotForce { force, .. } => force.norm(),
-        Failure::RobotTorque { torque, .. } => torque.abs(),
-    }
 }
 
 fn lacking(scene: &Scene, failure: &Failure) -> String {

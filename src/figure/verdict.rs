@@ -89,6 +89,7 @@ pub(crate) fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
     sentences.join("; ")
 }
 
+/// The first of some parts, and how many more there are.
 pub(crate) fn shortened(mut parts: Vec<String>, most: usize) -> Vec<String> {
     if parts.len() > most {
         let left = parts.len() - most;
@@ -98,7 +99,8 @@ pub(crate) fn shortened(mut parts: Vec<String>, most: usize) -> Vec<String> {
     parts
 }
 
-fn amount(failure: &Failure) -> f64 {
+/// How much is missing, N or N·m.
+pub(crate) fn amount(failure: &Failure) -> f64 {
     match failure {
         Failure::Tension { force, .. }
         | Failure::Friction { force, .. }

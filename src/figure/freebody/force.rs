@@ -2,7 +2,7 @@
 
 use super::super::option::Options;
 use super::super::words::{force as amount, quantity};
-use super::distinct;
+use super::around::distinct;
 use crate::analysis::{Analysis, Contact};
 use crate::drawing::symbol::{Accent, Symbol};
 use crate::drawing::{Camera, Colour, PagePoint};

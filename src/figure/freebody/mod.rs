@@ -5,9 +5,11 @@
 //! all of a kind are equally long; amounts stand below the drawing. Bodies that touch the block are outlined, ground is
 //! hatched.
 
+mod around;
 mod force;
 mod value;
 
+use around::{distinct, neighbours, view};
 use force::{Force, forces};
 use value::{Piece, rows};
 
@@ -480,43 +482,4 @@ fn heading(analysis: &Analysis<'_>, block: BlockId, options: &Options, width: f6
     let room = width - 2.0 * MARGIN;
     let lines = text::wrap(&title, Face::SerifBold, HEADING, room);
     text::cut(lines, 3, Face::SerifBold, HEADING, room)
-}
-
-/// The bodies that touch a block, each once.
-fn neighbours(contacts: &[&Contact], block: BlockId) -> Vec<BodyId> {
-    let mut bodies: Vec<BodyId> = Vec::new();
-    for contact in contacts {
-        for body in contact.interface.bodies {
-            if body != BodyId::Block(block) && !bodies.contains(&body) {
-                bodies.push(body);
-            }
-        }
-    }
-    bodies
-}
-
-/// The application points that differ: two, or one where they fall together.
-fn distinct(contact: &Contact) -> Vec<Point> {
-    let [a, b] = contact.application_points;
-    if (b - a).norm() > 1e-9 * (1.0 + contact.interface.length()) {
-        vec![a, b]
-    } else {
-        vec![a]
-    }
-}
-
-/// The block whole, and of its neighbours what lies near.
-fn view(analysis: &Analysis<'_>, block: BlockId, contacts: &[&Contact]) -> Bounds {
-    let own = analysis.scene.blocks[block.0].body.polygon.bounds();
-    let near = own.grown(0.42 * own.diagonal());
-    let mut view = own.grown(0.06 * own.diagonal());
-    for body in neighbours(contacts, block) {
-        let bounds = analysis.scene.body(body).polygon.bounds();
-        let bounds = bounds.grown(0.03 * own.diagonal());
-        view = view.union(Bounds {
-            min: bounds.min.sup(&near.min),
-            max: bounds.max.inf(&near.max),
-        });
-    }
-    view
 }

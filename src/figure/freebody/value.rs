@@ -1,7 +1,7 @@
 //! [`values`]: what the named forces amount to in the balance shown, and where they act.
 
 use super::super::words::quantity;
-use super::distinct;
+use super::around::distinct;
 use super::force::{inward, named, weight};
 use crate::analysis::{Analysis, Contact};
 use crate::drawing::symbol::{Accent, Symbol};
