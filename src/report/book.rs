@@ -112,7 +112,8 @@ fn illustrated(content: &str, path: &Path, problems: &mut Vec<String>) -> String
         match figure(options, &body, path) {
             Ok(html) => {
                 drawn.push_str(&content[done..place.start]);
-                drawn.push_str(&html);
+                drawn.push_str(&html.replace('\n', &format!("\n{}", margin(content, place.start))));
+                drawn.push_str("\n\n");
                 done = place.end;
             }
             Err(why) => problems.push(format!("{}, line {line}: {why}", path.display())),
@@ -120,6 +121,13 @@ fn illustrated(content: &str, path: &Path, problems: &mut Vec<String>) -> String
     }
     drawn.push_str(&content[done..]);
     drawn
+}
+
+/// What every line of a block that begins at `start` begins with: inside a list or a quotation it would end there otherwise.
+fn margin(content: &str, start: usize) -> String {
+    let line = content[..start].rfind('\n').map_or(0, |end| end + 1);
+    let kept = |c: char| if c == '>' { c } else { ' ' };
+    content[line..start].chars().map(kept).collect()
 }
 
 /// What the words after ours ask for.
@@ -206,7 +214,7 @@ fn figure(words: &str, body: &str, chapter: &Path) -> Result<String, String> {
         String::new()
     };
     Ok(format!(
-        "<figure class=\"drystone\" style=\"overflow-x: auto\">\n{}\n{caption}\n</figure>\n\n",
+        "<figure class=\"drystone\" style=\"overflow-x: auto\">\n{}\n{caption}</figure>",
         lines.join("\n")
     ))
 }

@@ -54,6 +54,25 @@ fn scenes_become_figures_with_captions_and_the_rest_of_a_chapter_stays() {
 }
 
 #[test]
+fn a_figure_stays_inside_its_list_and_its_quotation() {
+    let chapter = "- item\n\n  ```drystone file=figure-1.json\n  ```\n\n- next\n";
+    let below = "> said\n>\n> ```drystone file=figure-1.json\n> ```\n>\n> more\n";
+    let drawn = contents(&illustrate(&input(chapter, below)).expect("drawn"));
+    for (content, margin) in drawn.iter().zip(["  ", "> "]) {
+        let figure = content.find("<figure").expect("a figure");
+        let end = content.find("</figure>").expect("its end");
+        assert!(
+            content[figure..end]
+                .lines()
+                .skip(1)
+                .all(|l| l.starts_with(margin)),
+            "{content}"
+        );
+    }
+    assert!(drawn[0].ends_with("\n\n- next\n") && drawn[1].ends_with("> more\n"));
+}
+
+#[test]
 fn every_broken_scene_is_told_with_its_chapter_and_line() {
     let chapter = "one\ntwo\n\n```drystone\n{ \"drystone\": 1, \"blocks\": [{}] }\n```\n";
     let below = "```drystone file=nowhere.json\n```\n\n```drystone kind=spiral file=figure-1.json\n```\n\n```drystone colour=red\n```\n";
