@@ -5,7 +5,7 @@
 //!
 //! *Stable* is proved by forces: every block balances, nothing pulls, nothing slips, no robot exceeds its limits.
 //! *Unstable* is proved by a motion: the loads do work along it, and no admissible force can object, because every
-//! contact only opens or slides apart. If forces did balance whose normal forces sum to F, then power ≤ violation · F; a
+//! contact only opens or slides apart. If forces of a sum Σ(N + |T|) = F did balance, then power ≤ violation · F; a
 //! motion with violation δ therefore rules out every balance with less force than power/δ ([`Proof::rules_out`]). What the
 //! sums below may be off by in f64 counts against the motion, so a violation of 0 is none at all.
 
@@ -32,8 +32,8 @@ pub enum Proof {
         /// Power of the loads along it less what robots can hold, relative to the largest weight; above 0. At least so much,
         /// whatever the rounding.
         power: f64,
-        /// Worst velocity with which a contact closes, slides within its friction, or a grip is torn. At most so much,
-        /// whatever the rounding.
+        /// Worst velocity against which an admissible force could act, so many watts per newton of N + |T|: of a contact
+        /// that closes or slides within its friction, or of a grip that is torn. At most so much, whatever the rounding.
         worst_violation: f64,
     },
 }
@@ -79,7 +79,7 @@ impl Proof {
         }
     }
 
-    /// Below which sum of normal forces, in heaviest loads, a motion rules out every balance: power / violation.
+    /// Below which sum of forces Σ(N + |T|), in heaviest loads, a motion rules out every balance: power / violation.
     ///
     /// What unlimited robots give counts among these forces. Infinite where nothing is violated: then no forces balance,
     /// however large. 0 for a proof by forces, which rules nothing out.
@@ -314,8 +314,10 @@ pub fn mechanism(
                 interface.normal.dot(&apart),
                 quarter_turn(interface.normal).dot(&apart),
             );
-            let unsure = ROUNDING * (1.0 + interface.friction) * (of_one + of_other);
-            violation = violation.max(interface.friction * slides.abs() - opens + unsure);
+            // A force of N + |T| = 1 can use most of this pressing alone, or with all the friction it has.
+            let friction = interface.friction;
+            let used = (friction * slides.abs() - opens) / (1.0 + friction);
+            violation = violation.max(used.max(-opens) + ROUNDING * (of_one + of_other));
         }
     }
     let (mut power, mut summed) = (0.0, 0.0);
