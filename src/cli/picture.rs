@@ -163,7 +163,7 @@ impl Picture {
     }
 
     /// The width, in pixels, for which a figure is laid out; `None` for its own. On a page of so many millimetres its
-    /// smallest letters are then as large as a footnote's.
+    /// words are then as large as a footnote's, names in blocks a little smaller.
     pub(crate) fn page(&self) -> Option<f64> {
         self.width_mm.map(|mm| mm / 25.4 * 96.0 / IN_PRINT)
     }

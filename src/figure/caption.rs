@@ -1,7 +1,7 @@
 //! [`caption`]: what a figure shows, in plain words, written from the result.
 
-use super::verdict::{amount, shortened, word};
-use super::words::{letter, listed, quantity};
+use super::verdict::{amount, shortened, uncarried, word};
+use super::words::{letter, quantity};
 use crate::analysis::{Analysis, Failure, FrameAnalysis, Verdict};
 use crate::scene::{BodyId, Scene};
 
@@ -51,18 +51,7 @@ pub fn caption(analysis: &Analysis<'_>) -> String {
 /// What a frame lacks to stand; empty where it stands.
 fn lacks(scene: &Scene, found: &FrameAnalysis) -> String {
     let mut parts: Vec<String> = Vec::new();
-    if !found.unsupported.is_empty() {
-        let names: Vec<String> = found
-            .unsupported
-            .iter()
-            .map(|b| scene.blocks[b.0].id.clone())
-            .collect();
-        let what = if names.len() == 1 { "block" } else { "blocks" };
-        parts.push(format!(
-            "nothing carries {what} {}",
-            listed(&shortened(names, MOST))
-        ));
-    }
+    parts.extend(uncarried(scene, found));
     let mut failures: Vec<&Failure> = found.failures.iter().collect();
     failures.sort_by(|a, b| amount(b).total_cmp(&amount(a)));
     let failures: Vec<String> = failures.into_iter().map(|f| lacking(scene, f)).collect();

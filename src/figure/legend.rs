@@ -41,11 +41,28 @@ pub(crate) enum Entry {
 }
 
 impl Entry {
-    /// The entry where it has `room` pixels: the colours alone where they and all names do not fit.
-    pub(crate) fn fitted(self, room: f64, theme: &Theme) -> Entry {
+    /// The entry where it has `room` pixels: the colours alone where they and all names do not fit, and what a bar or a
+    /// sign means below it.
+    pub(crate) fn fitted(self, room: f64, theme: &Theme) -> Vec<Entry> {
+        if self.width(theme) <= room {
+            return vec![self];
+        }
+        let below = |sign: Option<Entry>, words: &str| {
+            let lines = text::wrap(words, Face::Sans, theme.sizes.key, room);
+            sign.into_iter()
+                .chain(lines.into_iter().map(Entry::Note))
+                .collect()
+        };
         match self {
-            Entry::Blocks(_) if self.width(theme) > room => Entry::Colours(theme.arrows.clone()),
-            entry => entry,
+            Entry::Blocks(_) => vec![Entry::Colours(theme.arrows.clone())],
+            Entry::Amplitudes(ends, what) => {
+                below(Some(Entry::Amplitudes(ends, String::new())), &what)
+            }
+            Entry::Sign(sign, width, meaning) => {
+                below(Some(Entry::Sign(sign, width, String::new())), &meaning)
+            }
+            Entry::Note(words) => below(None, &words),
+            entry => vec![entry],
         }
     }
 

@@ -82,7 +82,7 @@ impl Strip<'_> {
                 .max(300.0),
         };
         let fitted = |entry: legend::Entry| entry.fitted(inner, theme);
-        let entries: Vec<legend::Entry> = entries.into_iter().map(fitted).collect();
+        let entries: Vec<legend::Entry> = entries.into_iter().flat_map(fitted).collect();
         let width = inner + 2.0 * margin;
         let middle = width / 2.0;
         let left = middle - self.layout.content / 2.0;

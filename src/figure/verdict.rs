@@ -62,18 +62,7 @@ pub(crate) fn mark(verdict: Verdict, centre: PagePoint, r: f64, theme: &Theme) -
 /// Why a frame does not stand, in words; empty where it does.
 pub(crate) fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
     let mut sentences = Vec::new();
-    if !found.unsupported.is_empty() {
-        let names: Vec<String> = found
-            .unsupported
-            .iter()
-            .map(|b| scene.blocks[b.0].id.clone())
-            .collect();
-        let what = if names.len() == 1 { "block" } else { "blocks" };
-        sentences.push(format!(
-            "nothing carries {what} {}",
-            listed(&shortened(names, 6))
-        ));
-    }
+    sentences.extend(uncarried(scene, found));
     if !found.failures.is_empty() {
         let mut failures: Vec<&Failure> = found.failures.iter().collect();
         failures.sort_by(|a, b| amount(b).total_cmp(&amount(a)));
@@ -87,6 +76,14 @@ pub(crate) fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
         sentences.push(found.doubt.clone());
     }
     sentences.join("; ")
+}
+
+/// Which blocks no sticking could save; `None` where there are none.
+pub(crate) fn uncarried(scene: &Scene, found: &FrameAnalysis) -> Option<String> {
+    let blocks = found.unsupported.iter();
+    let names: Vec<String> = blocks.map(|b| scene.blocks[b.0].id.clone()).collect();
+    let what = if names.len() == 1 { "block" } else { "blocks" };
+    (!names.is_empty()).then(|| format!("nothing carries {what} {}", listed(&shortened(names, 6))))
 }
 
 /// The first of some parts, and how many more there are.

@@ -146,11 +146,7 @@ impl Wanted {
             kind: "forces".to_owned(),
             block: None,
             caption: true,
-            options: figure::Options {
-                // The caption below says the title.
-                captions: true,
-                ..figure::Options::default()
-            },
+            options: figure::Options::default(),
         };
         for word in words.split([' ', ',', '\t']).filter(|w| !w.is_empty()) {
             let (name, value) = word.split_once('=').unwrap_or((word, ""));

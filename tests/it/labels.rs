@@ -180,6 +180,59 @@ fn names_and_amounts_lie_on_nothing_in_the_whole_gallery() {
     assert!(count > 150, "only {count} labels were looked at");
 }
 
+/// One column of a journal, 84 mm, at eight tenths of a pixel's natural size.
+const COLUMN: f64 = 84.0 / 25.4 * 96.0 / 0.8;
+
+#[test]
+fn on_a_page_as_wide_as_a_column_words_stay_large_and_nothing_is_cut() {
+    let options = Options {
+        width: Some(COLUMN),
+        ..Options::default()
+    };
+    let mut drawings = Vec::new();
+    for (name, scene) in gallery() {
+        let analysis = Analysis::of(&scene);
+        for kind in figure::Kind::ALL {
+            drawings.push((
+                format!("{name} {}", kind.name()),
+                figure::draw(&analysis, kind, &options),
+            ));
+        }
+        let block = scene.frames[0].placed[0];
+        let free = figure::freebody(&analysis, 0, block, &options).expect("placed");
+        drawings.push((format!("{name} freebody"), free));
+    }
+    for (name, drawing) in drawings {
+        assert!(
+            (drawing.width - COLUMN).abs() < 1.0,
+            "{name}: {}",
+            drawing.width
+        );
+        let page = Group {
+            items: drawing.items,
+            ..Group::default()
+        };
+        let mut in_pictures = Vec::new();
+        of_class(&page.items, "labels", &mut in_pictures);
+        let names: Vec<Text> = in_pictures.into_iter().flat_map(texts).collect();
+        for text in texts(&page) {
+            let [left, top, right, bottom] = ink(&text);
+            let inside =
+                left >= 0.0 && top >= 0.0 && right <= drawing.width && bottom <= drawing.height;
+            assert!(inside, "{name}: {} is cut", text.words);
+            // 0.6 points a pixel: 7.5 points, of names 5.4.
+            let least = if names.contains(&text) { 9.0 } else { 12.5 };
+            let small_sign = name.ends_with("freebody") && text.size > 10.0;
+            assert!(
+                text.size >= least || small_sign,
+                "{name}: {} of {}",
+                text.words,
+                text.size
+            );
+        }
+    }
+}
+
 #[test]
 fn a_hidden_label_is_found() {
     let scene = scene("assets/thesis/figure-4.json");
