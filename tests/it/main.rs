@@ -23,6 +23,7 @@ mod print;
 mod problems;
 mod program;
 mod scenes;
+mod sinks;
 mod statics;
 mod structure;
 mod wedging;
