@@ -24,7 +24,7 @@ pub use crate::proof::{Demand, Motion, Proof};
 pub use crate::resultant::Resultant;
 use crate::resultant::{friction_used, of as resultant_of};
 use crate::scene::{BlockId, BodyId, Frame, RobotId, Scene};
-use crate::solve::Effort;
+use crate::solve::{Effort, Until};
 use frame::{settle, worst};
 use group::{Findings, solved};
 pub use margin::{Margin, Margins, RobotMargins, Sides};
@@ -186,6 +186,9 @@ pub struct SolveReport {
     pub seconds: f64,
 }
 
+/// Why a frame is undecided whose programs were given up at the deadline.
+const LATE: &str = "the time limit was reached before it was decided";
+
 /// What is known of the groups of earlier frames.
 #[derive(Default)]
 struct Known {
@@ -291,7 +294,10 @@ fn examined(
     let fresh: Vec<usize> = (0..groups.len())
         .filter(|k| !known.findings.contains_key(&keys[*k]))
         .collect();
-    let one = |k: &usize| solved(&situation, &plan, &groups[*k], length, options);
+    let one = |k: &usize| {
+        let _until = Until::set(options.deadline);
+        solved(&situation, &plan, &groups[*k], length, options)
+    };
     // Many small groups are worth the threads; the order of the results is that of the groups either way.
     let findings: Vec<Findings> = if fresh.len() > 16 {
         fresh.par_iter().map(one).collect()
@@ -311,6 +317,10 @@ fn examined(
         }
     }
     settle(&mut analysis, &situation);
+    if analysis.verdict == Verdict::Undecided && options.is_late() {
+        analysis.doubt = format!("{LATE}: {}", analysis.doubt);
+    }
+    let _until = Until::set(options.deadline);
     let mut judged = None;
     if options.margins == Ask::Yes {
         let (findings, ends) = (&known.findings, &mut known.margins);
