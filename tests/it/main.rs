@@ -8,6 +8,7 @@
 
 mod accuracy;
 mod book;
+mod bound;
 mod edge;
 mod gallery;
 mod hard;
@@ -21,6 +22,7 @@ mod margins;
 mod pictures;
 mod print;
 mod problems;
+mod mutant;
 mod program;
 mod scenes;
 mod sinks;
