@@ -93,6 +93,7 @@ struct Frame<'a> {
     verdict: &'static str,
     #[serde(skip_serializing_if = "str::is_empty")]
     doubt: &'a str,
+    length: Number,
     total_force: Number,
     total_sticking: Number,
     weight: Number,
@@ -254,6 +255,7 @@ impl<'a> Frame<'a> {
             title,
             verdict: word(frame.verdict),
             doubt: &frame.doubt,
+            length: Number(frame.length),
             total_force: Number(frame.total_force),
             total_sticking: Number(frame.total_sticking),
             weight: Number(frame.weight),
@@ -288,7 +290,7 @@ impl<'a> Frame<'a> {
                 .collect(),
             proof: ProofNumbers::of(frame.proof),
             solve: Solve {
-                method: frame.solve.method,
+                method: frame.solve.method.name(),
                 iterations: frame.solve.iterations,
                 programs: frame.solve.programs,
                 groups: frame.solve.groups,

@@ -12,7 +12,6 @@ mod exact;
 mod leftover;
 mod limit;
 mod opening;
-mod single;
 mod stick;
 mod wedge;
 
@@ -21,7 +20,6 @@ pub use conic::{Answer, Care, Choice, Manner, Status, TOLERANCE, solve};
 pub use leftover::{Leftover, leftover};
 pub use limit::{Limit, least, most};
 pub use opening::opened;
-pub use single::single;
 pub use stick::{Stuck, stick, stick_in};
 pub use wedge::{Reach, reach};
 

@@ -62,7 +62,9 @@ fn frame() -> FrameAnalysis {
     FrameAnalysis {
         verdict: Verdict::Unstable,
         doubt: String::new(),
+        length: 1.5,
         total_force: 43.372,
+        least_force: true,
         total_sticking: 4.125,
         weight: 24.0,
         contacts: vec![Contact {
@@ -134,7 +136,7 @@ fn frame() -> FrameAnalysis {
             worst_violation: 1e-12,
         },
         solve: SolveReport {
-            method: "kinematic",
+            method: crate::analysis::Method::LeastForce,
             iterations: 9,
             programs: 2,
             groups: 1,
@@ -152,6 +154,7 @@ const LINES: &str = r#"{
     {
       "title": "Only",
       "verdict": "unstable",
+      "length": 1.5,
       "total_force": 43.372,
       "total_sticking": 4.125,
       "weight": 24.0,
@@ -185,7 +188,6 @@ fn the_names_are_the_contract_and_stay() {
     let scene = scene();
     let analysis = Analysis {
         scene: &scene,
-        length: 1.0,
         frames: vec![frame()],
     };
     let expected = LINES.replace("VERSION", env!("CARGO_PKG_VERSION"));
@@ -213,7 +215,6 @@ fn what_is_worth_saying_is_said() {
     let json = to_json(
         &Analysis {
             scene: &scene,
-            length: 1.0,
             frames: vec![frame],
         },
         Timing::LeftOut,
