@@ -7,6 +7,7 @@
 )]
 
 mod accuracy;
+mod assembly;
 mod book;
 mod edge;
 mod gallery;
