@@ -8,7 +8,10 @@
 //! listed loads.
 
 mod component;
+mod part;
 mod variation;
+
+pub use part::Part;
 
 use std::sync::Arc;
 

@@ -4,13 +4,20 @@
 //! from the assembly's bodies, contacts and grips, the contact law is checked force by force, so a mistake in the program
 //! cannot hide here. What the assembly itself says is held against the outlines by a test that shares no code with it.
 //!
-//! *Stable* is proved by forces: every block balances, nothing pulls, nothing slips, no robot exceeds its limits.
+//! *Stable* is proved by forces: every block balances, nothing pulls, nothing slips, no robot exceeds its limits. Each is
+//! judged where it acts: a block's balance by its own forces, a contact's law by the forces at that contact, so that
+//! neither the heaviest block nor the typical length decides about the smallest stone.
 //! *Unstable* is proved by a motion: the loads do work along it, and no admissible force can object, because every
 //! contact only opens or slides apart. If forces of a sum Σ(N + |T|) = F did balance, then power ≤ violation · F; a
-//! motion with violation δ therefore rules out every balance with less force than power/δ ([`Proof::rules_out`]). What the
-//! sums below may be off by in f64 counts against the motion, so a violation of 0 is none at all.
+//! motion with violation δ therefore rules out every balance with less force than power/δ ([`Proof::rules_out`]). Power
+//! counts in parts of the loads of what moves. What the sums below may be off by in f64 counts against the motion, so a
+//! violation of 0 is none at all.
 
-use crate::assembly::{Assembly, Body, LoadVector, about};
+mod balance;
+
+pub use balance::imbalances;
+
+use crate::assembly::{Assembly, Body, LoadVector};
 use crate::geometry::{Point, Vector, quarter_turn};
 use crate::interface::ContactKind;
 use crate::scene::{BlockId, Scene};
@@ -18,21 +25,23 @@ use crate::scene::{BlockId, Scene};
 /// How well a verdict is proved, from geometry and forces alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Proof {
-    /// Forces that balance; each number relative to the largest weight.
+    /// Forces that balance, each number without unit.
     Forces {
-        /// Worst imbalance of a block, force or moment/L.
+        /// The smallest τ for which each force on a block, changed by at most τ of its own amount and moved by at most τ of
+        /// the block's own radius, balances it exactly; the worst of all blocks ([`imbalances`]).
         worst_imbalance: f64,
-        /// Worst imbalance of a block in parts of its own load, where that is more than rounding of the heaviest.
+        /// Worst imbalance of a block in parts of its own load, force or moment over its radius: for information.
         worst_share: f64,
-        /// Worst pull at an application point.
+        /// Worst pull at an application point, in parts of the forces at its contact.
         worst_pull: f64,
-        /// Worst friction beyond μN, or robot component beyond its limit.
+        /// Worst friction beyond μN, in parts of the forces at its contact, or robot component beyond its limit, in parts of
+        /// the component.
         worst_slip: f64,
     },
     /// A mechanism; velocities relative to its fastest point.
     Mechanism {
-        /// Power of the loads along it less what robots can hold, relative to the largest weight; above 0. At least so much,
-        /// whatever the rounding.
+        /// Power of the loads along it less what robots can hold, in parts of the loads of what moves, each by how far it moves
+        /// ([`moving_load`]); above 0. At least so much, whatever the rounding.
         power: f64,
         /// Worst velocity against which an admissible force could act, so many watts per newton of N + |T|: of a contact
         /// that closes or slides within its friction, or of a grip that is torn. At most so much, whatever the rounding.
@@ -41,16 +50,14 @@ pub enum Proof {
 }
 
 impl Proof {
-    /// Forces balance when they are off by no more than this share of the heaviest load.
+    /// Forces balance when changing each by no more than this share of its own amount, and moving it by no more than this
+    /// share of its block's own radius, balances every block.
     ///
-    /// It is also the band within which a structure that just falls is called standing: by a push of this share of the
-    /// heaviest weight, or a centre of gravity this share of L outside its support.
+    /// It is also the band within which a structure that just falls is called standing: by a push on a block of this share
+    /// of the forces that act on it, or a centre of gravity this share of the block's radius outside its support.
     pub const BAND: f64 = 1e-7;
 
-    /// Nor may any block be off by more than this share of its own load: a feather under a mountain must balance too.
-    pub const SHARE: f64 = 1e-2;
-
-    /// A motion convinces when it rules out every balance of less than so many heaviest loads.
+    /// A motion convinces when it rules out every balance of less than so many times the loads of what moves.
     ///
     /// Motions are freed of what a solver left undone before they are judged. What remains where a contact can neither open
     /// nor close is the rounding of speeds, some 10⁻¹⁵, so that a motion is believed as soon as it does work beyond
@@ -67,13 +74,10 @@ impl Proof {
         match *self {
             Proof::Forces {
                 worst_imbalance,
-                worst_share,
                 worst_pull,
                 worst_slip,
-            } => {
-                worst_imbalance.max(worst_pull).max(worst_slip) <= demand.imbalance
-                    && worst_share <= Self::SHARE
-            }
+                ..
+            } => worst_imbalance.max(worst_pull).max(worst_slip) <= demand.imbalance,
             Proof::Mechanism {
                 power,
                 worst_violation,
@@ -81,7 +85,7 @@ impl Proof {
         }
     }
 
-    /// Below which sum of forces Σ(N + |T|), in heaviest loads, a motion rules out every balance: power / violation.
+    /// Below which sum of forces Σ(N + |T|), in loads of what moves, a motion rules out every balance: power / violation.
     ///
     /// What unlimited robots give counts among these forces. Infinite where nothing is violated: then no forces balance,
     /// however large. 0 for a proof by forces, which rules nothing out.
@@ -99,7 +103,7 @@ impl Proof {
 /// What a proof must come to before its verdict is believed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Demand {
-    /// Worst imbalance, pull or slip of forces that balance, relative to the heaviest load.
+    /// Worst imbalance, pull or slip of forces that balance, each in parts of the forces it acts among.
     pub imbalance: f64,
     /// Power of a motion in parts of its worst violation.
     pub conviction: f64,
@@ -205,69 +209,61 @@ pub fn fastest(body: &Body, motion: &Motion) -> f64 {
     motion.fastest_of(body.centroid, &body.corners)
 }
 
-/// A limit of so many heaviest loads holds a grip as if it had none.
+/// A limit of so many loads of what moves holds a grip as if it had none.
 const NON_BINDING: f64 = 1e4;
 
 /// Checks forces on an assembly: balance, pull, slip, limits.
 pub fn forces(assembly: &Assembly, forces: &Forces) -> Proof {
-    let heaviest = reference(assembly);
-    let mut balance: Vec<LoadVector> = assembly.bodies.iter().map(|b| b.load).collect();
-    let mut act = |number: usize, at: Point, force: Vector, torque: f64| {
-        let more = about(assembly.bodies[number].centroid, at, force, torque);
-        balance[number] = balance[number].and(more);
-    };
     let (mut worst_pull, mut worst_slip): (f64, f64) = (0.0, 0.0);
+    // In parts of what acts there; where nothing does, nothing can be broken.
+    let share = |beyond: f64, of: f64| if beyond > 0.0 { beyond / of } else { 0.0 };
     for (contact, pressed) in assembly.contacts.iter().zip(&forces.contacts) {
         let [first, second] = pressed.normal;
-        let pushes = [
-            (contact.points[0], contact.normal * first),
-            (contact.points[1], contact.normal * second),
-            (contact.ends[0], contact.tangent() * pressed.friction),
-        ];
-        for (at, push) in pushes {
-            act(contact.on, at, push, 0.0);
-            if let Some(from) = contact.from {
-                act(from, at, -push, 0.0);
-            }
-        }
-        worst_pull = worst_pull.max(-first).max(-second);
-        if contact.kind == ContactKind::Corner {
-            worst_pull = worst_pull.max(second.abs());
-        }
-        worst_slip = worst_slip.max(pressed.friction.abs() - contact.friction * (first + second));
+        let own = first.abs() + second.abs() + pressed.friction.abs();
+        let pull = match contact.kind {
+            ContactKind::Edge => (-first).max(-second),
+            ContactKind::Corner => (-first).max(second.abs()),
+        };
+        let slip = pressed.friction.abs() - contact.friction * (first + second);
+        worst_pull = worst_pull.max(share(pull, own));
+        worst_slip = worst_slip.max(share(slip, own));
     }
     for (grip, held) in assembly.grips.iter().zip(&forces.grips) {
         let limits = grip.limits;
-        act(grip.body, grip.at, held.force, held.torque);
-        worst_slip = worst_slip
-            .max(held.force.x.abs() - limits.fx)
-            .max(held.force.y.abs() - limits.fy);
-        worst_slip = worst_slip.max((held.torque.abs() - limits.torque) / assembly.length);
-    }
-    let (mut worst_imbalance, mut worst_share): (f64, f64) = (0.0, 0.0);
-    for (body, left) in assembly.bodies.iter().zip(&balance) {
-        let size = |load: LoadVector| load.size(assembly.length);
-        let (off, own) = (size(*left), size(body.load));
-        worst_imbalance = worst_imbalance.max(off);
-        // What weighs less than the rounding of the heaviest load cannot be told from nothing.
-        if own > 1e-12 * heaviest {
-            worst_share = worst_share.max(off / own);
+        for (given, limit) in [
+            (held.force.x.abs(), limits.fx),
+            (held.force.y.abs(), limits.fy),
+            (held.torque.abs(), limits.torque),
+        ] {
+            worst_slip = worst_slip.max(share(given - limit, given));
         }
     }
+    let (worst_imbalance, worst_share) = balance::worst(assembly, forces);
     Proof::Forces {
-        worst_imbalance: worst_imbalance / heaviest,
+        worst_imbalance,
         worst_share,
-        worst_pull: worst_pull / heaviest,
-        worst_slip: worst_slip.max(0.0) / heaviest,
+        worst_pull,
+        worst_slip,
     }
 }
 
-/// The heaviest load, or 1 N where there is none.
-fn reference(assembly: &Assembly) -> f64 {
-    match assembly.heaviest() {
-        0.0 => 1.0,
-        heaviest => heaviest,
+/// The loads of what moves, N: of every body its weight and listed loads, each by its fastest point's speed in parts of
+/// the fastest of all.
+pub fn moving_load(assembly: &Assembly, motions: &[Motion]) -> f64 {
+    let (mut sum, mut most): (f64, f64) = (0.0, 0.0);
+    for (body, motion) in assembly.bodies.iter().zip(motions) {
+        let speed = fastest(body, motion);
+        sum += gross_load(assembly, body) * speed;
+        most = most.max(speed);
     }
+    if most > 0.0 { sum / most } else { 0.0 }
+}
+
+/// Weight and listed loads of a body, N, a moment over its radius; not less where they act against each other.
+pub fn gross_load(assembly: &Assembly, body: &Body) -> f64 {
+    let listed = body.listed.times(assembly.load_factor);
+    let moment = listed.moment.abs() / body.radius();
+    assembly.pull.norm() * body.weight + listed.force.norm() + moment
 }
 
 /// Several times the rounding of one sum of a few products.
@@ -276,7 +272,7 @@ const ROUNDING: f64 = 8.0 * f64::EPSILON;
 /// Checks a motion of an assembly, one entry for each of its bodies: the loads' power, and whether any contact or grip
 /// objects.
 pub fn mechanism(assembly: &Assembly, motions: &[Motion]) -> Proof {
-    let heaviest = reference(assembly);
+    let load = moving_load(assembly, motions);
     let moving = |number: usize| (&assembly.bodies[number], &motions[number]);
     // A point's velocity, and what it is summed from.
     let velocity = |body: Option<usize>, at: Point| match body.map(moving) {
@@ -289,7 +285,7 @@ pub fn mechanism(assembly: &Assembly, motions: &[Motion]) -> Proof {
         .zip(motions)
         .map(|(b, m)| fastest(b, m));
     let fastest = speeds.fold(0.0, f64::max);
-    if fastest == 0.0 {
+    if fastest == 0.0 || load == 0.0 {
         return Proof::Mechanism {
             power: 0.0,
             worst_violation: 0.0,
@@ -329,7 +325,7 @@ pub fn mechanism(assembly: &Assembly, motions: &[Motion]) -> Proof {
             (spin, limits.torque / assembly.length, 0.0),
         ] {
             // A limit far beyond the loads would turn the rounding of a speed into power: such a grip must not give way.
-            if limit > NON_BINDING * heaviest {
+            if limit > NON_BINDING * load {
                 violation = violation.max(speed.abs() + unsure);
             } else {
                 power -= limit * (speed.abs() + unsure);
@@ -339,7 +335,7 @@ pub fn mechanism(assembly: &Assembly, motions: &[Motion]) -> Proof {
     }
     power -= (motions.len() + 8) as f64 * f64::EPSILON * summed;
     Proof::Mechanism {
-        power: power / (heaviest * fastest),
+        power: power / (load * fastest),
         worst_violation: violation / fastest,
     }
 }

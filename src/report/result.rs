@@ -194,7 +194,7 @@ enum ProofNumbers {
     },
 }
 
-/// Below which sum of forces, in heaviest loads, none balance: a number, or `"unbounded"` where none do at all.
+/// Below which sum of forces, in loads of what moves, none balance: a number, or `"unbounded"` where none do at all.
 #[derive(Serialize)]
 #[serde(untagged)]
 enum Below {

@@ -12,6 +12,7 @@ mod exact;
 mod leftover;
 mod limit;
 mod opening;
+mod refine;
 mod stick;
 mod wedge;
 
@@ -20,6 +21,7 @@ pub use conic::{Answer, Care, Choice, Manner, Status, TOLERANCE, solve};
 pub use leftover::{Leftover, leftover};
 pub use limit::{Limit, least, most};
 pub use opening::opened;
+pub use refine::{corrected, relative};
 pub use stick::{Stuck, stick, stick_in};
 pub use wedge::{Reach, reach};
 

@@ -24,6 +24,7 @@ mod print;
 mod problems;
 mod program;
 mod scenes;
+mod small;
 mod statics;
 mod structure;
 mod wedging;

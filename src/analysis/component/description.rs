@@ -1,7 +1,8 @@
 //! What belongs to a verdict: the forces of least sum where it stands, what fails and how it moves where it falls.
 
 use super::Case;
-use super::ladder::Decision;
+use super::ladder::{Decision, same_sum};
+use super::local::Outcome;
 use crate::analysis::Verdict;
 use crate::program::Program;
 use crate::solve::{Choice, balance_in, stick_in};
@@ -11,7 +12,7 @@ impl Case<'_> {
     pub fn described(&self, program: &Program, decision: Decision) -> Decision {
         match decision.verdict {
             Verdict::Stable if !decision.least_force => self.with_least_force(program, decision),
-            Verdict::Unstable => self.with_failures(program, decision),
+            Verdict::Unstable if !decision.in_part => self.with_failures(program, decision),
             _ => decision,
         }
     }
@@ -27,9 +28,15 @@ impl Case<'_> {
             decision.effort = decision.effort.and(solved.effort);
             if let Some(amounts) = solved.forces {
                 let proof = self.carried(&amounts).proof;
-                if self.believes(&proof) {
+                let good = match self.believes(&proof) {
+                    true => Outcome::Stands(amounts.clone(), proof),
+                    false => self.made_good(program, &amounts, &mut decision.effort),
+                };
+                if let Outcome::Stands(good, proof) = good
+                    && same_sum(&amounts, &good)
+                {
                     return Decision {
-                        amounts,
+                        amounts: good,
                         least_force: true,
                         proof,
                         ..decision

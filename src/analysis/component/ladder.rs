@@ -3,12 +3,16 @@
 //! Read it from top to bottom. Where both proofs hold, the forces win; so a motion that does no more work than forces
 //! within their band could take up decides only once the program of least residual has shown that no forces balance.
 
+use super::local::Outcome;
 use super::rung::{Attempt, Rung};
 use super::{Case, Method};
 use crate::analysis::Verdict;
 use crate::program::Program;
 use crate::proof::{Motion, Proof};
 use crate::solve::{Amounts, Effort, Stuck};
+
+/// Sums of forces that differ by no more than this share are the same to a solver.
+const SAME_SUM: f64 = 2e-8;
 
 /// A verdict with its proof, in the pure numbers of its program.
 pub(super) struct Decision {
@@ -31,6 +35,8 @@ pub(super) struct Decision {
     pub no_status: bool,
     /// What the program of least sticking gave, where the ladder came to it.
     pub stuck: Option<Stuck>,
+    /// Whether only some bodies fall, and what sticks there is known.
+    pub in_part: bool,
     pub effort: Effort,
 }
 
@@ -51,14 +57,35 @@ impl Case<'_> {
             };
             if let Some(amounts) = &attempt.forces {
                 let proof = self.carried(amounts).proof;
-                if self.believes(&proof) {
-                    return Decision {
-                        amounts: amounts.clone(),
-                        least_force: rung.is_least(),
-                        proof,
-                        effort,
-                        ..decision
-                    };
+                let outcome = match self.believes(&proof) {
+                    true => Outcome::Stands(amounts.clone(), proof),
+                    false => self.made_good(program, amounts, &mut effort),
+                };
+                match outcome {
+                    Outcome::Stands(good, proof) => {
+                        return Decision {
+                            least_force: rung.is_least() && same_sum(amounts, &good),
+                            amounts: good,
+                            proof,
+                            effort,
+                            ..decision
+                        };
+                    }
+                    Outcome::Falls(falling) => {
+                        // Where no sticking helps the bodies that fall, the whole tells what is past help.
+                        let in_part = falling.sticking.is_some();
+                        return Decision {
+                            verdict: Verdict::Unstable,
+                            amounts: falling.amounts,
+                            sticking: falling.sticking,
+                            mechanism: falling.mechanism,
+                            proof: falling.proof,
+                            in_part,
+                            effort,
+                            ..decision
+                        };
+                    }
+                    Outcome::Open => {}
                 }
             }
             let falls = attempt
@@ -141,16 +168,22 @@ impl Decision {
             method,
             no_status: false,
             stuck: None,
+            in_part: false,
             effort: Effort::default(),
         }
     }
+}
+
+/// Whether forces that were made good are still those of least sum.
+pub(super) fn same_sum(before: &Amounts, after: &Amounts) -> bool {
+    (after.total() - before.total()).abs() <= SAME_SUM * before.total()
 }
 
 fn doubt(forces: &Proof, motion: Option<&Proof>) -> String {
     let forces = match forces {
         Proof::Forces {
             worst_imbalance, ..
-        } => format!("forces are off by {worst_imbalance:.1e} of the heaviest load"),
+        } => format!("forces are off by {worst_imbalance:.1e} of what acts on a block"),
         Proof::Mechanism { .. } => String::new(),
     };
     match motion {

@@ -7,6 +7,7 @@ mod description;
 mod failure;
 mod forces;
 mod ladder;
+mod local;
 mod motion;
 mod question;
 mod rung;

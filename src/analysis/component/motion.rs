@@ -7,6 +7,9 @@ use crate::program::Program;
 use crate::proof::{self, Motion, Proof, fastest};
 use crate::solve::{Effort, opened};
 
+/// Forces of so many times the sum of all loads are what a motion must rule out at least.
+const THRUST: f64 = 10.0;
+
 impl Case<'_> {
     /// The motion near a given one, freed of the solver's error, with its proof if that convinces.
     ///
@@ -28,7 +31,16 @@ impl Case<'_> {
             (_, motion) = self.moved(&opened(program, &unit, effort)?);
             proof = self.mechanism(&motion);
         }
-        self.believes(&proof).then_some((motion, proof))
+        self.convinces(&motion, &proof).then_some((motion, proof))
+    }
+
+    /// Whether a motion with its proof convinces: it is believed as such, and rules out all forces that the loads of the
+    /// whole component might press with, so that no thrust of heavy bodies makes up for what a light one's motion violates.
+    pub(super) fn convinces(&self, motion: &[Motion], proof: &Proof) -> bool {
+        let bodies = self.assembly.bodies.iter();
+        let all: f64 = bodies.map(|b| proof::gross_load(self.assembly, b)).sum();
+        let load = proof::moving_load(self.assembly, motion);
+        self.believes(proof) && proof.rules_out() * load >= THRUST * all
     }
 
     /// Whether a proved motion does more work than forces within the proof's band could take up.
@@ -37,7 +49,9 @@ impl Case<'_> {
             .iter()
             .map(|m| m.velocity.norm() + m.spin.abs() * self.assembly.length)
             .sum();
-        matches!(proof, Proof::Mechanism { power, .. } if *power > 2.0 * Proof::BAND * ways)
+        let heaviest = self.assembly.heaviest();
+        let load = proof::moving_load(self.assembly, motion);
+        matches!(proof, Proof::Mechanism { power, .. } if power * load > 2.0 * Proof::BAND * heaviest * ways)
     }
 
     /// A component that touches no ground and is held by nobody falls with the sum of its loads, all bodies alike.
