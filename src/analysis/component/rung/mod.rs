@@ -38,12 +38,12 @@ impl Method {
     }
 }
 
-/// One program that may decide.
+/// One program that may decide: the program of the least …
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Rung {
-    LeastForce(Manner),
-    LeastResidual,
-    LeastSticking(Manner),
+    Force(Manner),
+    Residual,
+    Sticking(Manner),
 }
 
 /// What a rung found, in pure numbers and without a proof.
@@ -72,40 +72,40 @@ impl Rung {
     /// either side of the edge; then least force with full precision; last the least sticking, whose optimum is the
     /// physical residual.
     pub fn ladder(settings: &[Manner]) -> Vec<Rung> {
-        let mut rungs: Vec<Rung> = settings.iter().copied().map(Rung::LeastForce).collect();
-        rungs.insert(1.min(rungs.len()), Rung::LeastResidual);
-        rungs.extend(settings.iter().copied().map(Rung::LeastSticking));
+        let mut rungs: Vec<Rung> = settings.iter().copied().map(Rung::Force).collect();
+        rungs.insert(1.min(rungs.len()), Rung::Residual);
+        rungs.extend(settings.iter().copied().map(Rung::Sticking));
         rungs
     }
 
     pub fn attempt(&self, program: &Program) -> Attempt {
         match self {
-            Rung::LeastForce(settings) => least_force::attempt(program, *settings),
-            Rung::LeastResidual => least_residual::attempt(program),
-            Rung::LeastSticking(settings) => least_sticking::attempt(program, *settings),
+            Rung::Force(settings) => least_force::attempt(program, *settings),
+            Rung::Residual => least_residual::attempt(program),
+            Rung::Sticking(settings) => least_sticking::attempt(program, *settings),
         }
     }
 
     /// Whether its forces are those of least sum.
     pub fn is_least(&self) -> bool {
-        matches!(self, Rung::LeastForce(_))
+        matches!(self, Rung::Force(_))
     }
 
     /// Whether its forces come so near to a balance that, where they have no proof, none have.
     pub fn excludes_balance(&self, attempt: &Attempt) -> bool {
         match self {
-            Rung::LeastForce(_) => false,
-            Rung::LeastResidual => attempt.forces.is_some(),
-            Rung::LeastSticking(_) => attempt.stuck.is_some(),
+            Rung::Force(_) => false,
+            Rung::Residual => attempt.forces.is_some(),
+            Rung::Sticking(_) => attempt.stuck.is_some(),
         }
     }
 
     pub fn method(&self) -> Method {
         match self {
-            Rung::LeastForce(settings) if settings.care == Care::Quick => Method::LeastForce,
-            Rung::LeastForce(_) => Method::LeastForceRefined,
-            Rung::LeastResidual => Method::LeastResidual,
-            Rung::LeastSticking(_) => Method::LeastSticking,
+            Rung::Force(settings) if settings.care == Care::Quick => Method::LeastForce,
+            Rung::Force(_) => Method::LeastForceRefined,
+            Rung::Residual => Method::LeastResidual,
+            Rung::Sticking(_) => Method::LeastSticking,
         }
     }
 }
