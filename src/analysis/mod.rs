@@ -7,6 +7,7 @@
 mod frame;
 mod group;
 mod margin;
+mod near;
 mod option;
 
 use std::collections::BTreeMap;
@@ -218,20 +219,8 @@ impl<'s> Analysis<'s> {
 
     /// Examines every frame of a scene, and what else is asked for.
     pub fn with(scene: &'s Scene, options: &Options) -> Analysis<'s> {
-        let found = Interfaces::of(scene);
-        let length = Analysis::length_of(scene, &found);
-        let mut known = Known::default();
-        let frames = scene
-            .frames
-            .iter()
-            .map(|frame| {
-                let interfaces = found.in_frame(scene, frame);
-                let mut analysis =
-                    examined(scene, frame, &interfaces, length, *options, &mut known);
-                analysis.notices.extend(found.notices.iter().cloned());
-                analysis
-            })
-            .collect();
+        let (found, length, mut frames) = examine(scene, options);
+        near::judge(scene, &found, &mut frames, options);
         Analysis {
             scene,
             length,
@@ -268,6 +257,24 @@ fn typical_block(scene: &Scene) -> f64 {
         .get(sizes.len().saturating_sub(1) / 2)
         .copied()
         .unwrap_or(1.0)
+}
+
+/// Examines every frame of a scene with its gaps as they are.
+fn examine(scene: &Scene, options: &Options) -> (Interfaces, f64, Vec<FrameAnalysis>) {
+    let found = Interfaces::of(scene);
+    let length = Analysis::length_of(scene, &found);
+    let mut known = Known::default();
+    let frames = scene
+        .frames
+        .iter()
+        .map(|frame| {
+            let interfaces = found.in_frame(scene, frame);
+            let mut analysis = examined(scene, frame, &interfaces, length, *options, &mut known);
+            analysis.notices.extend(found.notices.iter().cloned());
+            analysis
+        })
+        .collect();
+    (found, length, frames)
 }
 
 /// Examines one frame.

@@ -53,7 +53,7 @@ impl Accuracy {
         for path in &self.output {
             forms.push((path, form(path).map_err(|c| vec![c])?));
         }
-        let sources = source::read(&self.scenes, None)?;
+        let sources = source::read(&self.scenes, None, None)?;
         // A scene without a title is known by its file.
         let scenes: Vec<Scene> = sources
             .iter()

@@ -7,6 +7,7 @@
 mod lattice;
 mod overlap;
 mod polygon;
+pub(crate) mod snap;
 mod tolerance;
 
 pub(crate) use lattice::boundary;

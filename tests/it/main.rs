@@ -11,6 +11,7 @@ mod book;
 mod edge;
 mod gallery;
 mod hard;
+mod healing;
 mod import;
 mod labels;
 mod kinds;
