@@ -8,6 +8,7 @@
 mod component;
 mod frame;
 mod margin;
+mod near;
 mod option;
 
 use std::collections::BTreeMap;
@@ -224,23 +225,8 @@ impl<'s> Analysis<'s> {
 
     /// Examines every frame of a scene, and what else is asked for.
     pub fn with(scene: &'s Scene, options: &Options) -> Analysis<'s> {
-        let found = Interfaces::of(scene);
-        let mut known = Known::default();
-        let frames = scene
-            .frames
-            .iter()
-            .map(|frame| {
-                let interfaces = found.in_frame(scene, frame);
-                let situation = Situation {
-                    scene,
-                    frame,
-                    interfaces: &interfaces,
-                };
-                let mut analysis = examined(&situation, *options, &mut known);
-                analysis.notices.extend(found.notices.iter().cloned());
-                analysis
-            })
-            .collect();
+        let (found, mut frames) = examine(scene, options);
+        near::judge(scene, &found, &mut frames, options);
         Analysis { scene, frames }
     }
 
@@ -252,6 +238,28 @@ impl<'s> Analysis<'s> {
             .max()
             .unwrap_or(Verdict::Stable)
     }
+}
+
+/// Examines every frame of a scene with its gaps as they are.
+fn examine(scene: &Scene, options: &Options) -> (Interfaces, Vec<FrameAnalysis>) {
+    let found = Interfaces::of(scene);
+    let mut known = Known::default();
+    let frames = scene
+        .frames
+        .iter()
+        .map(|frame| {
+            let interfaces = found.in_frame(scene, frame);
+            let situation = Situation {
+                scene,
+                frame,
+                interfaces: &interfaces,
+            };
+            let mut analysis = examined(&situation, *options, &mut known);
+            analysis.notices.extend(found.notices.iter().cloned());
+            analysis
+        })
+        .collect();
+    (found, frames)
 }
 
 /// Examines one frame.

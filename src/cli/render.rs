@@ -150,7 +150,10 @@ impl Render {
         }
         self.check_count(&destination, format, terminal)
             .map_err(|c| vec![c])?;
-        let (theme, sources) = match (self.look.theme(), source::read(&self.scenes, self.frame)) {
+        let (theme, sources) = match (
+            self.look.theme(),
+            source::read(&self.scenes, self.frame, self.level.contact_tolerance),
+        ) {
             (Ok(theme), Ok(sources)) => (theme, sources),
             (theme, sources) => {
                 let scenes = sources.err().into_iter().flatten();

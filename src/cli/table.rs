@@ -60,6 +60,9 @@ pub(crate) fn of(name: &str, analysis: &Analysis, timing: Timing) -> String {
             let _ = writeln!(out, "      {}", visible(&remark));
         }
     }
+    if let Some(words) = scene.tolerance_words() {
+        let _ = writeln!(out, "  {dim}{words}{dim:#}");
+    }
     out
 }
 

@@ -25,7 +25,7 @@ use crate::analysis::{
 use crate::geometry::{Point, Vector};
 use crate::interface::ContactKind;
 use crate::scene::format::Lines;
-use crate::scene::{BlockId, BodyId, RobotId, Scene};
+use crate::scene::{BlockId, BodyId, RobotId, Scene, ToleranceSource};
 
 /// Whether a result tells how long it took.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -84,7 +84,20 @@ pub fn to_json(analysis: &Analysis, timing: Timing, layout: Layout) -> String {
 struct Result<'a> {
     drystone: &'static str,
     scene: &'a str,
+    contact_tolerance: Tolerance,
     frames: Vec<Frame<'a>>,
+}
+
+/// Within how many metres edges touch and within how many they are made one, how that was found, and what was moved.
+#[derive(Serialize)]
+struct Tolerance {
+    gap: Number,
+    from: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    digits: Option<usize>,
+    healed_within: Number,
+    moved_corners: usize,
+    largest_move: Number,
 }
 
 #[derive(Serialize)]
@@ -241,9 +254,32 @@ impl<'a> Result<'a> {
         Result {
             drystone: env!("CARGO_PKG_VERSION"),
             scene: &scene.title,
+            contact_tolerance: Tolerance::of(scene),
             frames: frames
                 .map(|(step, frame)| Frame::of(scene, &step.title, frame, timing))
                 .collect(),
+        }
+    }
+}
+
+impl Tolerance {
+    fn of(scene: &Scene) -> Tolerance {
+        let (from, digits) = match scene.healed.source {
+            ToleranceSource::Lattice => ("lattice", None),
+            ToleranceSource::Given => ("given", None),
+            ToleranceSource::Decimals(k) => ("decimals", Some(k)),
+            ToleranceSource::Digits(n) => ("significant_digits", Some(n)),
+            ToleranceSource::Float32 => ("float32", None),
+            ToleranceSource::Size => ("size", None),
+            ToleranceSource::Noise => ("noise", None),
+        };
+        Tolerance {
+            gap: Number(scene.tolerance.gap),
+            from,
+            digits,
+            healed_within: Number(scene.healed.within),
+            moved_corners: scene.healed.corners,
+            largest_move: Number(scene.healed.distance),
         }
     }
 }

@@ -12,6 +12,7 @@ mod book;
 mod edge;
 mod gallery;
 mod hard;
+mod healing;
 mod import;
 mod labels;
 mod kinds;
