@@ -102,6 +102,17 @@ impl Kind {
         matches!(self, Kind::Forces | Kind::Build)
     }
 
+    /// The amount that a frame's own scale takes as one unit edge, N; 0 where the kind draws no arrows.
+    pub(crate) fn largest(self, analysis: &Analysis<'_>, frame: usize, options: &Options) -> f64 {
+        let scene = analysis.scene;
+        let (placed, found) = (&scene.frames[frame], &analysis.frames[frame]);
+        match self {
+            Kind::Forces | Kind::Build => mark::largest(scene, placed, found, options),
+            Kind::Thrust => thrust::largest_load(scene, placed),
+            _ => 0.0,
+        }
+    }
+
     /// The arrows of a frame, `newtons_per_unit` N being one unit edge long.
     pub(crate) fn marks(
         self,
@@ -112,6 +123,7 @@ impl Kind {
     ) -> Marks {
         match self {
             Kind::Forces | Kind::Build => mark::marks(analysis, frame, options, newtons_per_unit),
+            Kind::Thrust => thrust::marks(analysis, frame, options, newtons_per_unit),
             _ => Marks::default(),
         }
     }

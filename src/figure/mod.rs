@@ -35,7 +35,7 @@ mod verdict;
 mod view;
 mod words;
 
-pub use arrow::{ArrowKind, ForceArrow, Marks, TurnArrow, TurnKind};
+pub use arrow::{ArrowKind, ForceArrow, Head, Marks, TurnArrow, TurnKind};
 pub use caption::caption;
 pub use forces::forces;
 pub use freebody::freebody;

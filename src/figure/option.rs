@@ -75,3 +75,10 @@ impl Default for Options {
         }
     }
 }
+
+impl Options {
+    /// Whether arrows look as in the source's printed figures: components to the source's scale.
+    pub(crate) fn printed(&self) -> bool {
+        self.normalisation == Normalisation::Source && self.style == ForceStyle::Components
+    }
+}

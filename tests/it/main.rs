@@ -16,6 +16,7 @@ mod labels;
 mod kinds;
 mod laws;
 mod layers;
+mod lines;
 mod oracle;
 mod margins;
 mod pictures;
