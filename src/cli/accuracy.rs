@@ -1,6 +1,6 @@
 //! `drystone accuracy`: what accuracy costs in time, measured here and now.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
@@ -53,6 +53,8 @@ impl Accuracy {
         for path in &self.output {
             forms.push((path, form(path).map_err(|c| vec![c])?));
         }
+        let scenes: Vec<&Path> = self.scenes.iter().map(PathBuf::as_path).collect();
+        destination::apart(&self.output, &scenes).map_err(|c| vec![c])?;
         let sources = source::read(&self.scenes, None)?;
         // A scene without a title is known by its file.
         let scenes: Vec<Scene> = sources
@@ -94,7 +96,7 @@ impl Accuracy {
     }
 }
 
-fn form(path: &std::path::Path) -> Result<Form, Complaint> {
+fn form(path: &Path) -> Result<Form, Complaint> {
     let ending = path
         .extension()
         .map(|e| e.to_string_lossy().to_ascii_lowercase());

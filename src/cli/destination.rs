@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::cli::complaint::Complaint;
 use crate::cli::picture::Format;
-use crate::output::file::{Existing, write_whole};
+use crate::output::file::{Existing, same, write_whole};
 
 /// Where a picture goes.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -58,6 +58,37 @@ impl Destination {
             _ => Ok(by_name),
         }
     }
+}
+
+/// Refuses outputs that would overwrite an input or one another, by whatever names or links.
+pub(crate) fn apart(outputs: &[PathBuf], inputs: &[&Path]) -> Result<(), Complaint> {
+    // What a shell feeds into standard input is a file like any other, where the system has a name for it.
+    let stdin = Path::new("/dev/stdin");
+    let is_stdin = |input: &Path| input == Path::new("-");
+    for (number, output) in outputs.iter().enumerate() {
+        let shown = output.display();
+        let clash = |input: &Path| match is_stdin(input) {
+            true => same(output, stdin),
+            false => same(output, input),
+        };
+        if let Some(input) = inputs.iter().find(|input| clash(input)) {
+            let input = match is_stdin(input) {
+                true => "standard input".to_owned(),
+                false => input.display().to_string(),
+            };
+            return Err(Complaint::CommandLine(format!(
+                "the output {shown} and the input {input} are the same file; give the output another name"
+            )));
+        }
+        let twice = |other: &&PathBuf| *other == output || same(other, output);
+        if let Some(other) = outputs[..number].iter().find(twice) {
+            return Err(Complaint::CommandLine(format!(
+                "the outputs {} and {shown} are the same file; give one of them another name",
+                other.display()
+            )));
+        }
+    }
+    Ok(())
 }
 
 /// Writes all files or none.

@@ -57,6 +57,9 @@ impl Figures {
         }
         let captions = self.output.join("captions.md");
         files.push((captions, captions_of(&plates).into_bytes()));
+        let paths: Vec<PathBuf> = files.iter().map(|(path, _)| path.clone()).collect();
+        let style: Vec<&Path> = self.look.file().into_iter().collect();
+        destination::apart(&paths, &style).map_err(|c| vec![c])?;
         let count = files.len();
         destination::make_folder(&self.output).map_err(|c| vec![c])?;
         destination::write(&files, Existing::Replace).map_err(|c| vec![c])?;

@@ -94,6 +94,9 @@ impl Import {
             let why = format!("{} is a folder; name the scene file in it", file.display());
             return Err(vec![Complaint::CommandLine(why)]);
         }
+        if let Some(file) = file {
+            destination::apart(&[file.to_owned()], &[&self.drawing]).map_err(|c| vec![c])?;
+        }
         let format = self.format().map_err(|c| vec![c])?;
         let name = if self.drawing == stdout {
             "standard input".into()

@@ -22,6 +22,11 @@ pub(crate) struct Look {
 }
 
 impl Look {
+    /// The style file, where there is one.
+    pub(crate) fn file(&self) -> Option<&Path> {
+        self.style.as_deref()
+    }
+
     /// The theme asked for.
     pub(crate) fn theme(&self) -> Result<Theme, Complaint> {
         let base = self.theme.as_deref().and_then(Theme::named);

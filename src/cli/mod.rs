@@ -32,11 +32,13 @@ mod progress;
 mod render;
 mod schema;
 mod shapes;
+mod signal;
 mod source;
 mod style;
 mod table;
 mod terminal;
 
+use std::io::{self, Write};
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
@@ -84,15 +86,11 @@ pub fn run() -> ExitCode {
     let line = match CommandLine::try_parse() {
         Ok(line) => line,
         Err(error) => {
-            // Nobody is left to be told when even the help text cannot be written.
-            let _ = error.print();
-            return if error.use_stderr() {
-                Ending::WrongInput.code()
-            } else {
-                Ending::Done.code()
-            };
+            let printed = error.print().and_then(|()| io::stdout().flush());
+            return refused(&error, printed).code();
         }
     };
+    signal::listen();
     let terminal = Terminal::new(line.voice);
     let ended = match line.command {
         Command::Render(render) => render.run(&terminal),
@@ -109,6 +107,21 @@ pub fn run() -> ExitCode {
     };
     let ending = ended.unwrap_or_else(|complaints| complain(&terminal, &complaints));
     ending.code()
+}
+
+/// How it ended when only help, the version or a complaint of the command line was to be printed.
+fn refused(error: &clap::Error, printed: io::Result<()>) -> Ending {
+    if error.use_stderr() {
+        return Ending::WrongInput;
+    }
+    match terminal::written(printed) {
+        Ok(()) => Ending::Done,
+        Err(complaint) => {
+            // Standard error may be as full as standard output; then the exit code alone tells.
+            let _ = writeln!(io::stderr(), "{}", complaint.text());
+            complaint.ending()
+        }
+    }
 }
 
 fn complain(terminal: &Terminal, complaints: &[Complaint]) -> Ending {

@@ -1,6 +1,6 @@
 //! `drystone render`: scenes in, figures out.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
@@ -159,6 +159,9 @@ impl Render {
         };
         let options = self.options(theme);
         let paths = paths(&destination, &sources, format).map_err(|c| vec![c])?;
+        let inputs = self.scenes.iter().map(PathBuf::as_path);
+        let inputs: Vec<&Path> = inputs.chain(self.look.file()).collect();
+        destination::apart(&paths, &inputs).map_err(|c| vec![c])?;
 
         let shown = if terminal.shows_progress() {
             Shown::WhenLong

@@ -1,6 +1,6 @@
 //! `drystone shapes`: a sheet of the built-in shapes.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
@@ -43,14 +43,16 @@ impl Shapes {
             return Err(Complaint::CommandLine(why));
         }
         let bytes = self.picture.bytes(figure::shapes(theme), format)?;
-        match destination {
-            Destination::Stdout => terminal.print_bytes(&bytes),
-            Destination::File(path) => destination::write(&[(path, bytes)], Existing::Replace),
-            Destination::Folder(folder) => {
-                destination::make_folder(&folder)?;
-                let path = folder.join(format!("shapes.{}", format.ending()));
-                destination::write(&[(path, bytes)], Existing::Replace)
-            }
+        let path = match &destination {
+            Destination::Stdout => return terminal.print_bytes(&bytes),
+            Destination::File(path) => path.clone(),
+            Destination::Folder(folder) => folder.join(format!("shapes.{}", format.ending())),
+        };
+        let style: Vec<&Path> = self.look.file().into_iter().collect();
+        destination::apart(std::slice::from_ref(&path), &style)?;
+        if let Destination::Folder(folder) = &destination {
+            destination::make_folder(folder)?;
         }
+        destination::write(&[(path, bytes)], Existing::Replace)
     }
 }

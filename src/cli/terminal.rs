@@ -64,7 +64,7 @@ impl Terminal {
     /// Writes a result as text.
     pub(crate) fn print(&self, text: &str) -> Result<(), Complaint> {
         let mut stream = anstream::stdout().lock();
-        told(
+        written(
             stream
                 .write_all(text.as_bytes())
                 .and_then(|()| stream.flush()),
@@ -74,7 +74,7 @@ impl Terminal {
     /// Writes a result as it is.
     pub(crate) fn print_bytes(&self, bytes: &[u8]) -> Result<(), Complaint> {
         let mut stream = io::stdout().lock();
-        told(stream.write_all(bytes).and_then(|()| stream.flush()))
+        written(stream.write_all(bytes).and_then(|()| stream.flush()))
     }
 
     /// Says something useful that is no result, unless asked to be quiet.
@@ -93,7 +93,7 @@ impl Terminal {
 }
 
 /// A reader that closes the pipe has read enough: that is no failure of ours.
-fn told(written: io::Result<()>) -> Result<(), Complaint> {
+pub(crate) fn written(written: io::Result<()>) -> Result<(), Complaint> {
     match written {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Complaint::NotWritten {
             what: "standard output".into(),

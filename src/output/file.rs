@@ -1,10 +1,16 @@
 //! [`write_whole`]: files appear whole or not at all.
 //!
 //! The only file that names tempfile. A file is written beside its place and then moved there in one step, so that nobody
-//! ever sees half of it, and so that a disk that runs full leaves the old file as it was.
+//! ever sees half of it, and so that a disk that runs full leaves the old file as it was. A link is followed and its
+//! target replaced, with the target's permissions. What is no ordinary file, a device or a pipe, is written to directly.
+//!
+//! Files beside their places are on a list for as long as they are there: [`abandon`] takes them away when the process is
+//! about to be ended by a signal.
 
+use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use tempfile::NamedTempFile;
 
@@ -27,6 +33,12 @@ pub struct Unwritten {
     pub why: io::Error,
 }
 
+/// A link may lead to a link; after so many of them it leads in a circle.
+const MOST_LINKS: usize = 40;
+
+/// The files that lie beside their places.
+static BESIDE: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
 /// Writes several files, or none of them: all lie beside their places before the first is moved to its own.
 ///
 /// # Errors
@@ -44,49 +56,197 @@ pub struct Unwritten {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn write_whole(files: &[(PathBuf, Vec<u8>)], existing: Existing) -> Result<(), Unwritten> {
-    let mut beside = Vec::with_capacity(files.len());
+    let mut ready = Vec::with_capacity(files.len());
     for (path, bytes) in files {
-        let ready = prepare(path, bytes, existing).map_err(|why| Unwritten {
+        let prepared = prepare(path, bytes, existing).map_err(|why| Unwritten {
             path: path.clone(),
             why,
         })?;
-        beside.push(ready);
+        ready.push(prepared);
     }
-    for (ready, (path, _)) in beside.into_iter().zip(files) {
-        let moved = match existing {
-            Existing::Replace => ready.persist(path),
-            Existing::Keep => ready.persist_noclobber(path),
-        };
-        moved.map_err(|error| Unwritten {
+    for (prepared, (path, bytes)) in ready.into_iter().zip(files) {
+        prepared.put(bytes, existing).map_err(|why| Unwritten {
             path: path.clone(),
-            why: error.error,
+            why,
         })?;
     }
     Ok(())
 }
 
-/// The file's bytes beside its place.
-fn prepare(path: &Path, bytes: &[u8], existing: Existing) -> io::Result<NamedTempFile> {
-    if path.is_dir() {
-        return Err(io::Error::new(
-            io::ErrorKind::IsADirectory,
-            "it is a folder",
-        ));
+/// Takes away every file that lies beside its place, and keeps others from being made: for a process that is about to
+/// end.
+pub(crate) fn abandon() -> impl Drop {
+    let mut beside = beside();
+    for path in beside.drain(..) {
+        // It may be gone already, and there is nobody left to be told.
+        let _ = fs::remove_file(path);
     }
-    if existing == Existing::Keep && path.exists() {
-        return Err(io::Error::new(
-            io::ErrorKind::AlreadyExists,
-            "it is there already",
-        ));
+    beside
+}
+
+/// Whether two paths lead to one ordinary file, by whatever names or links. Paths that lead nowhere lead to no file.
+pub(crate) fn same(a: &Path, b: &Path) -> bool {
+    let (Ok(a_is), Ok(b_is)) = (fs::metadata(a), fs::metadata(b)) else {
+        return false;
+    };
+    a_is.is_file() && b_is.is_file() && same_file((a, &a_is), (b, &b_is))
+}
+
+#[cfg(unix)]
+fn same_file((_, a): (&Path, &Metadata), (_, b): (&Path, &Metadata)) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    (a.dev(), a.ino()) == (b.dev(), b.ino())
+}
+
+#[cfg(not(unix))]
+fn same_file((a, _): (&Path, &Metadata), (b, _): (&Path, &Metadata)) -> bool {
+    matches!((fs::canonicalize(a), fs::canonicalize(b)), (Ok(a), Ok(b)) if a == b)
+}
+
+fn beside() -> MutexGuard<'static, Vec<PathBuf>> {
+    // A list of paths is sound at every moment, whoever held it last.
+    BESIDE.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// A file that is ready to be put in its place.
+enum Ready {
+    /// Its bytes lie beside the place.
+    Beside(Beside),
+    /// A device or a pipe, open for writing.
+    Stream(File),
+}
+
+impl Ready {
+    fn put(self, bytes: &[u8], existing: Existing) -> io::Result<()> {
+        match self {
+            Ready::Beside(file) => file.put(existing),
+            Ready::Stream(mut stream) => stream.write_all(bytes),
+        }
     }
-    let folder = path
-        .parent()
-        .filter(|p| !p.as_os_str().is_empty())
-        .unwrap_or(Path::new("."));
-    let mut file = builder().tempfile_in(folder)?;
-    file.write_all(bytes)?;
-    file.as_file().sync_all()?;
-    Ok(file)
+}
+
+/// A file beside its place, on the list.
+struct Beside {
+    /// `None` once it was moved.
+    file: Option<NamedTempFile>,
+    target: PathBuf,
+}
+
+impl Beside {
+    fn make(target: PathBuf) -> io::Result<Beside> {
+        let folder = target
+            .parent()
+            .filter(|p| !p.as_os_str().is_empty())
+            .unwrap_or(Path::new("."));
+        // Nobody may look at the list between a file's making and its entry.
+        let mut list = beside();
+        let file = builder()
+            .tempfile_in(folder)
+            .map_err(|error| nameless(&error))?;
+        list.push(file.path().to_owned());
+        drop(list);
+        Ok(Beside {
+            file: Some(file),
+            target,
+        })
+    }
+
+    fn fill(&mut self, bytes: &[u8], old: Option<&Metadata>) -> io::Result<()> {
+        // The bare file, as tempfile's errors tell the name that nobody asked for.
+        let Some(file) = self.file.as_mut().map(NamedTempFile::as_file_mut) else {
+            return Ok(());
+        };
+        file.write_all(bytes)?;
+        if let Some(old) = old {
+            keep_rights(file, old)?;
+        }
+        file.sync_all()
+    }
+
+    fn put(mut self, existing: Existing) -> io::Result<()> {
+        let mut list = beside();
+        let Some(file) = self.file.take() else {
+            return Ok(());
+        };
+        let path = file.path().to_owned();
+        let moved = match existing {
+            Existing::Replace => file.persist(&self.target),
+            Existing::Keep => file.persist_noclobber(&self.target),
+        };
+        list.retain(|p| *p != path);
+        drop(list);
+        moved.map(drop).map_err(|error| nameless(&error.error))
+    }
+}
+
+impl Drop for Beside {
+    fn drop(&mut self) {
+        if let Some(file) = self.file.take() {
+            let mut list = beside();
+            list.retain(|p| p != file.path());
+            drop(file);
+        }
+    }
+}
+
+/// The system's reason without the temporary name that tempfile adds to it.
+fn nameless(error: &io::Error) -> io::Error {
+    let text = error.to_string();
+    let reason = text.split(" at path ").next().unwrap_or_default();
+    io::Error::new(error.kind(), reason.to_owned())
+}
+
+/// Permissions, and where the system lets us the owner, as of the file that is replaced.
+fn keep_rights(file: &File, old: &Metadata) -> io::Result<()> {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::{MetadataExt, fchown};
+        // Only the superuser may give a file away; the permissions go last, as a change of owner takes some back.
+        let _ = fchown(file, Some(old.uid()), Some(old.gid()));
+    }
+    file.set_permissions(old.permissions())
+}
+
+/// Opens or makes what is needed to write a file in one step.
+fn prepare(path: &Path, bytes: &[u8], existing: Existing) -> io::Result<Ready> {
+    let target = followed(path)?;
+    let old = fs::metadata(&target).ok();
+    if let Some(old) = &old {
+        if old.is_dir() {
+            return Err(io::Error::new(
+                io::ErrorKind::IsADirectory,
+                "it is a folder",
+            ));
+        }
+        if existing == Existing::Keep {
+            return Err(io::Error::new(
+                io::ErrorKind::AlreadyExists,
+                "it is there already",
+            ));
+        }
+        // Opened and left as it is: what this user may not write to is not replaced either.
+        let open = OpenOptions::new().write(true).open(&target)?;
+        if !old.is_file() {
+            return Ok(Ready::Stream(open));
+        }
+    }
+    let mut file = Beside::make(target)?;
+    file.fill(bytes, old.as_ref())?;
+    Ok(Ready::Beside(file))
+}
+
+/// Where a path leads: the target of a link, which need not exist.
+fn followed(path: &Path) -> io::Result<PathBuf> {
+    let mut path = path.to_owned();
+    for _ in 0..MOST_LINKS {
+        let link = fs::symlink_metadata(&path).is_ok_and(|m| m.is_symlink());
+        if !link {
+            return Ok(path);
+        }
+        let target = fs::read_link(&path)?;
+        path = path.parent().unwrap_or(Path::new("")).join(target);
+    }
+    Err(io::Error::other("its links lead in a circle"))
 }
 
 fn builder() -> tempfile::Builder<'static, 'static> {
@@ -100,8 +260,6 @@ fn builder() -> tempfile::Builder<'static, 'static> {
 
 #[cfg(test)]
 mod tests {
-    use std::fs;
-
     use super::*;
 
     #[test]
@@ -130,6 +288,7 @@ mod tests {
             ];
             let refused = write_whole(&files, Existing::Replace).expect_err("no such place");
             assert_eq!(refused.path, bad);
+            assert!(!refused.to_string().contains(".part"), "{refused}");
             assert_eq!(fs::read(&good).expect("still there"), b"before");
             assert_eq!(
                 fs::read_dir(folder.path()).expect("listed").count(),
@@ -137,5 +296,58 @@ mod tests {
                 "nothing is left lying about"
             );
         }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_is_followed_and_permissions_stay() {
+        use std::os::unix::fs::{PermissionsExt, symlink};
+        let folder = tempfile::tempdir().expect("a folder");
+        let at = |name: &str| folder.path().join(name);
+        fs::create_dir(at("deep")).expect("made");
+        fs::write(at("deep/real.svg"), "old").expect("writable");
+        fs::set_permissions(at("deep/real.svg"), fs::Permissions::from_mode(0o640)).expect("ours");
+        symlink("deep/real.svg", at("one.svg")).expect("linked");
+        symlink("one.svg", at("two.svg")).expect("linked");
+        symlink("deep/new.svg", at("dangling.svg")).expect("linked");
+        symlink("circle.svg", at("circle.svg")).expect("linked");
+        let write = |name: &str| write_whole(&[(at(name), b"new".to_vec())], Existing::Replace);
+        write("two.svg").expect("written");
+        write("dangling.svg").expect("written");
+        assert_eq!(fs::read(at("deep/real.svg")).expect("there"), b"new");
+        assert_eq!(fs::read(at("deep/new.svg")).expect("there"), b"new");
+        let mode = fs::metadata(at("deep/real.svg"))
+            .expect("there")
+            .permissions()
+            .mode();
+        assert_eq!(mode & 0o777, 0o640);
+        for link in ["one.svg", "two.svg", "dangling.svg"] {
+            assert!(at(link).is_symlink(), "{link} is still a link");
+        }
+        assert!(write("circle.svg").is_err());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn one_file_is_known_by_all_its_names() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let at = |name: &str| folder.path().join(name);
+        fs::write(at("a"), "").expect("writable");
+        fs::write(at("b"), "").expect("writable");
+        fs::hard_link(at("a"), at("hard")).expect("linked");
+        std::os::unix::fs::symlink("hard", at("soft")).expect("linked");
+        for name in ["a", "./a", "hard", "soft"] {
+            assert!(same(&at("a"), &at(name)), "{name}");
+        }
+        for name in ["b", "none", "."] {
+            assert!(!same(&at("a"), &at(name)), "{name}");
+        }
+        let null = Path::new("/dev/null");
+        assert!(!same(null, null), "a device loses nothing");
+        write_whole(&[(null.to_owned(), b"x".to_vec())], Existing::Replace).expect("swallowed");
+        assert!(
+            !fs::metadata(null).expect("there").is_file(),
+            "and stays one"
+        );
     }
 }

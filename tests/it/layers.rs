@@ -139,6 +139,7 @@ const DOORS: &[(&str, &[&str])] = &[
     ("clap_complete", &["cli/completions.rs"]),
     ("clap", &["cli/"]),
     ("tempfile", &["output/file.rs"]),
+    ("signal_hook", &["cli/signal.rs"]),
     ("plotters", &["chart/"]),
     ("maud", &["report/"]),
     ("pulldown_cmark", &["report/book.rs"]),

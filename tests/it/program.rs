@@ -5,6 +5,7 @@ mod check;
 mod figures;
 mod import;
 mod render;
+mod safety;
 mod words;
 
 use std::fs;
