@@ -46,7 +46,7 @@ impl<'a> Stage<'a> {
             .collect();
         let unit = unit(scene);
         let reach: Vec<Option<Bounds>> = (0..marks.len())
-            .map(|frame| kind.reach(analysis, frame, unit))
+            .map(|frame| kind.reach(analysis, frame, unit, &marks[frame]))
             .collect();
         let shown = view::shown(scene, &marks, &reach, options.theme.widths.disc, unit);
         let nothing = Bounds {
