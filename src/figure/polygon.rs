@@ -157,9 +157,7 @@ pub(crate) fn entries(stage: &Stage<'_>, unit: f64) -> Vec<Entry> {
     times.dedup();
     if let [one] = times[..] {
         let what = match one {
-            t if t == 1.0 => {
-                "force polygon: the same forces tip to tail, to the same scale".to_owned()
-            }
+            1.0 => "force polygon: the same forces tip to tail, to the same scale".to_owned(),
             t => format!(
                 "force polygon: the same forces tip to tail, drawn {} times as large",
                 larger(t)

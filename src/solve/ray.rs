@@ -42,6 +42,7 @@ pub(crate) fn extreme(rows: &[Row], power: &[(usize, f64)], start: &[f64]) -> Op
         }
     }
     while let Some(first) = left.basis.first() {
+        let before = left.basis.len();
         let shrinking: Vec<f64> = left.projected(&openings).iter().map(|v| -v).collect();
         let along = if norm(&shrinking) > DEPENDENT {
             unit(&shrinking)
@@ -72,7 +73,6 @@ pub(crate) fn extreme(rows: &[Row], power: &[(usize, f64)], start: &[f64]) -> Op
             }
         }
         let limit = TIGHT * norm(&y).max(1.0);
-        let before = left.basis.len();
         let (tight, still): (Vec<&Row>, Vec<&Row>) =
             open.into_iter().partition(|row| dot(row, &y) <= limit);
         for row in tight {

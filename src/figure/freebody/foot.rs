@@ -3,7 +3,7 @@
 use super::force::{WIDTH, largest, longest};
 use super::table::Table;
 use super::value::{self, Piece, rows};
-use super::{AMOUNT, MARGIN, PAGE, Sheet};
+use super::{AMOUNT, MARGIN, Sheet};
 use crate::drawing::{Anchor, Face, Group, PagePoint, Text, text};
 use crate::figure::arrow::{LEAST_SEEN, round_above};
 use crate::figure::legend;
@@ -67,11 +67,10 @@ impl Sheet<'_> {
         }
         y += 12.0;
         let table = self.table();
-        let size = if self.width < PAGE { 12.5 } else { AMOUNT };
         group
             .items
-            .push(table.draw(middle, y, room, size, theme).into());
-        y += table.height(size) + 6.0;
+            .push(table.draw(middle, y, room, AMOUNT, theme).into());
+        y += table.height(AMOUNT) + 6.0;
         if self.guides() {
             let values = value::places(self.analysis, self.block, &self.contacts);
             for row in rows(&values, AMOUNT, room) {
