@@ -8,6 +8,7 @@
 mod component;
 mod frame;
 mod margin;
+mod mechanism;
 mod near;
 mod option;
 

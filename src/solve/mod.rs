@@ -12,6 +12,7 @@ mod exact;
 mod leftover;
 mod limit;
 mod opening;
+pub(crate) mod ray;
 mod refine;
 mod stick;
 mod wedge;
