@@ -56,11 +56,14 @@
 //! | [`output::pdf::write`] | a PDF page | a drawing, through that text |
 //! | [`study::study`] | what accuracy costs | scenes |
 //! | [`report::result::to_json`] | JSON for other programs | an analysis |
+//! | [`text`] | words that do nothing | text of others |
 //!
 //! Why it is built so stands in [`doc::design`]; axes, units and signs in [`doc::conventions`]; tolerances and traps in
 //! [`doc::numerics`].
 
 // Blank lines keep the order of reading: the formatter would sort them.
+
+pub mod text;
 
 pub mod geometry;
 

@@ -28,7 +28,7 @@ pub use crate::proof::{Demand, Motion, Proof};
 pub use crate::resultant::Resultant;
 use crate::resultant::{friction_used, of as resultant_of};
 use crate::scene::{BlockId, BodyId, RobotId, Scene};
-use crate::solve::Effort;
+use crate::solve::{Effort, Until};
 pub use component::Method;
 use component::{Findings, solved};
 use frame::{settle, worst};
@@ -194,6 +194,9 @@ pub struct SolveReport {
     pub seconds: f64,
 }
 
+/// Why a frame is undecided whose programs were given up at the deadline.
+const LATE: &str = "the time limit was reached before it was decided";
+
 /// What is known of the components of earlier frames.
 #[derive(Default)]
 struct Known {
@@ -272,7 +275,10 @@ fn examined(situation: &Situation, options: Options, known: &mut Known) -> Frame
     let fresh: Vec<usize> = (0..components.len())
         .filter(|k| !known.findings.contains_key(&keys[*k]))
         .collect();
-    let one = |k: &usize| solved(&components[*k], options);
+    let one = |k: &usize| {
+        let _until = Until::set(options.deadline);
+        solved(&components[*k], options)
+    };
     // Many small components are worth the threads; the order of the results is that of the components either way.
     let findings: Vec<Findings> = if fresh.len() > 16 {
         fresh.par_iter().map(one).collect()
@@ -298,6 +304,10 @@ fn examined(situation: &Situation, options: Options, known: &mut Known) -> Frame
         .iter()
         .fold(Count::default(), |sum, f| sum.and(f.1.count));
     settle(&mut analysis, situation, count);
+    if analysis.verdict == Verdict::Undecided && options.is_late() {
+        analysis.doubt = format!("{LATE}: {}", analysis.doubt);
+    }
+    let _until = Until::set(options.deadline);
     let methods = found.iter().map(|f| f.1.method);
     analysis.solve = SolveReport {
         method: methods.max().unwrap_or(Method::ClosedForm),

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 
-use crate::analysis::{Analysis, Verdict};
+use crate::analysis::{self, Analysis, Verdict};
 use crate::cli::complaint::Complaint;
 use crate::cli::destination::{self, Destination};
 use crate::cli::ending::Ending;
@@ -182,9 +182,10 @@ impl Render {
             Shown::Never
         };
         let progress = Progress::begin(2 * sources.len(), shown);
+        let asked = self.level.options();
         let rendered: Vec<Result<Rendered, Complaint>> = sources
             .par_iter()
-            .map(|source| self.render(source, &options, format, &progress))
+            .map(|source| self.render(source, &asked, &options, format, &progress))
             .collect();
         drop(progress);
         let rendered = all(rendered)?;
@@ -242,12 +243,13 @@ impl Render {
     fn render(
         &self,
         source: &Source,
+        asked: &analysis::Options,
         options: &figure::Options,
         format: Format,
         progress: &Progress,
     ) -> Result<Rendered, Complaint> {
         progress.doing(&source.name());
-        let analysis = Analysis::with(&source.scene, &self.level.options());
+        let analysis = Analysis::with(&source.scene, asked);
         progress.step();
         let bytes = match self.animate {
             Some(seconds) => {

@@ -187,20 +187,13 @@ fn square_to(ends: [Point; 2]) -> Vector {
 }
 
 /// Stretches of one pair that continue each other along one line, joined: a corner set into a straight edge changes nothing.
-fn joined(mut stretches: Vec<Interface>, tolerance: Tolerance) -> Vec<Interface> {
-    let mut done = Vec::with_capacity(stretches.len());
-    while let Some(mut one) = stretches.pop() {
-        loop {
-            let next = stretches.iter().position(|other| {
-                let straight = cross(one.normal, other.normal).abs() <= 1e-6
-                    && one.normal.dot(&other.normal) > 0.0;
-                let touches = |p: Point, q: Point| (p - q).norm() <= 4.0 * tolerance.gap;
-                straight
-                    && (touches(one.ends[1], other.ends[0]) || touches(other.ends[1], one.ends[0]))
-            });
-            let Some(next) = next else { break };
-            let other = stretches.swap_remove(next);
-            if (one.ends[1] - other.ends[0]).norm() <= 4.0 * tolerance.gap {
+fn joined(stretches: Vec<Interface>, tolerance: Tolerance) -> Vec<Interface> {
+    let reach = 4.0 * tolerance.gap;
+    let mut left = Ends::of(stretches, reach);
+    let mut done = Vec::new();
+    while let Some(mut one) = left.last() {
+        while let Some(other) = left.next_to(&one) {
+            if (one.ends[1] - other.ends[0]).norm() <= reach {
                 one.ends[1] = other.ends[1];
             } else {
                 one.ends[0] = other.ends[0];
@@ -210,6 +203,99 @@ fn joined(mut stretches: Vec<Interface>, tolerance: Tolerance) -> Vec<Interface>
         done.push(one);
     }
     done
+}
+
+/// Stretches that are still to be joined, found by where they begin and end: a joint may have a hundred thousand.
+struct Ends {
+    /// `None` once taken.
+    stretches: Vec<Option<Interface>>,
+    /// The numbers of stretches by the square of a grid in which they begin, and likewise end.
+    begin: BTreeMap<Square, Vec<usize>>,
+    end: BTreeMap<Square, Vec<usize>>,
+    /// How near ends have to be, and the grid's width.
+    reach: f64,
+}
+
+type Square = (i64, i64);
+
+impl Ends {
+    fn of(stretches: Vec<Interface>, reach: f64) -> Ends {
+        let mut ends = Ends {
+            stretches: Vec::with_capacity(stretches.len()),
+            begin: BTreeMap::new(),
+            end: BTreeMap::new(),
+            reach,
+        };
+        for (number, stretch) in stretches.into_iter().enumerate() {
+            let [from, to] = stretch.ends.map(|p| ends.square(p));
+            ends.begin.entry(from).or_default().push(number);
+            ends.end.entry(to).or_default().push(number);
+            ends.stretches.push(Some(stretch));
+        }
+        ends
+    }
+
+    /// A tolerance of zero makes one square of all places on either side of an axis, which is slow and no less right.
+    fn square(&self, p: Point) -> Square {
+        let number = |x: f64| (x / self.reach).floor() as i64;
+        (number(p.x), number(p.y))
+    }
+
+    /// Takes the last one.
+    fn last(&mut self) -> Option<Interface> {
+        while let Some(last) = self.stretches.pop() {
+            if last.is_some() {
+                return last;
+            }
+        }
+        None
+    }
+
+    /// Takes the first one that goes on where `one` ends or ends where it begins, in its line.
+    fn next_to(&mut self, one: &Interface) -> Option<Interface> {
+        let behind = self.near(StretchEnd::Begin, one.ends[1], one);
+        let before = self.near(StretchEnd::End, one.ends[0], one);
+        let next = behind.into_iter().chain(before).min()?;
+        self.stretches.get_mut(next)?.take()
+    }
+
+    fn near(&mut self, side: StretchEnd, p: Point, one: &Interface) -> Option<usize> {
+        let (x, y) = self.square(p);
+        let (table, which) = match side {
+            StretchEnd::Begin => (&mut self.begin, 0),
+            StretchEnd::End => (&mut self.end, 1),
+        };
+        let mut first: Option<usize> = None;
+        for dx in -1..=1 {
+            for dy in -1..=1 {
+                let square = (x.saturating_add(dx), y.saturating_add(dy));
+                let Some(numbers) = table.get_mut(&square) else {
+                    continue;
+                };
+                numbers.retain(|n| matches!(self.stretches.get(*n), Some(Some(_))));
+                let goes_on = |n: &usize| {
+                    let Some(Some(other)) = self.stretches.get(*n) else {
+                        return false;
+                    };
+                    let straight = cross(one.normal, other.normal).abs() <= 1e-6
+                        && one.normal.dot(&other.normal) > 0.0;
+                    straight && (p - other.ends[which]).norm() <= self.reach
+                };
+                first = first
+                    .into_iter()
+                    .chain(numbers.iter().copied().find(goes_on))
+                    .min();
+            }
+        }
+        first
+    }
+}
+
+/// Which end of a stretch.
+#[derive(Clone, Copy)]
+enum StretchEnd {
+    Begin,
+    End,
 }
 
 /// Gathers what did not count, to say it once.

@@ -26,6 +26,7 @@ use crate::geometry::{Point, Vector};
 use crate::interface::ContactKind;
 use crate::scene::format::Lines;
 use crate::scene::{BlockId, BodyId, RobotId, Scene, ToleranceSource};
+use crate::text;
 
 /// Whether a result tells how long it took.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,7 +78,7 @@ pub fn to_json(analysis: &Analysis, timing: Timing, layout: Layout) -> String {
     };
     written.expect("plain structures with text keys always serialise into memory");
     bytes.push(b'\n');
-    String::from_utf8(bytes).expect("serde_json writes UTF-8")
+    text::json(&String::from_utf8(bytes).expect("serde_json writes UTF-8"))
 }
 
 #[derive(Serialize)]

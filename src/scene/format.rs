@@ -106,7 +106,7 @@ impl SceneFile {
         self.serialize(&mut writer)
             .expect("plain structures with text keys always serialise into memory");
         bytes.push(b'\n');
-        String::from_utf8(bytes).expect("serde_json writes UTF-8")
+        crate::text::json(&String::from_utf8(bytes).expect("serde_json writes UTF-8"))
     }
 }
 

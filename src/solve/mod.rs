@@ -18,6 +18,7 @@ mod stick;
 mod wedge;
 
 pub use balance::{Balance, balance, balance_in};
+pub(crate) use conic::Until;
 pub use conic::{Answer, Care, Choice, Manner, Status, TOLERANCE, solve};
 pub use leftover::{Leftover, leftover};
 pub use limit::{Limit, least, most};

@@ -9,6 +9,7 @@
 mod accuracy;
 mod assembly;
 mod book;
+mod bound;
 mod edge;
 mod freebody;
 mod gallery;
@@ -26,8 +27,10 @@ mod mechanism;
 mod pictures;
 mod print;
 mod problems;
+mod mutant;
 mod program;
 mod scenes;
+mod sinks;
 mod small;
 mod statics;
 mod structure;
