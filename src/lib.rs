@@ -44,10 +44,10 @@
 //! | [`Scene::from_json`] | [`Scene`], checked | text |
 //! | [`import`](mod@import) | a scene file | a drawing: SVG, GeoJSON or WKT |
 //! | [`interface`] | what touches what | a scene |
-//! | [`effect`] | what to simulate and what to leave out | a frame of it |
-//! | [`program`] | the balance in pure numbers | those |
+//! | [`effect::assemble`] | [`assembly::Assembly`]: bodies, contacts, grips | a frame, by the effects it calls for |
+//! | [`program`] | the balance in pure numbers | an assembly |
 //! | [`solve`] | forces, or a motion | a program |
-//! | [`proof`] | how well that is proved | geometry and forces alone |
+//! | [`proof`] | how well that is proved | an assembly and forces alone |
 //! | [`resultant`] | one force per interface | its corner forces |
 //! | [`Analysis`] | all that was found out | all of the above |
 //! | [`figure::forces`] | [`drawing::Drawing`] | an analysis |
@@ -72,6 +72,8 @@ pub mod scene;
 pub mod import;
 
 pub mod interface;
+
+pub mod assembly;
 
 pub mod effect;
 

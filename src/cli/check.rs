@@ -41,7 +41,7 @@ pub(crate) struct Check {
 
 impl Check {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
-        let sources = source::read(&self.scenes, self.frame)?;
+        let sources = source::read(&self.scenes, self.frame, self.level.contact_tolerance)?;
         let shown = if terminal.shows_progress() {
             Shown::WhenLong
         } else {

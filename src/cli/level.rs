@@ -15,6 +15,10 @@ pub(crate) struct Level {
     /// Tell whether each standing frame stands only by a self-stress that its loads do not build up from rest
     #[arg(long)]
     wedging: bool,
+    /// Edges within so many metres touch, and bodies may overlap by as much; in place of the scene's `contact_tolerance`, or
+    /// of what is estimated from how its coordinates are written
+    #[arg(long, value_name = "METRES", value_parser = length)]
+    pub(crate) contact_tolerance: Option<f64>,
     /// Stop solving after so many seconds: what is not decided by then is undecided
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     time_limit: Option<Duration>,
@@ -43,6 +47,13 @@ impl Level {
                 .and_then(|limit| Instant::now().checked_add(limit)),
             ..Options::default()
         }
+    }
+}
+
+fn length(typed: &str) -> Result<f64, String> {
+    match typed.parse::<f64>() {
+        Ok(metres) if (0.0..=1e12).contains(&metres) => Ok(metres),
+        _ => Err("give a length in metres, at least 0".into()),
     }
 }
 

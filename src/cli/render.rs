@@ -49,7 +49,10 @@ pub(crate) struct Render {
     /// The block that a free-body diagram cuts free, by its id
     #[arg(long, value_name = "ID")]
     block: Option<String>,
-    /// Show the frames one after the other in an animated PNG, each for so many seconds
+    /// In a free-body diagram name every force that may act at every end of its interfaces, also those that are zero
+    #[arg(long)]
+    corners: bool,
+    /// Show the frames one after the other in an animated PNG, each for so many seconds; of a mechanism its way in steps
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     animate: Option<f64>,
     /// Write its amount beside every arrow
@@ -82,6 +85,8 @@ enum Kind {
     Utilisation,
     /// The steps of a construction, arrows to one scale in all of them; --animate shows them one after the other
     Build,
+    /// The forces on the structure from outside, and their polygon beside it
+    Polygon,
     /// One block cut free, with every force that may act on it by name
     Freebody,
 }
@@ -121,6 +126,7 @@ impl Kind {
             Kind::Kernel => Some(figure::Kind::Kernel),
             Kind::Utilisation => Some(figure::Kind::Utilisation),
             Kind::Build => Some(figure::Kind::Build),
+            Kind::Polygon => Some(figure::Kind::Polygon),
             Kind::Freebody => None,
         }
     }
@@ -144,13 +150,20 @@ impl Render {
             let why = "--block names the block of a free-body diagram; add --kind freebody";
             return Err(vec![Complaint::CommandLine(why.into())]);
         }
+        if self.corners && !matches!(self.kind, Kind::Freebody) {
+            let why = "--corners is about the forces of a free-body diagram; add --kind freebody";
+            return Err(vec![Complaint::CommandLine(why.into())]);
+        }
         if self.animate.is_some() && (format != Format::Png || self.kind.panels().is_none()) {
             let why = "--animate makes a PNG of the frames of a figure; write a .png, of any kind but freebody";
             return Err(vec![Complaint::CommandLine(why.into())]);
         }
         self.check_count(&destination, format, terminal)
             .map_err(|c| vec![c])?;
-        let (theme, sources) = match (self.look.theme(), source::read(&self.scenes, self.frame)) {
+        let (theme, sources) = match (
+            self.look.theme(),
+            source::read(&self.scenes, self.frame, self.level.contact_tolerance),
+        ) {
             (Ok(theme), Ok(sources)) => (theme, sources),
             (theme, sources) => {
                 let scenes = sources.err().into_iter().flatten();
@@ -314,6 +327,11 @@ impl Render {
             scale: match self.arrow_scale {
                 ArrowScale::Panel => figure::ArrowScale::Panel,
                 ArrowScale::Strip => figure::ArrowScale::Strip,
+            },
+            corners: if self.corners {
+                figure::Corners::All
+            } else {
+                figure::Corners::Few
             },
             columns: self.columns.map(usize::from),
             amounts: self.amounts,

@@ -66,6 +66,10 @@ pub(crate) fn of(name: &str, analysis: &Analysis, timing: Timing) -> Page {
             page.line(&format!("      {remark}"));
         }
     }
+    if let Some(words) = scene.tolerance_words() {
+        page.styled(dim, &format!("  {words}"));
+        page.end();
+    }
     page
 }
 

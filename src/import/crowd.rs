@@ -4,9 +4,9 @@
 //! the few that matter; a thousand outlines on one spot are half a million pairs, and no structure.
 
 use super::outline::Outlines;
-use super::track::Corner;
 use super::{Kind, Remark};
 use crate::geometry::Bounds;
+use crate::geometry::snap::Corner;
 
 /// A drawing has at most so many outlines, copies included.
 pub(super) const MOST_BODIES: usize = 20_000;

@@ -13,7 +13,6 @@ mod geojson;
 mod name;
 mod outline;
 mod region;
-mod snap;
 mod svg;
 mod track;
 mod wkt;

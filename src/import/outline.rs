@@ -2,9 +2,10 @@
 
 use super::draft::{Draft, Form, Kind, Part, Values};
 use super::name::Names;
-use super::region::{Rings, polygon, regions};
-use super::track::{Corner, Track};
-use super::{Remark, Snapped, crowd, snap};
+use super::region::regions;
+use super::track::Track;
+use super::{Remark, Snapped, crowd};
+use crate::geometry::snap::{self, Corner, Rings, polygon};
 use crate::geometry::{Bounds, Flaw, Point, Polygon, Tolerance};
 use crate::scene::Problem;
 
@@ -148,7 +149,8 @@ impl Outlines {
             return Vec::new();
         }
         let rings: Vec<Rings> = self.bodies.iter().map(|b| b.rings.clone()).collect();
-        let outcome = snap::snapped(&rings, gap, 0.5 * self.tolerance());
+        let (gaps, fixed) = (vec![gap; rings.len()], vec![false; rings.len()]);
+        let outcome = snap::snapped(&rings, &gaps, &fixed, 0.5 * self.tolerance() / gap);
         if outcome.kept.len() > MANY {
             let message = format!(
                 "{} bodies would lose their shape, or lie deeper in their neighbours, if they were snapped; left as they are drawn",

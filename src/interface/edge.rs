@@ -4,17 +4,22 @@ use std::collections::BTreeMap;
 
 use rstar::{AABB, RTree, RTreeObject};
 
-use super::{ContactKind, Interface, Interfaces, bodies, ordered};
+use super::{ContactKind, Interface, Interfaces, Near, bodies, ordered};
 use crate::geometry::{Edge, Point, Tolerance, Vector, cross, quarter_turn};
-use crate::scene::{BodyId, Scene};
+use crate::scene::{BodyId, Scene, size};
 
 /// Edges farther apart than this many gaps are not worth a notice.
 const NEAR: f64 = 30.0;
+
+/// Edges of a block farther apart than this part of its size were not drawn to touch.
+const BESIDE: f64 = 0.01;
 
 struct Side {
     body: BodyId,
     number: usize,
     edge: Edge,
+    /// What is farther away than this, in metres, does not matter to it.
+    near: f64,
 }
 
 impl RTreeObject for Side {
@@ -33,26 +38,31 @@ enum Meeting {
     Stretch(Interface),
     /// They share a stretch too short to count, of this length.
     Short(f64),
-    /// They face each other along a stretch, but this far apart.
-    Apart(f64),
+    /// They face each other along a stretch around here, but this far apart.
+    Apart(f64, Point),
 }
 
 /// All edge interfaces, and what nearly is one.
 pub(super) fn find(scene: &Scene) -> Interfaces {
     let sides: Vec<Side> = bodies(scene)
         .flat_map(|body| {
-            scene
-                .body(body)
-                .polygon
-                .edges()
-                .enumerate()
-                .map(move |(number, edge)| Side { body, number, edge })
+            let (polygon, gap) = (&scene.body(body).polygon, scene.body(body).gap);
+            let near = match body {
+                BodyId::Block(_) => (BESIDE * size(polygon)).max(gap),
+                BodyId::Ground(_) => f64::INFINITY,
+            };
+            (polygon.edges().enumerate()).map(move |(number, edge)| Side {
+                body,
+                number,
+                edge,
+                near,
+            })
         })
         .collect();
     let tree = RTree::bulk_load(sides);
-    let reach = NEAR * scene.tolerance.gap;
     let mut pairs: BTreeMap<[BodyId; 2], Vec<(usize, usize, Meeting)>> = BTreeMap::new();
     for a in tree.iter().filter(|a| matches!(a.body, BodyId::Block(_))) {
+        let reach = a.near;
         let near = AABB::from_corners(
             [
                 a.edge.from.x.min(a.edge.to.x) - reach,
@@ -68,7 +78,7 @@ pub(super) fn find(scene: &Scene) -> Interfaces {
             else {
                 continue;
             };
-            if let Some(meeting) = meeting(scene, pair, a.edge, b.edge) {
+            if let Some(meeting) = meeting(scene, pair, a, b) {
                 pairs
                     .entry(pair)
                     .or_default()
@@ -77,36 +87,52 @@ pub(super) fn find(scene: &Scene) -> Interfaces {
         }
     }
     let mut notices = Notices::default();
-    let mut all = Vec::new();
+    let (mut all, mut near) = (Vec::new(), Vec::new());
     for (pair, mut meetings) in pairs {
+        let tolerance = scene.tolerance_between(pair[0], pair[1]);
         meetings.sort_by_key(|m| (m.0, m.1));
         let mut stretches = Vec::new();
         for (_, _, meeting) in meetings {
             match meeting {
                 Meeting::Stretch(interface) => stretches.push(interface),
                 Meeting::Short(length) => notices.short(length),
-                Meeting::Apart(distance) => notices.apart(scene, pair, distance),
+                Meeting::Apart(distance, at) => {
+                    if distance <= NEAR * tolerance.gap {
+                        notices.apart(scene, pair, distance);
+                    }
+                    near.push(Near {
+                        bodies: pair,
+                        at,
+                        distance,
+                    });
+                }
             }
         }
-        all.extend(joined(stretches, scene.tolerance));
+        all.extend(joined(stretches, tolerance));
     }
     Interfaces {
         all,
+        near,
         notices: notices.words(scene.tolerance),
     }
 }
 
 /// What edge `a` of the first body and edge `b` of the second have in common.
-fn meeting(scene: &Scene, bodies: [BodyId; 2], a: Edge, b: Edge) -> Option<Meeting> {
-    let tolerance = scene.tolerance;
+fn meeting(scene: &Scene, bodies: [BodyId; 2], a: &Side, b: &Side) -> Option<Meeting> {
+    let tolerance = scene.tolerance_between(bodies[0], bodies[1]);
+    let near = a.near.min(b.near);
+    let (a, b) = (a.edge, b.edge);
     let (va, vb) = (a.vector(), b.vector());
     let (la, lb) = (va.norm(), vb.norm());
     if va.dot(&vb) >= 0.0 {
         return None;
     }
     // Noise of one gap at either end turns a short edge more than a long one.
-    let angle = (2.0 * tolerance.gap / la.min(lb)).clamp(1e-9, tolerance.angle);
-    if cross(va, vb).abs() > angle * la * lb {
+    let within = |gap: f64| {
+        let angle = (2.0 * gap / la.min(lb)).clamp(1e-9, tolerance.angle);
+        cross(va, vb).abs() <= angle * la * lb
+    };
+    if !within(near) {
         return None;
     }
     let along = (va - vb).normalize();
@@ -129,25 +155,35 @@ fn meeting(scene: &Scene, bodies: [BodyId; 2], a: Edge, b: Edge) -> Option<Meeti
     let (gap0, gap1) = (height(b, s0) - height(a, s0), height(b, s1) - height(a, s1));
     let distance = gap0.abs().max(gap1.abs());
     if distance > tolerance.gap {
-        let facing = gap0 > 0.0
-            && gap1 > 0.0
-            && distance <= NEAR * tolerance.gap
-            && length > NEAR * tolerance.gap;
-        return facing.then_some(Meeting::Apart(distance));
+        let facing = gap0.min(gap1) >= -tolerance.gap && distance <= near && length > distance;
+        let at = a.from + along * ((s0 + s1) / 2.0);
+        return facing.then_some(Meeting::Apart(distance, at));
+    }
+    if !within(tolerance.gap) {
+        return None;
     }
     if length <= tolerance.stretch {
         // Less than a thousandth of the limit is the rounding of a corner that touches, not a contact.
         return (length > 1e-3 * tolerance.stretch).then_some(Meeting::Short(length));
     }
     let middle = |s: f64| a.from + along * s + outward * ((height(a, s) + height(b, s)) / 2.0);
+    // The first body lies to the left of `along`, hence (−n_y, n_x) runs against it.
+    let ends = [middle(s1), middle(s0)];
     Some(Meeting::Stretch(Interface {
         bodies,
         kind: ContactKind::Edge,
-        // The first body lies to the left of `along`, hence (−n_y, n_x) runs against it.
-        ends: [middle(s1), middle(s0)],
-        normal: quarter_turn(along),
+        ends,
+        normal: square_to(ends),
         friction: scene.friction_between(bodies[0], bodies[1]),
     }))
+}
+
+/// The unit normal exactly square to a stretch whose ends run along (−n_y, n_x).
+///
+/// Friction is one force of an interface, wherever along it a program or a proof lets it act: both agree only where the
+/// line through the two ends is the line of friction.
+fn square_to(ends: [Point; 2]) -> Vector {
+    quarter_turn((ends[0] - ends[1]).normalize())
 }
 
 /// Stretches of one pair that continue each other along one line, joined: a corner set into a straight edge changes nothing.
@@ -162,6 +198,7 @@ fn joined(stretches: Vec<Interface>, tolerance: Tolerance) -> Vec<Interface> {
             } else {
                 one.ends[0] = other.ends[0];
             }
+            one.normal = square_to(one.ends);
         }
         done.push(one);
     }

@@ -12,7 +12,8 @@ mod exact;
 mod leftover;
 mod limit;
 mod opening;
-mod single;
+pub(crate) mod ray;
+mod refine;
 mod stick;
 mod wedge;
 
@@ -22,7 +23,7 @@ pub use conic::{Answer, Care, Choice, Manner, Status, TOLERANCE, solve};
 pub use leftover::{Leftover, leftover};
 pub use limit::{Limit, least, most};
 pub use opening::opened;
-pub use single::single;
+pub use refine::{corrected, relative};
 pub use stick::{Stuck, stick, stick_in};
 pub use wedge::{Reach, reach};
 

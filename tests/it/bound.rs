@@ -180,7 +180,7 @@ fn crossings_without_number() {
     let n = 20_001;
     let corners: Vec<_> = (0..n)
         .map(|i| {
-            let (y, x) = libm::sincos(f64::from(i) * 3.14);
+            let (y, x) = libm::sincos(f64::from(i) * 3.2);
             json!([(x * 1e6).round() / 1e6, (y * 1e6).round() / 1e6])
         })
         .collect();

@@ -7,18 +7,23 @@
 )]
 
 mod accuracy;
+mod assembly;
 mod book;
 mod bound;
 mod edge;
+mod freebody;
 mod gallery;
 mod hard;
+mod healing;
 mod import;
 mod labels;
 mod kinds;
 mod laws;
 mod layers;
+mod lines;
 mod oracle;
 mod margins;
+mod mechanism;
 mod pictures;
 mod print;
 mod problems;
@@ -26,6 +31,7 @@ mod mutant;
 mod program;
 mod scenes;
 mod sinks;
+mod small;
 mod statics;
 mod structure;
 mod wedging;
