@@ -268,12 +268,9 @@ fn mutants_are_refused_in_words_or_decided() {
     let (mut sound, mut all) = (0, 0);
     for (name, original) in &originals {
         for number in 0..EACH {
-            let seed = number
-                ^ name
-                    .bytes()
-                    .rev()
-                    .take(12)
-                    .fold(7, |h, b| h * 131 + u64::from(b));
+            let end = name.bytes().rev().take(12);
+            let named = end.fold(7_u64, |h, b| h.wrapping_mul(131).wrapping_add(b.into()));
+            let seed = number ^ named;
             let text = mutant(original, seed).to_string();
             let outcome = catch_unwind(AssertUnwindSafe(|| examine(&text)))
                 .unwrap_or_else(|_| Err("a panic".into()));
