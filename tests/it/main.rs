@@ -9,6 +9,7 @@
 mod accuracy;
 mod book;
 mod edge;
+mod falls;
 mod gallery;
 mod hard;
 mod import;
