@@ -1,11 +1,14 @@
 //! The smallest stone: a pebble on a tower, beside a wall or in its joints is judged by its own forces, however light.
 
 use drystone::analysis::Verdict;
+use drystone::geometry::{Point, Vector, cross, least_scale};
+use drystone::scene::{BlockId, BodyId};
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
 
+use crate::hard::wedge;
 use crate::oracle::random::Chance;
-use crate::structure::{arch, block, harmonic, on_floor, rectangle, verdict, wall};
+use crate::structure::{arch, block, harmonic, on_floor, on_slope, rectangle, verdict, wall};
 
 const STANDS: Verdict = Verdict::Stable;
 const FALLS: Verdict = Verdict::Unstable;
@@ -243,7 +246,7 @@ fn a_falling_pebble_makes_any_structure_fall() {
         };
         let analysis = Analysis::of(&scene);
         let frame = &analysis.frames[0];
-        let last = drystone::scene::BodyId::Block(drystone::scene::BlockId(blocks.len()));
+        let last = BodyId::Block(BlockId(blocks.len()));
         let touched = frame
             .contacts
             .iter()
@@ -259,4 +262,63 @@ fn a_falling_pebble_makes_any_structure_fall() {
         );
     }
     assert!(tried > 25, "{tried}");
+}
+
+/// The rule itself, held against the forces that are reported: each, changed by 10⁻⁷ of itself and moved by 10⁻⁷ of the
+/// block's radius, balances the block.
+#[test]
+fn reported_forces_keep_the_rule_at_every_block() {
+    let mut files = vec![
+        wall(5, 5),
+        arch(11, 0.4, 0.9),
+        harmonic(6, 0.95),
+        wedge(1e-2),
+        on_slope(20.0, 3.0, 1.0, 0.5, 0.2),
+    ];
+    for size in [1.0, 1e-2, 1e-4] {
+        files.extend([1, 4, 12].map(|bricks| topped(bricks, size, 0.4)));
+    }
+    for file in files {
+        let scene = Scene::from_json(&file.to_string()).expect("a scene");
+        let frame = Analysis::of(&scene).frames.remove(0);
+        assert_eq!(frame.verdict, STANDS, "{file}");
+        for (number, block) in scene.blocks.iter().enumerate() {
+            let outline = block.body.polygon.outline().iter();
+            let reach = outline.map(|p| (p - block.centroid).norm());
+            let radius = reach.fold(0.0, f64::max);
+            let mut all = vec![(block.centroid, scene.down() * block.weight)];
+            for contact in &frame.contacts {
+                let normal = contact.interface.normal;
+                let tangent = Vector::new(-normal.y, normal.x);
+                let sides = contact.interface.bodies.iter().zip([1.0, -1.0]);
+                for (_, sign) in sides.filter(|s| *s.0 == BodyId::Block(BlockId(number))) {
+                    let points = contact.application_points;
+                    all.push((points[0], normal * (sign * contact.normal_forces[0])));
+                    all.push((points[1], normal * (sign * contact.normal_forces[1])));
+                    all.push((
+                        contact.interface.ends[0],
+                        tangent * (sign * contact.friction_force),
+                    ));
+                }
+            }
+            let column = |(at, force): &(Point, Vector)| {
+                [
+                    force.x,
+                    force.y,
+                    cross(at - block.centroid, *force) / radius,
+                ]
+            };
+            let mut generators: Vec<[f64; 3]> = all.iter().map(column).collect();
+            let left = generators.iter().fold([0.0; 3], |sum, g| {
+                [sum[0] + g[0], sum[1] + g[1], sum[2] + g[2]]
+            });
+            let total: f64 = all.iter().map(|(_, force)| force.norm()).sum();
+            generators.push([0.0, 0.0, total]);
+            // What this plain sum is rounded by: 10⁻¹⁵ of the forces.
+            generators.push([1e-8 * total, 0.0, 0.0]);
+            generators.push([0.0, 1e-8 * total, 0.0]);
+            let scale = least_scale(&generators, left);
+            assert!(scale <= 1e-7, "{}: {scale:e}\n{file}", block.id);
+        }
+    }
 }

@@ -82,9 +82,9 @@ pub fn scene(number: u64) -> Value {
                 }
                 break;
             }
-            // Under a brick as one of its supports.
+            // Under a brick as one of its supports, no lower than what may be a gap in a drawing.
             3 if stone == 0 => {
-                let height = size.min(0.5);
+                let height = size.clamp(0.03125, 0.5);
                 pile.add(x + 0.125, top, height, height, own);
                 let other = light(&mut chance);
                 pile.add(x + 1.5, top, height, height, other);
