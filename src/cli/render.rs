@@ -1,5 +1,7 @@
 //! `drystone render`: scenes in, figures out.
 
+use std::borrow::Cow;
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
@@ -18,16 +20,17 @@ use crate::cli::terminal::Terminal;
 use crate::drawing::{Drawing, Theme};
 use crate::figure;
 use crate::output::file::Existing;
+use crate::output::fonts::Fonts;
 use crate::report::result::word;
 use crate::scene::{self, BlockId, Scene};
 
-/// Draw scenes with their forces, and what fails, as SVG, PNG or PDF
+/// Draw scenes with their forces, and what fails, as SVG, PNG, PDF or TikZ
 #[derive(Debug, Args)]
 pub(crate) struct Render {
     /// Scene files; - reads standard input
     #[arg(required = true, value_name = "SCENE")]
     scenes: Vec<PathBuf>,
-    /// Where to: a .svg, .png or .pdf file, a folder (existing, or ending in a slash), or - for standard output
+    /// Where to: a .svg, .png, .pdf or .tikz file, a folder (existing, or ending in a slash), or - for standard output
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
     #[command(flatten)]
@@ -55,6 +58,33 @@ pub(crate) struct Render {
     /// Write its amount beside every arrow
     #[arg(long)]
     amounts: bool,
+    /// What the colours of blocks tell
+    #[arg(long, value_enum, default_value = "amplitude")]
+    fill: Fill,
+    /// Leave out the figure's title
+    #[arg(long)]
+    no_title: bool,
+    /// Leave out the frames' captions
+    #[arg(long)]
+    no_caption: bool,
+    /// Leave out the verdicts and what is said below them
+    #[arg(long)]
+    no_verdict: bool,
+    /// Leave out the key and the scale of arrows
+    #[arg(long)]
+    no_key: bool,
+    /// Show a bar of a round number of metres
+    #[arg(long)]
+    scale_bar: bool,
+    /// Measure the width and height of all blocks at the edges of each panel
+    #[arg(long)]
+    dimensions: bool,
+    /// Show the neighbourhood of one block only, by its id
+    #[arg(long, value_name = "ID")]
+    zoom: Option<String>,
+    /// Write every panel of a strip to a file of its own, its letter after the name
+    #[arg(long, conflicts_with = "animate")]
+    panels: bool,
     /// Panels per row of a strip
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     columns: Option<u16>,
@@ -87,6 +117,20 @@ enum Kind {
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
+enum Fill {
+    /// The larger of a block's weight and its largest normal force, N
+    Amplitude,
+    /// The largest mean pressure on one of its interfaces, N/m², for the scene's thickness
+    Stress,
+    /// The largest share of the friction available that one of its interfaces uses
+    Friction,
+    /// Nothing: plain blocks
+    None,
+    /// Shares of the robots' limits, by the rule and in the colours of the source
+    Source,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
 enum Arrows {
     Resultant,
     Components,
@@ -106,7 +150,8 @@ enum ArrowScale {
 
 /// A figure and what it shows.
 struct Rendered {
-    bytes: Vec<u8>,
+    /// One for each file; more than one where each panel has its own.
+    bytes: Vec<Vec<u8>>,
     ending: Ending,
     summary: String,
 }
@@ -150,6 +195,13 @@ impl Render {
         }
         self.check_count(&destination, format, terminal)
             .map_err(|c| vec![c])?;
+        if self.panels
+            && (self.kind.panels().is_none() || matches!(destination, Destination::Stdout))
+        {
+            let why = "--panels writes the panels of a figure to files; give a file or folder, and any kind but freebody";
+            return Err(vec![Complaint::CommandLine(why.into())]);
+        }
+        let fonts = self.picture.fonts().map_err(|c| vec![c])?;
         let (theme, sources) = match (self.look.theme(), source::read(&self.scenes, self.frame)) {
             (Ok(theme), Ok(sources)) => (theme, sources),
             (theme, sources) => {
@@ -171,7 +223,7 @@ impl Render {
         let progress = Progress::begin(2 * sources.len(), shown);
         let rendered: Vec<Result<Rendered, Complaint>> = sources
             .par_iter()
-            .map(|source| self.render(source, &options, format, &progress))
+            .map(|source| self.render(source, &options, format, &fonts, &progress))
             .collect();
         drop(progress);
         let rendered = all(rendered)?;
@@ -183,17 +235,29 @@ impl Render {
             .unwrap_or(Ending::Done);
         let summaries: Vec<String> = rendered.iter().map(|r| r.summary.clone()).collect();
         let bytes = rendered.into_iter().map(|r| r.bytes);
+        if self.picture.draws_words(format) {
+            self.warn_of_characters(&sources, &fonts, terminal);
+        }
         if let Destination::Stdout = destination {
-            for picture in bytes {
+            for picture in bytes.flatten() {
                 terminal.print_bytes(&picture).map_err(|c| vec![c])?;
             }
         } else {
             if let Destination::Folder(folder) = &destination {
                 destination::make_folder(folder).map_err(|c| vec![c])?;
             }
-            let files: Vec<(PathBuf, Vec<u8>)> = paths.into_iter().zip(bytes).collect();
+            let mut files: Vec<(PathBuf, Vec<u8>)> = Vec::new();
+            for (path, pictures) in paths.iter().zip(bytes) {
+                if !self.panels {
+                    files.extend(pictures.into_iter().map(|bytes| (path.clone(), bytes)));
+                    continue;
+                }
+                for (number, bytes) in pictures.into_iter().enumerate() {
+                    files.push((panel_path(path, number), bytes));
+                }
+            }
             destination::write(&files, Existing::Replace).map_err(|c| vec![c])?;
-            for ((path, _), summary) in files.iter().zip(summaries) {
+            for (path, summary) in paths.iter().zip(summaries) {
                 terminal.note(&format!("{}: {summary}", path.display()));
             }
         }
@@ -231,20 +295,38 @@ impl Render {
         source: &Source,
         options: &figure::Options,
         format: Format,
+        fonts: &Fonts,
         progress: &Progress,
     ) -> Result<Rendered, Complaint> {
         progress.doing(&source.name());
-        let analysis = Analysis::with(&source.scene, &self.level.options());
+        let mut options = options.clone();
+        if let Some(name) = &self.zoom {
+            let wrong = |why| Complaint::CommandLine(format!("{}: {why}", source.name()));
+            options.zoom = Some(self.found(&source.scene, name).map_err(wrong)?);
+        }
+        let options = &options;
+        let scene = if self.picture.draws_words(format) {
+            legible(&source.scene, fonts)
+        } else {
+            source.scene.clone()
+        };
+        let analysis = Analysis::with(&scene, &self.level.options());
         progress.step();
         let bytes = match self.animate {
+            None if self.panels => {
+                let kind = self.kind.panels().unwrap_or_default();
+                let pages = figure::pages(&analysis, kind, options);
+                let page = |page| self.picture.bytes(page, format, fonts);
+                pages.into_iter().map(page).collect::<Result<_, _>>()?
+            }
             Some(seconds) => {
                 let kind = self.kind.panels().unwrap_or_default();
                 let pages = figure::pages(&analysis, kind, options);
-                self.picture.animated(pages, seconds)?
+                vec![self.picture.animated(pages, seconds, fonts)?]
             }
             None => {
                 let drawing = self.drawing(source, &analysis, options)?;
-                self.picture.bytes(drawing, format)?
+                vec![self.picture.bytes(drawing, format, fonts)?]
             }
         };
         progress.step();
@@ -287,15 +369,42 @@ impl Render {
                 }
             };
         };
-        let Some(number) = scene.blocks.iter().position(|b| b.id == *name) else {
+        let block = self.found(scene, name)?;
+        match placed(block) {
+            Some(frame) => Ok((frame, block)),
+            None => Err(format!("block {name} is not placed in the frames shown")),
+        }
+    }
+
+    /// The block of a name.
+    fn found(&self, scene: &Scene, name: &str) -> Result<BlockId, String> {
+        let number = scene.blocks.iter().position(|b| b.id == name);
+        number.map(BlockId).ok_or_else(|| {
             let known = scene.blocks.iter().map(|b| b.id.as_str());
             let near = scene::nearest(name, known)
                 .map_or_else(String::new, |near| format!("; did you mean {near}?"));
-            return Err(format!("it has no block {name}{near}"));
-        };
-        match placed(BlockId(number)) {
-            Some(frame) => Ok((frame, BlockId(number))),
-            None => Err(format!("block {name} is not placed in the frames shown")),
+            format!("it has no block {name}{near}")
+        })
+    }
+
+    /// Says which characters of the scenes no font has.
+    fn warn_of_characters(&self, sources: &[Source], fonts: &Fonts, terminal: &Terminal) {
+        for source in sources {
+            let lacking = fonts.lacking(&words(&source.scene).join(" "));
+            if lacking.is_empty() {
+                continue;
+            }
+            let shown: Vec<String> = lacking.iter().take(20).map(|c| told(*c)).collect();
+            let more = match lacking.len().saturating_sub(20) {
+                0 => String::new(),
+                more => format!(" and {more} more"),
+            };
+            terminal.complain(&format!(
+                "warning: {}: no font has {}{more}; they are told by their code points. Give a font that has them with \
+                 --font FILE",
+                source.name(),
+                shown.join(" ")
+            ));
         }
     }
 
@@ -313,6 +422,19 @@ impl Render {
                 ArrowScale::Panel => figure::ArrowScale::Panel,
                 ArrowScale::Strip => figure::ArrowScale::Strip,
             },
+            fill: match self.fill {
+                Fill::Amplitude => figure::Fill::Amplitude,
+                Fill::Stress => figure::Fill::Stress,
+                Fill::Friction => figure::Fill::Friction,
+                Fill::None => figure::Fill::None,
+                Fill::Source => figure::Fill::Source,
+            },
+            titles: !self.no_title,
+            captions: !self.no_caption,
+            verdicts: !self.no_verdict,
+            keys: !self.no_key,
+            scale_bar: self.scale_bar,
+            dimensions: self.dimensions,
             columns: self.columns.map(usize::from),
             amounts: self.amounts,
             width: self.picture.page(),
@@ -320,6 +442,48 @@ impl Render {
             ..figure::Options::default()
         }
     }
+}
+
+/// The words of a scene that figures show.
+fn words(scene: &Scene) -> Vec<&str> {
+    let blocks = scene.blocks.iter().map(|b| b.id.as_str());
+    let robots = scene.robots.iter().map(|r| r.id.as_str());
+    let frames = scene.frames.iter().map(|f| f.title.as_str());
+    let title = std::iter::once(scene.title.as_str());
+    title.chain(frames).chain(blocks).chain(robots).collect()
+}
+
+/// The scene with the characters that no font has told by their code points.
+fn legible(scene: &Scene, fonts: &Fonts) -> Scene {
+    let mut scene = scene.clone();
+    let spell = |words: &mut String| {
+        if let Cow::Owned(spelled) = fonts.spelled(words) {
+            *words = spelled;
+        }
+    };
+    spell(&mut scene.title);
+    scene.frames.iter_mut().for_each(|f| spell(&mut f.title));
+    scene.blocks.iter_mut().for_each(|b| spell(&mut b.id));
+    scene.robots.iter_mut().for_each(|r| spell(&mut r.id));
+    scene
+}
+
+/// A character as a person reads it: itself and its number; its number alone where it would move the others about.
+fn told(c: char) -> String {
+    let number = format!("U+{:04X}", u32::from(c));
+    if c.is_alphanumeric() {
+        format!("{c} ({number})")
+    } else {
+        number
+    }
+}
+
+/// Where a panel of a figure goes: `name-a.svg` beside `name.svg`.
+fn panel_path(path: &Path, number: usize) -> PathBuf {
+    let part = |part: Option<&OsStr>| part.map(|p| p.to_string_lossy().into_owned());
+    let stem = part(path.file_stem()).unwrap_or_default();
+    let ending = part(path.extension()).map_or_else(String::new, |e| format!(".{e}"));
+    path.with_file_name(format!("{stem}-{}{ending}", figure::letter(number)))
 }
 
 /// Every result, or every complaint.

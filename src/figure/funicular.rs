@@ -275,7 +275,7 @@ impl Case<'_> {
             .clone()
             .next()
             .map(|s| s.from)
-            .zip(main.clone().last().map(|s| s.to));
+            .zip(main.clone().next_back().map(|s| s.to));
         // A line that turns back lies on itself and cannot be read.
         let onward = ends.is_none_or(|(a, b)| {
             let chord = b - a;

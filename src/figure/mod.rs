@@ -4,10 +4,12 @@
 //! [`Analysis`](crate::analysis::Analysis) become shapes of a [`Drawing`](crate::drawing::Drawing). Nothing is computed
 //! here that a verdict rests on. What a figure shows is its [`Kind`]; one file per kind.
 
+mod apart;
 mod arrow;
 mod bearing;
 mod caption;
 mod collapse;
+mod dimension;
 mod displacement;
 mod fill;
 mod forces;
@@ -42,7 +44,7 @@ pub use freebody::freebody;
 pub use gallery::{Plate, gallery};
 pub use kind::{Kind, draw, pages};
 pub use mark::{arrows, marks};
-pub use option::{ArrowScale, ForceStyle, Normalisation, Options};
+pub use option::{ArrowScale, Fill, ForceStyle, Normalisation, Options};
 pub use ring::ring;
 pub use shapes::shapes;
 pub(crate) use words::letter;

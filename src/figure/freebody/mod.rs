@@ -105,11 +105,7 @@ impl<'a> Sheet<'a> {
         let room = (width - 2.0 * MARGIN - ASIDE).max(60.0);
         let scale = (room / view.width()).min(LARGEST / view.height());
         let scale = if scale.is_finite() { scale } else { 1.0 };
-        let heading = if options.captions {
-            HEADING + 22.0
-        } else {
-            0.0
-        };
+        let heading = if options.titles { HEADING + 22.0 } else { 0.0 };
         let aside = (room - view.width() * scale) / 2.0;
         let at = PagePoint::new(MARGIN + ASIDE + aside.max(0.0), MARGIN + heading);
         let camera = Camera::new(view, at, scale);
