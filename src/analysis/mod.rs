@@ -7,6 +7,7 @@
 mod frame;
 mod group;
 mod margin;
+mod mechanism;
 mod option;
 
 use std::collections::BTreeMap;

@@ -52,7 +52,10 @@ pub(crate) struct Render {
     /// The block that a free-body diagram cuts free, by its id
     #[arg(long, value_name = "ID")]
     block: Option<String>,
-    /// Show the frames one after the other in an animated PNG, each for so many seconds
+    /// In a free-body diagram name every force that may act at every end of its interfaces, also those that are zero
+    #[arg(long)]
+    corners: bool,
+    /// Show the frames one after the other in an animated PNG, each for so many seconds; of a mechanism its way in steps
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     animate: Option<f64>,
     /// Write its amount beside every arrow
@@ -112,6 +115,8 @@ enum Kind {
     Utilisation,
     /// The steps of a construction, arrows to one scale in all of them; --animate shows them one after the other
     Build,
+    /// The forces on the structure from outside, and their polygon beside it
+    Polygon,
     /// One block cut free, with every force that may act on it by name
     Freebody,
 }
@@ -166,6 +171,7 @@ impl Kind {
             Kind::Kernel => Some(figure::Kind::Kernel),
             Kind::Utilisation => Some(figure::Kind::Utilisation),
             Kind::Build => Some(figure::Kind::Build),
+            Kind::Polygon => Some(figure::Kind::Polygon),
             Kind::Freebody => None,
         }
     }
@@ -187,6 +193,10 @@ impl Render {
         self.picture.check(format).map_err(|c| vec![c])?;
         if self.block.is_some() && !matches!(self.kind, Kind::Freebody) {
             let why = "--block names the block of a free-body diagram; add --kind freebody";
+            return Err(vec![Complaint::CommandLine(why.into())]);
+        }
+        if self.corners && !matches!(self.kind, Kind::Freebody) {
+            let why = "--corners is about the forces of a free-body diagram; add --kind freebody";
             return Err(vec![Complaint::CommandLine(why.into())]);
         }
         if self.animate.is_some() && (format != Format::Png || self.kind.panels().is_none()) {
@@ -315,7 +325,7 @@ impl Render {
         let bytes = match self.animate {
             None if self.panels => {
                 let kind = self.kind.panels().unwrap_or_default();
-                let pages = figure::pages(&analysis, kind, options);
+                let pages = figure::panels(&analysis, kind, options);
                 let page = |page| self.picture.bytes(page, format, fonts);
                 pages.into_iter().map(page).collect::<Result<_, _>>()?
             }
@@ -435,6 +445,11 @@ impl Render {
             keys: !self.no_key,
             scale_bar: self.scale_bar,
             dimensions: self.dimensions,
+            corners: if self.corners {
+                figure::Corners::All
+            } else {
+                figure::Corners::Few
+            },
             columns: self.columns.map(usize::from),
             amounts: self.amounts,
             width: self.picture.page(),

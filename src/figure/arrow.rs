@@ -167,7 +167,7 @@ impl Marks {
 }
 
 /// The next number of one digit that is not below this one.
-fn round_above(amount: f64) -> f64 {
+pub(crate) fn round_above(amount: f64) -> f64 {
     if !(amount > 0.0 && amount.is_finite()) {
         return amount;
     }

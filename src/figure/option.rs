@@ -54,6 +54,17 @@ pub enum Fill {
     Source,
 }
 
+/// Which forces of its interfaces a free-body diagram shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Corners {
+    /// Those at both ends of every interface where there are at most three, one for each interface where there are more;
+    /// what is zero is left out.
+    #[default]
+    Few,
+    /// Every unknown of the program at every end, by name, also those that are zero; arrows then only name forces.
+    All,
+}
+
 /// The choices about a figure of forces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
@@ -65,6 +76,10 @@ pub struct Options {
     pub scale: ArrowScale,
     /// What the colours of blocks tell.
     pub fill: Fill,
+    /// Which forces of its interfaces a free-body diagram shows.
+    pub corners: Corners,
+    /// How much of the way a mechanism is drawn along, 0 … 1.
+    pub way: f64,
     /// Panels beside each other; chosen by their shape where `None`.
     pub columns: Option<usize>,
     /// Colours.
@@ -98,6 +113,8 @@ impl Default for Options {
             normalisation: Normalisation::default(),
             scale: ArrowScale::default(),
             fill: Fill::default(),
+            corners: Corners::default(),
+            way: 1.0,
             columns: None,
             theme: Theme::default(),
             titles: true,

@@ -147,7 +147,12 @@ impl<'a> Pen<'a> {
         }
         Pen {
             places,
-            displaced: stage.kind.displacements(stage.analysis, number, stage.unit),
+            displaced: stage.kind.displacements(
+                stage.analysis,
+                number,
+                stage.unit,
+                stage.options.way,
+            ),
             stage,
             number,
             camera,

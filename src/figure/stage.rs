@@ -52,7 +52,7 @@ impl<'a> Stage<'a> {
                     marks.arrows.retain(|arrow| view::holds(near, arrow.at));
                     marks.turns.retain(|turn| view::holds(near, turn.at));
                 }
-                if !options.printed() {
+                if kind.tells_amplitudes() && !options.printed() {
                     apart(&mut marks);
                 }
                 marks
@@ -60,7 +60,7 @@ impl<'a> Stage<'a> {
             .collect();
         let unit = unit(scene, options.zoom);
         let reach: Vec<Option<Bounds>> = (0..marks.len())
-            .map(|frame| kind.reach(analysis, frame, unit))
+            .map(|frame| kind.reach(analysis, frame, unit, &marks[frame]))
             .collect();
         let shown = view::shown(scene, &marks, &reach, options.theme.widths.disc, unit);
         let nothing = Bounds {

@@ -6,7 +6,7 @@
 //! | option | what it says |
 //! |---|---|
 //! | `file=scene.json` | the scene, relative to the chapter's own file |
-//! | `kind=mechanism` | what the figure shows: `forces`, `mechanism`, `thrust`, `kernel`, `utilisation` or `freebody` |
+//! | `kind=mechanism` | what the figure shows: `forces`, `mechanism`, `thrust`, `kernel`, `utilisation`, `polygon` or `freebody` |
 //! | `block=a` | the block of a free-body diagram |
 //! | `theme=dark` | the theme |
 //! | `width=600` | width of the page, pixels |

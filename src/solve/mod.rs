@@ -12,6 +12,7 @@ mod exact;
 mod leftover;
 mod limit;
 mod opening;
+pub(crate) mod ray;
 mod single;
 mod stick;
 mod wedge;

@@ -34,7 +34,7 @@ fn of_class<'d>(items: &'d [Item], class: &str, found: &mut Vec<&'d Group>) {
     }
 }
 
-fn all<'d>(items: &'d [Item], class: &str) -> Vec<&'d Group> {
+pub(crate) fn all<'d>(items: &'d [Item], class: &str) -> Vec<&'d Group> {
     let mut found = Vec::new();
     of_class(items, class, &mut found);
     found
@@ -115,7 +115,7 @@ fn lines([pressing, loads]: &[Vec<Acting>; 2]) -> Vec<Acting> {
             let chosen = loads
                 .iter()
                 .enumerate()
-                .filter(|(i, _)| subset >> i & 1 == 1);
+                .filter(|(i, _)| (subset >> i) & 1 == 1);
             lines.push(chosen.fold(*one, |a, (_, b)| sum(a, b)));
         }
     }
@@ -338,4 +338,38 @@ fn what_is_too_small_to_be_drawn_is_counted() {
             assert_eq!(drawn + left_out, all, "{name}, frame {number}: {words}");
         }
     }
+}
+
+#[test]
+fn a_force_polygon_is_closed_where_the_structure_stands_and_tip_to_tail() {
+    let mut closed = 0;
+    for (name, scene) in gallery().into_iter().chain(brought()) {
+        let analysis = Analysis::of(&scene);
+        let drawing = figure::draw(&analysis, Kind::Polygon, &Options::default());
+        for (found, frame) in analysis.frames.iter().zip(all(&drawing.items, "frame")) {
+            let Some(polygon) = all(&frame.items, "polygon").first().copied() else {
+                continue;
+            };
+            let ends = |group: &&Group| {
+                let p: Vec<PagePoint> = outline(group).points().collect();
+                let tail = ((p[0].x + p[6].x) / 2.0, (p[0].y + p[6].y) / 2.0);
+                [tail, (p[3].x, p[3].y)]
+            };
+            let arrows: Vec<[(f64, f64); 2]> =
+                all(&polygon.items, "force").iter().map(ends).collect();
+            let size = drawing.width;
+            let near =
+                |a: (f64, f64), b: (f64, f64)| libm::hypot(a.0 - b.0, a.1 - b.1) < 1e-6 * size;
+            assert!(arrows.windows(2).all(|w| near(w[0][1], w[1][0])), "{name}");
+            let (Some(first), Some(last)) = (arrows.first(), arrows.last()) else {
+                continue;
+            };
+            if found.verdict == drystone::analysis::Verdict::Stable {
+                assert!(near(last[1], first[0]), "{name}: {first:?} {last:?}");
+                assert!(all(&polygon.items, "gap").is_empty());
+                closed += 1;
+            }
+        }
+    }
+    assert!(closed > 15, "{closed}");
 }

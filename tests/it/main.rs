@@ -9,6 +9,7 @@
 mod accuracy;
 mod book;
 mod edge;
+mod freebody;
 mod gallery;
 mod hard;
 mod import;
@@ -19,6 +20,7 @@ mod layers;
 mod lines;
 mod oracle;
 mod margins;
+mod mechanism;
 mod pictures;
 mod print;
 mod problems;
