@@ -43,7 +43,7 @@ impl<'s> Analysis<'s> {
         let found = &self.frames[number];
         let mut all = Vec::new();
         for part in parts(found) {
-            let fall = Fall::of(self.scene, found, part, self.length);
+            let fall = Fall::of(self.scene, found, part, found.length);
             all.extend(fall.elementary().unwrap_or(fall.motions));
         }
         let fastest = all

@@ -157,8 +157,10 @@ impl Picture {
                 .map(String::into_bytes)
                 .map_err(|error| unwritten(&error)),
             Format::Png => {
-                let text = svg::write(&drawing);
-                png::render_in(&text, self.size(), fonts).map_err(|error| not_drawn(&error))
+                // A page that is too large is refused before it is written out, which takes far more memory than the drawing.
+                png::check(drawing.width, drawing.height, self.size())
+                    .and_then(|()| png::render_in(&svg::write(&drawing), self.size(), fonts))
+                    .map_err(|error| not_drawn(&error))
             }
             Format::Tikz => Ok(tikz::write(&drawing, self.width_mm).into_bytes()),
             Format::Pdf => {
@@ -177,6 +179,10 @@ impl Picture {
         seconds: f64,
         fonts: &Fonts,
     ) -> Result<Vec<u8>, Complaint> {
+        if let Some(drawing) = drawings.first() {
+            png::check(drawing.width, drawing.height, self.size())
+                .map_err(|error| not_drawn(&error))?;
+        }
         let svgs: Vec<String> = drawings
             .into_iter()
             .map(|drawing| svg::write(&self.on_page(drawing)))

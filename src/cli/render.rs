@@ -7,12 +7,13 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 
-use crate::analysis::{Analysis, Verdict};
+use crate::analysis::{self, Analysis, Verdict};
 use crate::cli::complaint::Complaint;
 use crate::cli::destination::{self, Destination};
 use crate::cli::ending::Ending;
 use crate::cli::level::Level;
 use crate::cli::look::Look;
+use crate::cli::page::Page;
 use crate::cli::picture::{Format, Picture};
 use crate::cli::progress::{Progress, Shown};
 use crate::cli::source::{self, FrameChoice, Source};
@@ -212,7 +213,10 @@ impl Render {
             return Err(vec![Complaint::CommandLine(why.into())]);
         }
         let fonts = self.picture.fonts().map_err(|c| vec![c])?;
-        let (theme, sources) = match (self.look.theme(), source::read(&self.scenes, self.frame)) {
+        let (theme, sources) = match (
+            self.look.theme(),
+            source::read(&self.scenes, self.frame, self.level.contact_tolerance),
+        ) {
             (Ok(theme), Ok(sources)) => (theme, sources),
             (theme, sources) => {
                 let scenes = sources.err().into_iter().flatten();
@@ -231,9 +235,10 @@ impl Render {
             Shown::Never
         };
         let progress = Progress::begin(2 * sources.len(), shown);
+        let asked = self.level.options();
         let rendered: Vec<Result<Rendered, Complaint>> = sources
             .par_iter()
-            .map(|source| self.render(source, &options, format, &fonts, &progress))
+            .map(|source| self.render(source, &asked, &options, format, &fonts, &progress))
             .collect();
         drop(progress);
         let rendered = all(rendered)?;
@@ -303,6 +308,7 @@ impl Render {
     fn render(
         &self,
         source: &Source,
+        asked: &analysis::Options,
         options: &figure::Options,
         format: Format,
         fonts: &Fonts,
@@ -320,7 +326,7 @@ impl Render {
         } else {
             source.scene.clone()
         };
-        let analysis = Analysis::with(&scene, &self.level.options());
+        let analysis = Analysis::with(&scene, asked);
         progress.step();
         let bytes = match self.animate {
             None if self.panels => {
@@ -409,12 +415,12 @@ impl Render {
                 0 => String::new(),
                 more => format!(" and {more} more"),
             };
-            terminal.complain(&format!(
+            terminal.complain(&Page::of(&format!(
                 "warning: {}: no font has {}{more}; they are told by their code points. Give a font that has them with \
                  --font FILE",
                 source.name(),
                 shown.join(" ")
-            ));
+            )));
         }
     }
 

@@ -15,6 +15,7 @@ use crate::analysis::{Accuracy, Verdict};
 use crate::chart::{Point, Scatter, Series, Undrawn, scatter};
 use crate::report::result::word;
 use crate::study::{Case, Mark, Method, Run, Study, Summary, summary};
+use crate::text;
 
 /// Errors below this are drawn and told as this: nothing in f64 is nearer than its last bit.
 const LEAST: f64 = 1e-16;
@@ -119,10 +120,10 @@ pub fn csv(study: &Study) -> String {
                 text,
                 "{},{},{},{},{},{:e},{:e},{},{},{},{},{},{},{},{}",
                 env!("CARGO_PKG_VERSION"),
-                quoted(&case.name),
+                text::csv(&case.name),
                 case.blocks,
                 word(case.truth.verdict),
-                quoted(run.method.name()),
+                text::csv(run.method.name()),
                 run.tolerance,
                 run.seconds,
                 run.outcome.iterations,
@@ -137,10 +138,6 @@ pub fn csv(study: &Study) -> String {
         }
     }
     text
-}
-
-fn quoted(text: &str) -> String {
-    format!("\"{}\"", text.replace('"', "\"\""))
 }
 
 fn mark(mark: Mark) -> &'static str {
@@ -162,7 +159,7 @@ pub fn markdown(study: &Study) -> String {
         let _ = writeln!(
             text,
             "| {} | {:.0e} | {:.2} | {} | {} | {} | {} | {} | {} |",
-            line.method.name(),
+            text::markdown(line.method.name()),
             line.tolerance,
             line.time,
             line.iterations,
@@ -243,7 +240,7 @@ fn frame(case: &Case) -> maud::Markup {
     html! {
         details {
             summary {
-                (case.name) ": " (word(truth.verdict)) ", " (case.blocks) " blocks"
+                (text::line(&case.name)) ": " (word(truth.verdict)) ", " (case.blocks) " blocks"
                 @if truth.within_band { ", within the band" }
                 @if wrong > 0 { ", " (wrong) " wrong verdicts" }
             }

@@ -13,16 +13,17 @@ mod leftover;
 mod limit;
 mod opening;
 pub(crate) mod ray;
-mod single;
+mod refine;
 mod stick;
 mod wedge;
 
 pub use balance::{Balance, balance, balance_in};
+pub(crate) use conic::Until;
 pub use conic::{Answer, Care, Choice, Manner, Status, TOLERANCE, solve};
 pub use leftover::{Leftover, leftover};
 pub use limit::{Limit, least, most};
 pub use opening::opened;
-pub use single::single;
+pub use refine::{corrected, relative};
 pub use stick::{Stuck, stick, stick_in};
 pub use wedge::{Reach, reach};
 
