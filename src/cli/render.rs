@@ -410,7 +410,7 @@ impl Render {
             if lacking.is_empty() {
                 continue;
             }
-            let shown: Vec<String> = lacking.iter().take(20).map(|c| told(*c)).collect();
+            let shown: Vec<String> = lacking.iter().take(20).map(|c| character(*c)).collect();
             let more = match lacking.len().saturating_sub(20) {
                 0 => String::new(),
                 more => format!(" and {more} more"),
@@ -490,7 +490,7 @@ fn legible(scene: &Scene, fonts: &Fonts) -> Scene {
 }
 
 /// A character as a person reads it: itself and its number; its number alone where it would move the others about.
-fn told(c: char) -> String {
+fn character(c: char) -> String {
     let number = format!("U+{:04X}", u32::from(c));
     if c.is_alphanumeric() {
         format!("{c} ({number})")

@@ -85,7 +85,7 @@ impl Fills {
     }
 
     /// What the ends of the scale stand for, and what it tells.
-    pub fn told(&self) -> ([String; 2], String) {
+    pub fn key(&self) -> ([String; 2], String) {
         let ends = |most: String| ["0".to_owned(), most];
         match self.scale {
             FillScale::Limit(limit) => {
@@ -112,7 +112,7 @@ impl Fills {
     }
 
     /// What a block's colour says, in words; empty for plain blocks.
-    pub fn said(&self, share: f64) -> String {
+    pub fn description(&self, share: f64) -> String {
         match self.scale {
             FillScale::Limit(limit) => format!(
                 "colour: {:.1} % of the robots' limit of {}",

@@ -5,7 +5,7 @@
 //! the words below a frame name comes first, and bears its name in a frame of any number of blocks.
 
 use super::arrow::{ArrowKind, ForceArrow, TurnArrow, TurnKind};
-use super::panel::Pen;
+use super::panel::{CENTROID, Pen};
 use super::stage::Stage;
 use super::view;
 use super::words::{counted, listed, quantity};
@@ -92,7 +92,11 @@ pub(crate) fn left_out(stage: &Stage<'_>) -> Option<String> {
         (false, false) => return None,
     };
     let named = (0..frames.len()).any(|frame| !mentioned(stage, frame).is_empty());
-    let but = if named { ", but for those told of" } else { "" };
+    let but = if named {
+        " but those the text names"
+    } else {
+        ""
+    };
     (most > MOST_BLOCKS).then(|| format!("{most} blocks: {what} left out{but}"))
 }
 
@@ -328,6 +332,9 @@ pub(crate) fn ink(pen: &Pen<'_>) -> Ink {
     for arrow in marks.arrows.iter().filter(|a| pen.seen(a)) {
         let (from, along) = (pen.camera.place(arrow.at), pen.camera.turn(arrow.reach()));
         ink.arrow(from, along, pen.width(arrow));
+        if arrow.kind == ArrowKind::Weight {
+            ink.disc(from, CENTROID * pen.width(arrow) + 1.0);
+        }
     }
     for turn in marks.turns.iter().filter(|t| pen.turn_seen(t)) {
         turning(&mut ink, pen, turn);

@@ -16,10 +16,10 @@ const LEAST: f64 = 240.0;
 const NARROW: f64 = 120.0;
 /// Most panels beside each other where nobody asks for more.
 const MOST_COLUMNS: usize = 8;
-/// A page is at most so many times as high as wide …
-const PAGE: f64 = 1.4;
+/// The panels of a page are together at most so many times as high as wide, so that title and key have room …
+const PAGE: f64 = 1.2;
 /// … and a column of print, narrower than this in pixels, 110 mm, so many times.
-const COLUMN: (f64, f64) = (520.0, 2.6);
+const COLUMN: (f64, f64) = (520.0, 2.2);
 /// What stands below a panel beside its caption: the verdict and what it says, pixels.
 const BELOW: f64 = 64.0;
 /// A unit edge is drawn at most this long in a strip, pixels.

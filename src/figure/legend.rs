@@ -288,7 +288,7 @@ pub(crate) fn entries(stage: &Stage<'_>, unit: f64) -> Vec<Entry> {
     }
     let painted = scene.blocks.iter().any(|b| b.body.fill.is_none());
     if painted && stage.fills.vary() {
-        let (ends, what) = stage.fills.told();
+        let (ends, what) = stage.fills.key();
         entries.push(Entry::Amplitudes(ends, what, stage.fills.ramp()));
     }
     entries

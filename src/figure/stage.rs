@@ -13,8 +13,8 @@ use crate::scene::{Block, BlockId, Scene};
 /// Above so many blocks in a frame, blocks are drawn together by colour, without names.
 pub(crate) const MANY: usize = 1000;
 
-/// Where a unit edge is shorter than this, pixels, 2.5 mm, the arrows of a figure are dust.
-const DUST: f64 = 9.4;
+/// Where a unit edge is shorter than this, pixels, 2.2 mm, the arrows of a figure are dust.
+const DUST: f64 = 8.4;
 
 /// What all panels of a figure share.
 pub(crate) struct Stage<'a> {

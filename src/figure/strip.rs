@@ -208,10 +208,9 @@ impl Strip<'_> {
         if options.verdicts || options.keys {
             y += 8.0;
             let half = theme.sizes.verdict * 10.0 / 13.5;
-            group
-                .items
-                .extend(self.verdict(frame, PagePoint::new(middle, y + half)));
-            y += 2.2 * half;
+            let (signs, below) = self.verdict(frame, PagePoint::new(middle, y + half));
+            group.items.extend(signs);
+            y += 2.2 * half + below;
             let reason = if options.verdicts {
                 stage.kind.reason(stage, frame)
             } else {
@@ -259,8 +258,9 @@ impl Strip<'_> {
         )
     }
 
-    /// The mark, the word and the scale of arrows in one line about `centre`.
-    fn verdict(&self, frame: usize, centre: PagePoint) -> Vec<Item> {
+    /// The mark, the word and the scale of arrows in one line about `centre`, the scale below where the panel is too narrow;
+    /// and the height of what stands below.
+    fn verdict(&self, frame: usize, centre: PagePoint) -> (Vec<Item>, f64) {
         let theme = &self.stage.options.theme;
         let found = &self.stage.analysis.frames[frame];
         let word = verdict::word(found.verdict);
@@ -283,9 +283,15 @@ impl Strip<'_> {
             ArrowScale::Strip => None,
         };
         let scale = scale.filter(|_| options.keys && !self.stage.dusty(self.layout.scale));
-        let total = match &scale {
-            Some(scale) => lead + legend::widest(std::slice::from_ref(scale), theme),
-            None => (lead - 22.0).max(0.0),
+        let long = scale.as_ref().map_or(0.0, |scale| {
+            legend::widest(std::slice::from_ref(scale), theme)
+        });
+        let alone = (lead - 22.0).max(0.0);
+        let stacked = scale.is_some() && alone > 0.0 && lead + long > self.layout.panel;
+        let total = if scale.is_none() || stacked {
+            alone
+        } else {
+            lead + long
         };
         let start = centre.moved(-total / 2.0, 0.0);
         let colour = verdict::colour(found.verdict, theme);
@@ -298,10 +304,16 @@ impl Strip<'_> {
         if options.verdicts {
             items.extend(signs);
         }
+        let below = if stacked { 1.7 * size } else { 0.0 };
         if let Some(scale) = scale {
-            items.extend(legend::single(&scale, start.moved(lead, 0.0), theme).0);
+            let at = if stacked {
+                centre.moved(-long / 2.0, below)
+            } else {
+                start.moved(lead, 0.0)
+            };
+            items.extend(legend::single(&scale, at, theme).0);
         }
-        items
+        (items, below)
     }
 
     /// `(a) Initial situation`; without a letter where there is but one frame, without what the heading says already;

@@ -12,7 +12,7 @@ pub(crate) fn block(stage: &Stage<'_>, frame: usize, place: usize, block: &Block
     if !stage.kind.tells_amplitudes() {
         return format!("weight {weight}");
     }
-    let fill = stage.fills.said(stage.fills.shares[frame][place]);
+    let fill = stage.fills.description(stage.fills.shares[frame][place]);
     if fill.is_empty() {
         return format!("weight {weight}");
     }

@@ -179,7 +179,7 @@ impl Page<'_> {
         let y = TOP + ROW * (row as f64 + 0.5);
         let mut items: Vec<Item> = Vec::new();
         let chosen = method == Method::Level(Accuracy::Standard);
-        if row % 2 == 0 {
+        if row.is_multiple_of(2) {
             let band = PageRect {
                 at: PagePoint::new(16.0, y - ROW / 2.0),
                 width: WIDTH - 32.0,
