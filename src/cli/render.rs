@@ -1,6 +1,5 @@
 //! `drystone render`: scenes in, figures out.
 
-use std::borrow::Cow;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
@@ -13,9 +12,9 @@ use crate::cli::destination::{self, Destination};
 use crate::cli::ending::Ending;
 use crate::cli::level::Level;
 use crate::cli::look::Look;
-use crate::cli::page::Page;
 use crate::cli::picture::{Format, Picture};
 use crate::cli::progress::{Progress, Shown};
+use crate::cli::script;
 use crate::cli::source::{self, FrameChoice, Source};
 use crate::cli::terminal::Terminal;
 use crate::drawing::{Drawing, Theme};
@@ -251,7 +250,7 @@ impl Render {
         let summaries: Vec<String> = rendered.iter().map(|r| r.summary.clone()).collect();
         let bytes = rendered.into_iter().map(|r| r.bytes);
         if self.picture.draws_words(format) {
-            self.warn_of_characters(&sources, &fonts, terminal);
+            script::warn(&sources, &fonts, terminal);
         }
         if let Destination::Stdout = destination {
             for picture in bytes.flatten() {
@@ -322,7 +321,7 @@ impl Render {
         }
         let options = &options;
         let scene = if self.picture.draws_words(format) {
-            legible(&source.scene, fonts)
+            script::legible(&source.scene, fonts)
         } else {
             source.scene.clone()
         };
@@ -403,27 +402,6 @@ impl Render {
         })
     }
 
-    /// Says which characters of the scenes no font has.
-    fn warn_of_characters(&self, sources: &[Source], fonts: &Fonts, terminal: &Terminal) {
-        for source in sources {
-            let lacking = fonts.lacking(&words(&source.scene).join(" "));
-            if lacking.is_empty() {
-                continue;
-            }
-            let shown: Vec<String> = lacking.iter().take(20).map(|c| character(*c)).collect();
-            let more = match lacking.len().saturating_sub(20) {
-                0 => String::new(),
-                more => format!(" and {more} more"),
-            };
-            terminal.complain(&Page::of(&format!(
-                "warning: {}: no font has {}{more}; they are told by their code points. Give a font that has them with \
-                 --font FILE",
-                source.name(),
-                shown.join(" ")
-            )));
-        }
-    }
-
     fn options(&self, theme: Theme) -> figure::Options {
         figure::Options {
             style: match self.arrows {
@@ -462,40 +440,6 @@ impl Render {
             theme,
             ..figure::Options::default()
         }
-    }
-}
-
-/// The words of a scene that figures show.
-fn words(scene: &Scene) -> Vec<&str> {
-    let blocks = scene.blocks.iter().map(|b| b.id.as_str());
-    let robots = scene.robots.iter().map(|r| r.id.as_str());
-    let frames = scene.frames.iter().map(|f| f.title.as_str());
-    let title = std::iter::once(scene.title.as_str());
-    title.chain(frames).chain(blocks).chain(robots).collect()
-}
-
-/// The scene with the characters that no font has told by their code points.
-fn legible(scene: &Scene, fonts: &Fonts) -> Scene {
-    let mut scene = scene.clone();
-    let spell = |words: &mut String| {
-        if let Cow::Owned(spelled) = fonts.spelled(words) {
-            *words = spelled;
-        }
-    };
-    spell(&mut scene.title);
-    scene.frames.iter_mut().for_each(|f| spell(&mut f.title));
-    scene.blocks.iter_mut().for_each(|b| spell(&mut b.id));
-    scene.robots.iter_mut().for_each(|r| spell(&mut r.id));
-    scene
-}
-
-/// A character as a person reads it: itself and its number; its number alone where it would move the others about.
-fn character(c: char) -> String {
-    let number = format!("U+{:04X}", u32::from(c));
-    if c.is_alphanumeric() {
-        format!("{c} ({number})")
-    } else {
-        number
     }
 }
 

@@ -158,8 +158,8 @@ const FIELD: f64 = 48.0;
 
 /// The fields of the raster that a box touches.
 fn fields(min: PagePoint, max: PagePoint) -> impl Iterator<Item = (i64, i64)> {
-    // `as` holds on at the ends; a page has some thousand pixels, and what lies far beyond shares its last fields.
-    let field = |v: f64| (v / FIELD).floor().clamp(-200.0, 1200.0) as i64;
+    // A page has some thousand pixels; what lies far beyond it shares the last fields.
+    let field = |v: f64| (v / FIELD).floor().clamp(-20.0, 200.0) as i64;
     let (left, right, top, bottom) = (field(min.x), field(max.x), field(min.y), field(max.y));
     (left..=right).flat_map(move |x| (top..=bottom).map(move |y| (x, y)))
 }

@@ -155,8 +155,8 @@ impl Theme {
     ///
     /// ```
     /// use drystone::drawing::{Colour, Theme};
-    /// assert_eq!(Theme::thesis().amplitude(8.1667 / 1000.0), Colour::hex(0x130789));
-    /// assert_eq!(Theme::thesis().amplitude(1.0), Colour::hex(0xf0f921));
+    /// assert_eq!(Theme::thesis().amplitude(0.0), Colour::hex(0xfef3dd));
+    /// assert_eq!(Theme::thesis().amplitude(1.0), Colour::hex(0x56207c));
     /// ```
     pub fn amplitude(&self, share: f64) -> Colour {
         let count = self.amplitudes.len();

@@ -1,9 +1,10 @@
 //! The kernel: the stretch of each interface within which its resultant is safe, and where in it the resultant sits.
 
 use super::bearing::{Bearing, bearings};
+use super::by_colour::ByColour;
 use super::label;
 use super::legend::{self, Entry};
-use super::panel::{ByColour, Pen};
+use super::panel::Pen;
 use super::stage::Stage;
 use super::told;
 use super::verdict;

@@ -39,6 +39,8 @@ struct Label {
     wish: Wish,
     /// The colour of what it tells of; `None` for plain letters.
     colour: Option<Colour>,
+    /// Whether the words below the frame name it: then it is there in any case.
+    named: bool,
 }
 
 /// The class of a frame's labels; the description of their group counts those without room.
@@ -59,6 +61,10 @@ pub(crate) fn labels(pen: &Pen<'_>, view: Bounds, mut ink: Ink) -> Group {
     for (label, placed) in labels.iter().zip(places) {
         if let Some(placed) = placed {
             group.items.push(drawn(pen, label, placed).into());
+            continue;
+        }
+        if label.named {
+            group.items.push(over(pen, label).into());
             continue;
         }
         let what = match label.class {
@@ -107,7 +113,11 @@ fn wanted(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
     let mut labels = Vec::new();
     if options.labels {
         let first = mentioned(pen.stage, pen.number);
-        labels.extend(first.iter().filter_map(|id| name(pen, *id, view)));
+        let names = first.iter().filter_map(|id| name(pen, *id, view));
+        labels.extend(names.map(|label| Label {
+            named: true,
+            ..label
+        }));
         labels.extend(robots(pen, view));
         if few {
             let others = frame.placed.iter().filter(|id| !first.contains(id));
@@ -168,6 +178,7 @@ fn label(words: String, face: Face, size: f64, class: &'static str, wish: Wish) 
         size,
         class,
         colour: None,
+        named: false,
     }
 }
 
@@ -368,6 +379,16 @@ fn drawn(pen: &Pen<'_>, label: &Label, placed: Placed) -> Group {
     let colour = theme.letters_on(below, label.colour);
     let words = Text::new(at, label.words.as_str(), label.face, label.size, colour);
     group.with(words.anchored(Anchor::Middle))
+}
+
+/// A label for which nowhere is clear, over whatever lies at its anchor, with a seam around its letters.
+fn over(pen: &Pen<'_>, label: &Label) -> Group {
+    let below = pen.below(label.wish.anchor);
+    let colour = pen.stage.options.theme.letters_on(below, label.colour);
+    let at = label.wish.anchor.moved(0.0, 0.36 * label.size);
+    let words = Text::new(at, label.words.as_str(), label.face, label.size, colour);
+    let words = words.anchored(Anchor::Middle).with_halo(below, 1.5);
+    Group::of_class(label.class).with(words)
 }
 
 fn middle(rect: PageRect) -> PagePoint {

@@ -7,6 +7,7 @@
 mod apart;
 mod arrow;
 mod bearing;
+mod by_colour;
 mod caption;
 mod collapse;
 mod dimension;

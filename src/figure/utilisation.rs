@@ -3,9 +3,10 @@
 //! The forces are those of one balance of many: another may use less here and more there.
 
 use super::bearing::{Bearing, bearings};
+use super::by_colour::ByColour;
 use super::label;
 use super::legend::{self, Entry};
-use super::panel::{ByColour, Pen};
+use super::panel::Pen;
 use super::stage::Stage;
 use super::told;
 use super::verdict;

@@ -6,8 +6,7 @@ use crate::drawing::{
     Anchor, Colour, Drawing, Face, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme,
 };
 use crate::output::svg::{self, Words, WordsError};
-use crate::solve::TOLERANCE;
-use crate::study::{Method, Summary};
+use crate::study::{DEFAULT_TOLERANCE, Method, Summary};
 
 const WIDTH: f64 = 860.0;
 /// Height of a row.
@@ -91,7 +90,7 @@ fn described(lines: &[Summary], frames: usize) -> String {
 }
 
 fn default(tolerance: f64) -> bool {
-    libm::log10(tolerance / TOLERANCE).abs() < 0.01
+    libm::log10(tolerance / DEFAULT_TOLERANCE).abs() < 0.01
 }
 
 struct Page<'p> {
