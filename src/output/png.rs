@@ -310,7 +310,7 @@ mod tests {
         let picture =
             |text: &str, face| render(&words(text, face), Size::Natural).expect("a picture");
         for face in [Face::Serif, Face::Sans] {
-            for unknown in ["石", "🪨", "ア", "\u{e000}", "لوح", "\u{202e}"] {
+            for unknown in ["石", "🪨", "ア", "\u{e000}", "لوح"] {
                 let marks = "?".repeat(unknown.chars().count());
                 assert_eq!(picture(unknown, face), picture(&marks, face), "{unknown}");
             }

@@ -43,7 +43,7 @@ impl Theme {
             motion: Colour::hex(0x4479b4),
             safe: Colour::hex(0x008066),
             amplitudes: ramp::between(&all(&[
-                0xfdf1d8, 0xf9b27c, 0xdd6a6f, 0x9c2f7f, 0x3b0f70, 0x1d0a3c,
+                0xfef3dd, 0xfbc795, 0xf08f78, 0xcf5f7c, 0x943a86, 0x56207c,
             ])),
             stands: Colour::hex(0x17824f),
             falls: Colour::hex(0x9c1515),
@@ -99,7 +99,7 @@ impl Theme {
             motion: Colour::hex(0x0072b2),
             safe: Colour::hex(0x009e73),
             amplitudes: ramp::between(&all(&[
-                0xfff4c4, 0xd8c67a, 0x8a8779, 0x4a5c78, 0x00224e, 0x001630,
+                0xfff4c4, 0xd8c67a, 0x8a8779, 0x52637e, 0x25406b, 0x0a2a57,
             ])),
             stands: Colour::hex(0x0072b2),
             falls: Colour::hex(0x7d3600),
