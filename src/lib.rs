@@ -119,6 +119,9 @@ pub mod doc {
     #[doc = include_str!("../assets/accuracy.svg")]
     pub mod accuracy {}
 
+    #[doc = include_str!("doc/performance.md")]
+    pub mod performance {}
+
     #[doc = include_str!("doc/import.md")]
     pub mod import {}
 

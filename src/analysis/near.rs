@@ -5,8 +5,10 @@
 //! closed. If the verdicts differ nobody can say which structure was meant: the frame is undecided, with the places and
 //! the tolerance that settles it. A tolerance that somebody gave settles it already.
 
+use std::collections::BTreeMap;
+
 use super::{Ask, FrameAnalysis, Options, Verdict, examine};
-use crate::interface::{Interfaces, Near};
+use crate::interface::{Interface, Interfaces, Near};
 use crate::scene::{BodyId, Scene, ToleranceSource};
 
 /// So many places are named.
@@ -24,14 +26,25 @@ pub(super) fn judge(
     if scene.healed.source == ToleranceSource::Given || found.near.is_empty() {
         return;
     }
+    let mut touching: BTreeMap<BodyId, Vec<&Interface>> = BTreeMap::new();
+    for interface in &found.all {
+        for body in interface.bodies {
+            touching.entry(body).or_default().push(interface);
+        }
+    }
     let gaps: Vec<Vec<&Near>> = (scene.frames.iter())
         .map(|frame| {
-            let stands = |body: BodyId| match body {
+            let mut placed = vec![false; scene.blocks.len()];
+            for block in &frame.placed {
+                placed[block.0] = true;
+            }
+            let stands = |body: &BodyId| match body {
                 BodyId::Ground(_) => true,
-                BodyId::Block(id) => frame.placed.contains(&id),
+                BodyId::Block(id) => placed[id.0],
             };
             (found.near.iter())
-                .filter(|n| n.bodies.iter().all(|b| stands(*b)))
+                .filter(|gap| gap.bodies.iter().all(stands))
+                .filter(|gap| !held_open(gap, &touching, stands, scene.tolerance.gap))
                 .collect()
         })
         .collect();
@@ -55,6 +68,37 @@ pub(super) fn judge(
             frame.verdict = Verdict::Undecided;
         }
     }
+}
+
+/// Whether a stone that stands between the two bodies keeps the gap open: a pinning stone is meant, and so is its gap.
+///
+/// Such a stone touches both, on opposite sides, and is as high between them as the gap is wide.
+fn held_open(
+    gap: &Near,
+    touching: &BTreeMap<BodyId, Vec<&Interface>>,
+    stands: impl Fn(&BodyId) -> bool,
+    tolerance: f64,
+) -> bool {
+    let [one, other] = gap.bodies;
+    let of = |body: BodyId| touching.get(&body).map_or(&[][..], |list| &list[..]);
+    of(one).iter().any(|below| {
+        let stone = partner(below, one);
+        let is_stone = matches!(stone, BodyId::Block(_)) && stands(&stone);
+        is_stone
+            && of(other).iter().any(|above| {
+                let across = (above.middle() - below.middle()).dot(&below.normal).abs();
+                let opposite = below.normal.dot(&above.normal).abs() > 0.99;
+                partner(above, other) == stone
+                    && opposite
+                    && across > 0.5 * gap.distance
+                    && across <= 1.1 * gap.distance + tolerance
+            })
+    })
+}
+
+fn partner(interface: &Interface, body: BodyId) -> BodyId {
+    let [a, b] = interface.bodies;
+    if a == body { b } else { a }
 }
 
 fn words(scene: &Scene, open: Verdict, gaps: &[&Near]) -> String {

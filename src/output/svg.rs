@@ -434,7 +434,7 @@ mod tests {
         .with(text);
         let svg = write(&page(vec![group.into()]));
         assert!(
-            svg.contains("&lt;/text&gt;&lt;script&gt;&#39;&quot;&amp;石🪨</text>"),
+            svg.contains("&lt;/text&gt;&lt;script&gt;&#39;&quot;&amp;\u{fffd}\u{fffd}石🪨</text>"),
             "{svg}"
         );
         assert!(!svg.contains("<script") && !svg.contains('\u{fffe}') && !svg.contains('\u{1b}'));

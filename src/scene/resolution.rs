@@ -12,7 +12,7 @@ use super::format::{self, Pair, SceneFile};
 use super::frame::Hold;
 use super::heal::{self, Healed, Reach, ToleranceSource};
 use super::name::Names;
-use super::number::{at_least_zero, is_sane};
+use super::number::{SMALLEST_EXTENT, at_least_zero, is_amount, is_sane};
 use super::outline::Outline;
 use super::path::Trail;
 use super::play::{self, Cast};
@@ -76,7 +76,7 @@ impl<'f> Resolution<'f> {
             );
         }
         let gravity = file.gravity.unwrap_or(GRAVITY);
-        is_sane(findings, &top.key("gravity"), &gravity);
+        is_amount(findings, &top.key("gravity"), &gravity);
         let kernel = file.kernel.unwrap_or(0.0);
         if is_sane(findings, &top.key("kernel"), &[kernel]) && !(0.0..=1.0).contains(&kernel) {
             findings.add(&top.key("kernel"), problem::number::kernel(kernel));
@@ -381,6 +381,10 @@ fn lattice(findings: &mut Findings, entry: Option<&format::GridEntry>) -> Option
     }
     if side <= 0.0 {
         findings.add(&at, problem::number::side(side));
+        return None;
+    }
+    if side < SMALLEST_EXTENT {
+        findings.add(&at, problem::number::tiny_extent(side, SMALLEST_EXTENT));
         return None;
     }
     let kind = match entry.kind {

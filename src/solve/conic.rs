@@ -84,6 +84,9 @@ impl Answer {
 /// The tolerance of feasibility and gap the solver is asked for.
 pub const TOLERANCE: f64 = 1e-9;
 
+/// The most iterations of one program.
+pub const ITERATIONS: usize = 100;
+
 /// How a program is solved: how precisely, how carefully, and whether the one picture is sought.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Manner {
@@ -130,6 +133,14 @@ pub enum Care {
 /// # Panics
 /// If the data hold a number that is not finite: scenes are checked at the door, so that is our own mistake.
 pub fn solve(problem: &Conic, tolerance: f64, care: Care) -> Answer {
+    solve_within(problem, tolerance, care, ITERATIONS)
+}
+
+/// Solves a conic problem in a given number of iterations, or gives up.
+///
+/// # Panics
+/// As [`solve`].
+pub fn solve_within(problem: &Conic, tolerance: f64, care: Care, iterations: usize) -> Answer {
     let finite = |list: &[f64]| list.iter().all(|v| v.is_finite());
     let entries = problem
         .matrix
@@ -161,7 +172,7 @@ pub fn solve(problem: &Conic, tolerance: f64, care: Care) -> Answer {
         time_limit: left.map_or(f64::INFINITY, |left| left.as_secs_f64()),
         direct_solve_method: "qdldl".to_string(),
         presolve_enable: false,
-        max_iter: 100,
+        max_iter: u32::try_from(iterations).unwrap_or(u32::MAX),
         equilibrate_enable: care == Care::Full,
         iterative_refinement_enable: care == Care::Full,
         tol_gap_abs: tolerance,

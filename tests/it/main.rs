@@ -11,6 +11,7 @@ mod assembly;
 mod book;
 mod bound;
 mod edge;
+mod falls;
 mod freebody;
 mod gallery;
 mod hard;

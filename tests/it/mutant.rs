@@ -22,6 +22,9 @@ const NUMBERS: &[f64] = &[
     1.0,
     -1.0,
     1e-9,
+    1e-29,
+    1.1e-30,
+    1e-60,
     1e9,
     -1e9,
     1e12,
@@ -265,12 +268,9 @@ fn mutants_are_refused_in_words_or_decided() {
     let (mut sound, mut all) = (0, 0);
     for (name, original) in &originals {
         for number in 0..EACH {
-            let seed = number
-                ^ name
-                    .bytes()
-                    .rev()
-                    .take(12)
-                    .fold(7, |h, b| h * 131 + u64::from(b));
+            let end = name.bytes().rev().take(12);
+            let named = end.fold(7_u64, |h, b| h.wrapping_mul(131).wrapping_add(b.into()));
+            let seed = number ^ named;
             let text = mutant(original, seed).to_string();
             let outcome = catch_unwind(AssertUnwindSafe(|| examine(&text)))
                 .unwrap_or_else(|_| Err("a panic".into()));
@@ -284,5 +284,37 @@ fn mutants_are_refused_in_words_or_decided() {
     assert!(
         sound * 10 > all && sound < all,
         "{sound} of {all} are sound: too few or too many to say much"
+    );
+}
+
+/// Found by a mutant: a weight or an area that a float cannot hold made numbers of the program infinite, or let a block weigh
+/// nothing.
+#[test]
+fn numbers_that_products_of_them_cannot_hold_are_refused() {
+    let scene = |size: f64, weight: f64| {
+        json!({ "drystone": 1, "ground": [{ "polygon": [[0, 0], [size, 0], [size, -size], [0, -size]] }],
+            "blocks": [{ "id": "a", "polygon": [[0, 0], [size, 0], [size, size], [0, size]], "weight": weight }] })
+        .to_string()
+    };
+    for (size, weight) in [
+        (1e-31, 1.0),
+        (1e-61, 1.0),
+        (1e-160, 1.0),
+        (1.0, 1e-61),
+        (1.0, 5e-324),
+    ] {
+        let refused = Scene::from_json(&scene(size, weight)).expect_err("too small");
+        assert!(refused.to_string().contains("check the units"), "{refused}");
+    }
+    let least = json!({ "drystone": 1, "density": 1e-30, "thickness": 1e-30, "gravity": [0, -1e-30],
+        "ground": [{ "polygon": [[0, 0], [9e-30, 0], [9e-30, -9e-30], [0, -9e-30]] }],
+        "blocks": [{ "id": "a", "polygon": [[1e-30, 0], [2e-30, 0], [2e-30, 1e-30], [1e-30, 1e-30]] },
+                   { "id": "b", "polygon": [[1.5e-30, 1e-30], [3e-30, 1e-30], [3e-30, 2e-30], [1.5e-30, 2e-30]] }] });
+    let scene = Scene::from_json(&least.to_string()).expect("just large enough");
+    assert!(scene.blocks.iter().all(|block| block.weight > 0.0));
+    assert_eq!(
+        Analysis::of(&scene).frames[0].verdict,
+        Verdict::Unstable,
+        "it overhangs by two thirds"
     );
 }

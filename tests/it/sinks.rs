@@ -321,7 +321,7 @@ fn nothing_is_written_but_by_the_writers_of_this_table() {
         {
             for (sign, writers) in WRITERS {
                 let known = |w: &&str| path == **w || (w.ends_with('/') && path.starts_with(*w));
-                if line.contains(sign) && !writers.iter().any(|w| known(w)) {
+                if line.contains(sign) && !writers.iter().any(known) {
                     faults.push(format!("{path}: {}", line.trim()));
                 }
             }
