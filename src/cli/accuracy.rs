@@ -11,10 +11,10 @@ use crate::cli::progress::{Progress, Shown};
 use crate::cli::source;
 use crate::cli::terminal::Terminal;
 use crate::output::file::Existing;
-use crate::report::accuracy::{csv, markdown, page, svg};
+use crate::report::accuracy::{csv, markdown, page, picture};
 use crate::report::result::accuracy_json;
 use crate::scene::Scene;
-use crate::study::{Study, TOLERANCES, study};
+use crate::study::{Study, TOLERANCES, study, summary};
 
 /// Measure what accuracy costs in time: methods, tolerances, errors and wrong verdicts
 #[derive(Debug, Args)]
@@ -118,13 +118,14 @@ fn written(study: &Study, form: Form) -> Result<String, Complaint> {
         Form::Csv => Ok(csv(study)),
         Form::Json => Ok(accuracy_json(study)),
         Form::Markdown => Ok(markdown(study)),
-        Form::Html | Form::Svg => match form {
-            Form::Html => page(study),
-            _ => svg(study),
-        }
-        .map_err(|error| Complaint::NotWritten {
-            what: "the chart".into(),
-            why: error.to_string(),
-        }),
+        Form::Html => page(study).map_err(|error| undrawn(&error)),
+        Form::Svg => picture(&summary(study), study.cases.len()).map_err(|error| undrawn(&error)),
+    }
+}
+
+fn undrawn(error: &dyn std::error::Error) -> Complaint {
+    Complaint::NotWritten {
+        what: "the chart".into(),
+        why: error.to_string(),
     }
 }

@@ -14,7 +14,7 @@ use crate::cli::terminal::Terminal;
 use crate::figure::{self, Plate};
 use crate::output::file::Existing;
 use crate::output::png::{self, Size};
-use crate::output::{pdf, svg};
+use crate::output::{pdf, svg, tikz};
 
 /// Draw the gallery: figures 1 to 9 of the work this is built on, each as SVG, PNG and PDF, with captions
 #[derive(Debug, Args)]
@@ -38,7 +38,7 @@ impl Figures {
         let plates = figure::gallery(&theme);
         let formats: Vec<Format> = match self.format {
             Some(format) => vec![format],
-            None => Format::ALL.to_vec(),
+            None => vec![Format::Svg, Format::Png, Format::Pdf],
         };
         let drawn: Vec<Result<Files, Complaint>> = plates
             .par_iter()
@@ -83,6 +83,7 @@ fn files(plate: &Plate, formats: &[Format], folder: &Path) -> Result<Files, Comp
             Format::Svg => text.clone().into_bytes(),
             Format::Png => png::render(&text, Size::Scale(2.0)).map_err(|e| failed(&e))?,
             Format::Pdf => pdf::write(&plate.drawing, None).map_err(|e| failed(&e))?,
+            Format::Tikz => tikz::write(&plate.drawing, None).into_bytes(),
         };
         let path = folder.join(format!("{}.{}", plate.name, format.ending()));
         Ok((path, bytes))

@@ -32,6 +32,7 @@ mod picture;
 mod progress;
 mod render;
 mod schema;
+mod script;
 mod shapes;
 mod signal;
 mod source;

@@ -1,15 +1,20 @@
 //! [`Picture`]: how a drawing becomes a file's bytes, the part that `render` and `shapes` share.
 
+use std::fs;
+use std::path::PathBuf;
+
 use clap::{Args, ValueEnum};
 
 use crate::cli::complaint::Complaint;
 use crate::drawing::{Colour, Drawing};
+use crate::output::fonts::Fonts;
 use crate::output::pdf::{self, PdfError};
 use crate::output::png::{self, PngError, Size};
 use crate::output::svg::{self, Words};
+use crate::output::tikz;
 
 /// Format, size, page and words of a picture.
-#[derive(Clone, Copy, Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(crate) struct Picture {
     /// Format where the output's name does not tell: in a folder, or on standard output [default: svg]
     #[arg(long, value_enum, value_name = "FORMAT")]
@@ -33,6 +38,10 @@ pub(crate) struct Picture {
     /// How an SVG writes words: in fonts by their names, in fonts within the file, or as outlines [default: names]
     #[arg(long, value_enum, value_name = "FORM")]
     text: Option<TextForm>,
+    /// A font file (.ttf, .otf, .ttc) for scripts that ours do not have, as often as needed; without one their characters
+    /// are told by their code points wherever the words are drawn here
+    #[arg(long = "font", value_name = "FILE")]
+    fonts: Vec<PathBuf>,
 }
 
 /// By how much a figure laid out for print is made smaller: letters of 12.5 pixels, 9.4 points, become 7.5 points high.
@@ -47,6 +56,8 @@ pub(crate) enum Format {
     Png,
     /// Drawn in lines, for print, from that SVG
     Pdf,
+    /// Drawn in TikZ, to be set by LaTeX in the fonts of its document
+    Tikz,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -67,7 +78,7 @@ enum Background {
 
 impl Format {
     /// All formats, in the order in which they are told.
-    pub(crate) const ALL: [Format; 3] = [Format::Svg, Format::Png, Format::Pdf];
+    pub(crate) const ALL: [Format; 4] = [Format::Svg, Format::Png, Format::Pdf, Format::Tikz];
 
     /// The file ending, without its dot.
     pub(crate) fn ending(self) -> &'static str {
@@ -75,13 +86,14 @@ impl Format {
             Format::Svg => "svg",
             Format::Png => "png",
             Format::Pdf => "pdf",
+            Format::Tikz => "tikz",
         }
     }
 
     /// Why a terminal is no place for it, if it is none.
     pub(crate) fn unreadable(self) -> Option<String> {
         let name = match self {
-            Format::Svg => return None,
+            Format::Svg | Format::Tikz => return None,
             Format::Png => "PNG",
             Format::Pdf => "PDF",
         };
@@ -110,7 +122,7 @@ impl Picture {
         }
         if self.text.is_some() && format != Format::Svg {
             wrong.push(
-                "--text is for an SVG; a PNG has no words, and a PDF always has its fonts in it. Leave it out",
+                "--text is for an SVG; a PNG has no words, a PDF always has its fonts in it, and LaTeX sets those of TikZ. Leave it out",
             );
         }
         if wrong.is_empty() {
@@ -133,22 +145,30 @@ impl Picture {
     }
 
     /// The bytes of a drawing.
-    pub(crate) fn bytes(&self, drawing: Drawing, format: Format) -> Result<Vec<u8>, Complaint> {
+    pub(crate) fn bytes(
+        &self,
+        drawing: Drawing,
+        format: Format,
+        fonts: &Fonts,
+    ) -> Result<Vec<u8>, Complaint> {
         let drawing = self.on_page(drawing);
         match format {
-            Format::Svg => svg::write_with(&drawing, &self.svg_options())
+            Format::Svg => svg::write_with(&drawing, &self.svg_options(fonts))
                 .map(String::into_bytes)
                 .map_err(|error| unwritten(&error)),
             Format::Png => {
                 // A page that is too large is refused before it is written out, which takes far more memory than the drawing.
                 png::check(drawing.width, drawing.height, self.size())
-                    .and_then(|()| png::render(&svg::write(&drawing), self.size()))
+                    .and_then(|()| png::render_in(&svg::write(&drawing), self.size(), fonts))
                     .map_err(|error| not_drawn(&error))
             }
-            Format::Pdf => pdf::write(&drawing, self.width_mm).map_err(|error| match error {
-                PdfError::Size { .. } => Complaint::CommandLine(error.to_string()),
-                PdfError::Unwritable(_) => unwritten(&error),
-            }),
+            Format::Tikz => Ok(tikz::write(&drawing, self.width_mm).into_bytes()),
+            Format::Pdf => {
+                pdf::write_in(&drawing, self.width_mm, fonts).map_err(|error| match error {
+                    PdfError::Size { .. } => Complaint::CommandLine(error.to_string()),
+                    PdfError::Unwritable(_) => unwritten(&error),
+                })
+            }
         }
     }
 
@@ -157,6 +177,7 @@ impl Picture {
         &self,
         drawings: Vec<Drawing>,
         seconds: f64,
+        fonts: &Fonts,
     ) -> Result<Vec<u8>, Complaint> {
         if let Some(drawing) = drawings.first() {
             png::check(drawing.width, drawing.height, self.size())
@@ -166,7 +187,7 @@ impl Picture {
             .into_iter()
             .map(|drawing| svg::write(&self.on_page(drawing)))
             .collect();
-        png::animate(&svgs, self.size(), seconds).map_err(|error| not_drawn(&error))
+        png::animate(&svgs, self.size(), seconds, fonts).map_err(|error| not_drawn(&error))
     }
 
     /// The width, in pixels, for which a figure is laid out; `None` for its own. On a page of so many millimetres its
@@ -175,7 +196,33 @@ impl Picture {
         self.width_mm.map(|mm| mm / 25.4 * 96.0 / IN_PRINT)
     }
 
-    fn svg_options(&self) -> svg::Options {
+    /// Our fonts and those asked for.
+    pub(crate) fn fonts(&self) -> Result<Fonts, Complaint> {
+        let mut files = Vec::new();
+        for path in &self.fonts {
+            files.push(fs::read(path).map_err(|error| Complaint::NotRead {
+                what: path.display().to_string(),
+                why: error.to_string(),
+            })?);
+        }
+        Fonts::with(files).map_err(|number| {
+            let name = self.fonts[number].display();
+            Complaint::CommandLine(format!(
+                "--font {name}: it is no font; give a .ttf, .otf or .ttc file"
+            ))
+        })
+    }
+
+    /// Whether the words of a picture of this format are drawn here, and not by whoever opens it.
+    pub(crate) fn draws_words(&self, format: Format) -> bool {
+        match format {
+            Format::Png | Format::Pdf => true,
+            Format::Svg => self.text == Some(TextForm::Paths),
+            Format::Tikz => false,
+        }
+    }
+
+    fn svg_options(&self, fonts: &Fonts) -> svg::Options {
         svg::Options {
             width_mm: self.width_mm,
             words: match self.text {
@@ -183,6 +230,7 @@ impl Picture {
                 Some(TextForm::Embed) => Words::Embedded,
                 Some(TextForm::Paths) => Words::Outlines,
             },
+            fonts: fonts.clone(),
         }
     }
 

@@ -1,5 +1,6 @@
 //! `drystone render`: scenes in, figures out.
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
@@ -13,21 +14,23 @@ use crate::cli::level::Level;
 use crate::cli::look::Look;
 use crate::cli::picture::{Format, Picture};
 use crate::cli::progress::{Progress, Shown};
+use crate::cli::script;
 use crate::cli::source::{self, FrameChoice, Source};
 use crate::cli::terminal::Terminal;
 use crate::drawing::{Drawing, Theme};
 use crate::figure;
 use crate::output::file::Existing;
+use crate::output::fonts::Fonts;
 use crate::report::result::word;
 use crate::scene::{self, BlockId, Scene};
 
-/// Draw scenes with their forces, and what fails, as SVG, PNG or PDF
+/// Draw scenes with their forces, and what fails, as SVG, PNG, PDF or TikZ
 #[derive(Debug, Args)]
 pub(crate) struct Render {
     /// Scene files; - reads standard input
     #[arg(required = true, value_name = "SCENE")]
     scenes: Vec<PathBuf>,
-    /// Where to: a .svg, .png or .pdf file, a folder (existing, or ending in a slash), or - for standard output
+    /// Where to: a .svg, .png, .pdf or .tikz file, a folder (existing, or ending in a slash), or - for standard output
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
     #[command(flatten)]
@@ -58,6 +61,33 @@ pub(crate) struct Render {
     /// Write its amount beside every arrow
     #[arg(long)]
     amounts: bool,
+    /// What the colours of blocks tell
+    #[arg(long, value_enum, default_value = "amplitude")]
+    fill: Fill,
+    /// Leave out the figure's title
+    #[arg(long)]
+    no_title: bool,
+    /// Leave out the frames' captions
+    #[arg(long)]
+    no_caption: bool,
+    /// Leave out the verdicts and what is said below them
+    #[arg(long)]
+    no_verdict: bool,
+    /// Leave out the key and the scale of arrows
+    #[arg(long)]
+    no_key: bool,
+    /// Show a bar of a round number of metres
+    #[arg(long)]
+    scale_bar: bool,
+    /// Measure the width and height of all blocks at the edges of each panel
+    #[arg(long)]
+    dimensions: bool,
+    /// Show the neighbourhood of one block only, by its id
+    #[arg(long, value_name = "ID")]
+    zoom: Option<String>,
+    /// Write every panel of a strip to a file of its own, its letter after the name
+    #[arg(long, conflicts_with = "animate")]
+    panels: bool,
     /// Panels per row of a strip
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     columns: Option<u16>,
@@ -92,6 +122,20 @@ enum Kind {
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
+enum Fill {
+    /// The larger of a block's weight and its largest normal force, N
+    Amplitude,
+    /// The largest mean pressure on one of its interfaces, N/m², for the scene's thickness
+    Stress,
+    /// The largest share of the friction available that one of its interfaces uses
+    Friction,
+    /// Nothing: plain blocks
+    None,
+    /// Shares of the robots' limits, by the rule and in the colours of the source
+    Source,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
 enum Arrows {
     Resultant,
     Components,
@@ -111,7 +155,8 @@ enum ArrowScale {
 
 /// A figure and what it shows.
 struct Rendered {
-    bytes: Vec<u8>,
+    /// One for each file; more than one where each panel has its own.
+    bytes: Vec<Vec<u8>>,
     ending: Ending,
     summary: String,
 }
@@ -160,6 +205,13 @@ impl Render {
         }
         self.check_count(&destination, format, terminal)
             .map_err(|c| vec![c])?;
+        if self.panels
+            && (self.kind.panels().is_none() || matches!(destination, Destination::Stdout))
+        {
+            let why = "--panels writes the panels of a figure to files; give a file or folder, and any kind but freebody";
+            return Err(vec![Complaint::CommandLine(why.into())]);
+        }
+        let fonts = self.picture.fonts().map_err(|c| vec![c])?;
         let (theme, sources) = match (
             self.look.theme(),
             source::read(&self.scenes, self.frame, self.level.contact_tolerance),
@@ -185,7 +237,7 @@ impl Render {
         let asked = self.level.options();
         let rendered: Vec<Result<Rendered, Complaint>> = sources
             .par_iter()
-            .map(|source| self.render(source, &asked, &options, format, &progress))
+            .map(|source| self.render(source, &asked, &options, format, &fonts, &progress))
             .collect();
         drop(progress);
         let rendered = all(rendered)?;
@@ -197,17 +249,29 @@ impl Render {
             .unwrap_or(Ending::Done);
         let summaries: Vec<String> = rendered.iter().map(|r| r.summary.clone()).collect();
         let bytes = rendered.into_iter().map(|r| r.bytes);
+        if self.picture.draws_words(format) {
+            script::warn(&sources, &fonts, terminal);
+        }
         if let Destination::Stdout = destination {
-            for picture in bytes {
+            for picture in bytes.flatten() {
                 terminal.print_bytes(&picture).map_err(|c| vec![c])?;
             }
         } else {
             if let Destination::Folder(folder) = &destination {
                 destination::make_folder(folder).map_err(|c| vec![c])?;
             }
-            let files: Vec<(PathBuf, Vec<u8>)> = paths.into_iter().zip(bytes).collect();
+            let mut files: Vec<(PathBuf, Vec<u8>)> = Vec::new();
+            for (path, pictures) in paths.iter().zip(bytes) {
+                if !self.panels {
+                    files.extend(pictures.into_iter().map(|bytes| (path.clone(), bytes)));
+                    continue;
+                }
+                for (number, bytes) in pictures.into_iter().enumerate() {
+                    files.push((panel_path(path, number), bytes));
+                }
+            }
             destination::write(&files, Existing::Replace).map_err(|c| vec![c])?;
-            for ((path, _), summary) in files.iter().zip(summaries) {
+            for (path, summary) in paths.iter().zip(summaries) {
                 terminal.note(&format!("{}: {summary}", path.display()));
             }
         }
@@ -246,20 +310,38 @@ impl Render {
         asked: &analysis::Options,
         options: &figure::Options,
         format: Format,
+        fonts: &Fonts,
         progress: &Progress,
     ) -> Result<Rendered, Complaint> {
         progress.doing(&source.name());
-        let analysis = Analysis::with(&source.scene, asked);
+        let mut options = options.clone();
+        if let Some(name) = &self.zoom {
+            let wrong = |why| Complaint::CommandLine(format!("{}: {why}", source.name()));
+            options.zoom = Some(self.found(&source.scene, name).map_err(wrong)?);
+        }
+        let options = &options;
+        let scene = if self.picture.draws_words(format) {
+            script::legible(&source.scene, fonts)
+        } else {
+            source.scene.clone()
+        };
+        let analysis = Analysis::with(&scene, asked);
         progress.step();
         let bytes = match self.animate {
+            None if self.panels => {
+                let kind = self.kind.panels().unwrap_or_default();
+                let pages = figure::panels(&analysis, kind, options);
+                let page = |page| self.picture.bytes(page, format, fonts);
+                pages.into_iter().map(page).collect::<Result<_, _>>()?
+            }
             Some(seconds) => {
                 let kind = self.kind.panels().unwrap_or_default();
                 let pages = figure::pages(&analysis, kind, options);
-                self.picture.animated(pages, seconds)?
+                vec![self.picture.animated(pages, seconds, fonts)?]
             }
             None => {
                 let drawing = self.drawing(source, &analysis, options)?;
-                self.picture.bytes(drawing, format)?
+                vec![self.picture.bytes(drawing, format, fonts)?]
             }
         };
         progress.step();
@@ -302,16 +384,22 @@ impl Render {
                 }
             };
         };
-        let Some(number) = scene.blocks.iter().position(|b| b.id == *name) else {
+        let block = self.found(scene, name)?;
+        match placed(block) {
+            Some(frame) => Ok((frame, block)),
+            None => Err(format!("block {name} is not placed in the frames shown")),
+        }
+    }
+
+    /// The block of a name.
+    fn found(&self, scene: &Scene, name: &str) -> Result<BlockId, String> {
+        let number = scene.blocks.iter().position(|b| b.id == name);
+        number.map(BlockId).ok_or_else(|| {
             let known = scene.blocks.iter().map(|b| b.id.as_str());
             let near = scene::nearest(name, known)
                 .map_or_else(String::new, |near| format!("; did you mean {near}?"));
-            return Err(format!("it has no block {name}{near}"));
-        };
-        match placed(BlockId(number)) {
-            Some(frame) => Ok((frame, BlockId(number))),
-            None => Err(format!("block {name} is not placed in the frames shown")),
-        }
+            format!("it has no block {name}{near}")
+        })
     }
 
     fn options(&self, theme: Theme) -> figure::Options {
@@ -328,6 +416,19 @@ impl Render {
                 ArrowScale::Panel => figure::ArrowScale::Panel,
                 ArrowScale::Strip => figure::ArrowScale::Strip,
             },
+            fill: match self.fill {
+                Fill::Amplitude => figure::Fill::Amplitude,
+                Fill::Stress => figure::Fill::Stress,
+                Fill::Friction => figure::Fill::Friction,
+                Fill::None => figure::Fill::None,
+                Fill::Source => figure::Fill::Source,
+            },
+            titles: !self.no_title,
+            captions: !self.no_caption,
+            verdicts: !self.no_verdict,
+            keys: !self.no_key,
+            scale_bar: self.scale_bar,
+            dimensions: self.dimensions,
             corners: if self.corners {
                 figure::Corners::All
             } else {
@@ -340,6 +441,14 @@ impl Render {
             ..figure::Options::default()
         }
     }
+}
+
+/// Where a panel of a figure goes: `name-a.svg` beside `name.svg`.
+fn panel_path(path: &Path, number: usize) -> PathBuf {
+    let part = |part: Option<&OsStr>| part.map(|p| p.to_string_lossy().into_owned());
+    let stem = part(path.file_stem()).unwrap_or_default();
+    let ending = part(path.extension()).map_or_else(String::new, |e| format!(".{e}"));
+    path.with_file_name(format!("{stem}-{}{ending}", figure::letter(number)))
 }
 
 /// Every result, or every complaint.

@@ -42,7 +42,8 @@ impl Shapes {
         {
             return Err(Complaint::CommandLine(why));
         }
-        let bytes = self.picture.bytes(figure::shapes(theme), format)?;
+        let fonts = self.picture.fonts()?;
+        let bytes = self.picture.bytes(figure::shapes(theme), format, &fonts)?;
         let path = match &destination {
             Destination::Stdout => return terminal.print_bytes(&bytes),
             Destination::File(path) => path.clone(),

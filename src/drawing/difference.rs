@@ -60,6 +60,21 @@ pub fn lightness(colour: Colour) -> f64 {
     lab(colour)[0]
 }
 
+/// How well letters of one colour read on the other: 1 for the same lightness … 21 for black on white; small letters need
+/// 4.5. It is the ratio of the two luminances, each with 0.05 for the light that any page sends back.
+///
+/// ```
+/// use drystone::drawing::{Colour, difference::contrast};
+/// assert_eq!(contrast(Colour::BLACK, Colour::WHITE), 21.0);
+/// assert!((contrast(Colour::hex(0x767676), Colour::WHITE) - 4.54).abs() < 0.01);
+/// ```
+pub fn contrast(a: Colour, b: Colour) -> f64 {
+    // Coefficients of sRGB, to the digits of the guideline.
+    let luminance = |c: Colour| dot([0.2126, 0.7152, 0.0722], linear(c)) + 0.05;
+    let (a, b) = (luminance(a), luminance(b));
+    if a > b { a / b } else { b / a }
+}
+
 /// How far apart two colours look: ΔE₀₀ of CIEDE2000, 0 for the same colour.
 pub fn difference(a: Colour, b: Colour) -> f64 {
     between(lab(a), lab(b))

@@ -5,6 +5,7 @@
 //! given, the most important first; one for which no place is clear is left out.
 
 use core::f64::consts::TAU;
+use std::collections::BTreeMap;
 
 use super::arrow::head_size;
 use super::{PagePoint, PageRect};
@@ -24,6 +25,8 @@ const CROSSING: f64 = 14.0;
 #[derive(Clone, Debug, Default)]
 pub struct Ink {
     pieces: Vec<Piece>,
+    /// The numbers of the pieces in each field of a raster, once there is one.
+    raster: Option<BTreeMap<(i64, i64), Vec<usize>>>,
 }
 
 #[derive(Clone, Debug)]
@@ -42,8 +45,44 @@ impl Ink {
         let ends =
             |pick: &dyn Fn(PagePoint, PagePoint) -> PagePoint| corners.iter().copied().reduce(pick);
         if let (Some(min), Some(max)) = (ends(&least), ends(&most)) {
+            let number = self.pieces.len();
+            if let Some(raster) = &mut self.raster {
+                for field in fields(min, max) {
+                    raster.entry(field).or_default().push(number);
+                }
+            }
             self.pieces.push(Piece { corners, min, max });
         }
+    }
+
+    /// Sorts the pieces into a raster, so that the many questions of [`place`] look at those nearby alone.
+    pub fn index(&mut self) {
+        let mut raster: BTreeMap<(i64, i64), Vec<usize>> = BTreeMap::new();
+        for (number, piece) in self.pieces.iter().enumerate() {
+            for field in fields(piece.min, piece.max) {
+                raster.entry(field).or_default().push(number);
+            }
+        }
+        self.raster = Some(raster);
+    }
+
+    /// The pieces whose boxes meet a box, each once.
+    fn near(&self, min: PagePoint, max: PagePoint) -> impl Iterator<Item = &Piece> {
+        let meets = move |piece: &&Piece| {
+            piece.min.x < max.x && piece.max.x > min.x && piece.min.y < max.y && piece.max.y > min.y
+        };
+        let numbers = self.raster.as_ref().map(|raster| {
+            let lists = fields(min, max).filter_map(|field| raster.get(&field));
+            let mut numbers: Vec<usize> = lists.flatten().copied().collect();
+            numbers.sort_unstable();
+            numbers.dedup();
+            numbers
+        });
+        let all = match numbers {
+            Some(numbers) => numbers,
+            None => (0..self.pieces.len()).collect(),
+        };
+        all.into_iter().map(|n| &self.pieces[n]).filter(meets)
     }
 
     /// A line `width` pixels wide.
@@ -98,13 +137,7 @@ impl Ink {
     /// Whether an upright rectangle lies clear of all ink.
     pub fn clear(&self, rect: PageRect) -> bool {
         let (min, max) = (rect.at, rect.at.moved(rect.width, rect.height));
-        !self.pieces.iter().any(|piece| {
-            piece.min.x < max.x
-                && piece.max.x > min.x
-                && piece.min.y < max.y
-                && piece.max.y > min.y
-                && meets(&piece.corners, rect)
-        })
+        !self.near(min, max).any(|piece| meets(&piece.corners, rect))
     }
 
     /// How many pieces a line touches.
@@ -114,15 +147,21 @@ impl Ink {
             PagePoint::new(from.x.max(to.x), from.y.max(to.y)),
         );
         let crosses = |piece: &&Piece| {
-            piece.min.x < max.x
-                && piece.max.x > min.x
-                && piece.min.y < max.y
-                && piece.max.y > min.y
-                && !parted(&piece.corners, &[from, to])
-                && !parted(&[from, to], &piece.corners)
+            !parted(&piece.corners, &[from, to]) && !parted(&[from, to], &piece.corners)
         };
-        self.pieces.iter().filter(crosses).count()
+        self.near(min, max).filter(crosses).count()
     }
+}
+
+/// Side of a field of the raster, pixels.
+const FIELD: f64 = 48.0;
+
+/// The fields of the raster that a box touches.
+fn fields(min: PagePoint, max: PagePoint) -> impl Iterator<Item = (i64, i64)> {
+    // A page has some thousand pixels; what lies far beyond it shares the last fields.
+    let field = |v: f64| (v / FIELD).floor().clamp(-20.0, 200.0) as i64;
+    let (left, right, top, bottom) = (field(min.x), field(max.x), field(min.y), field(max.y));
+    (left..=right).flat_map(move |x| (top..=bottom).map(move |y| (x, y)))
 }
 
 /// A label that wants a place.

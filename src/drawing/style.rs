@@ -6,10 +6,12 @@ mod named;
 mod tests;
 
 use super::colour::Colour;
-use super::difference::lightness;
+use super::difference::{contrast, lightness};
 
 /// A fill that is brighter than this wears dark seams and letters.
 const BRIGHT: f64 = 0.6;
+/// Least contrast of letters with what lies below them.
+const LEGIBLE: f64 = 4.55;
 /// An arrow that is darker than a bright block by so much lightness stands off by itself, and keeps the usual seam.
 const STANDS_OFF: f64 = 53.0;
 
@@ -24,13 +26,14 @@ const STANDS_OFF: f64 = 53.0;
 /// |---|---|---|---|---|
 /// | arrows of blocks placed one after the other | 13.1 | 14.7 | 12.1 | 23.6 |
 /// | a force's arrow and a robot's | 24.9 | 35.5 | 17.9 | 17.7 |
-/// | what fails and any other arrow | 21.0 | 17.0 | 12.5 | 34.7 |
-/// | an arrow, or its seam, and what lies below | 34.2 | 52.4 | 26.8 | 33.3 |
-/// | letters and what lies below | 25.2 | 51.9 | 21.3 | 33.3 |
+/// | what fails and any other arrow | 35.5 | 17.0 | 12.5 | 34.7 |
+/// | an arrow, or its seam, and what lies below | 33.1 | 36.9 | 27.0 | 30.0 |
+/// | letters and what lies below | 38.8 | 44.1 | 35.7 | 38.2 |
 ///
 /// What lies below is a block of any amplitude, a plain one, the ground or the page; there an arrow counts with its seam,
-/// whichever is farther. The source's five greens are what they are: printed in grey, what fails in `thesis` is no lighter
-/// or darker than some forces, and is told by its width alone.
+/// whichever is farther. Amplitudes grow darker on a light page and lighter on a dark one; those of `paper` run from L* 95
+/// to 35. Letters have a contrast of at least 4.5 with whatever they lie on. What fails, and what falls, differs in lightness
+/// from what is green, so that a grey print tells them apart.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Theme {
     /// The page.
@@ -47,6 +50,8 @@ pub struct Theme {
     pub arrows: Vec<Colour>,
     /// Colours of robots 0, 1, 2 …, over and over.
     pub robots: Vec<Colour>,
+    /// Loads.
+    pub load: Colour,
     /// What fails.
     pub failure: Colour,
     /// The ground.
@@ -150,8 +155,8 @@ impl Theme {
     ///
     /// ```
     /// use drystone::drawing::{Colour, Theme};
-    /// assert_eq!(Theme::thesis().amplitude(8.1667 / 1000.0), Colour::hex(0x130789));
-    /// assert_eq!(Theme::thesis().amplitude(1.0), Colour::hex(0xf0f921));
+    /// assert_eq!(Theme::thesis().amplitude(0.0), Colour::hex(0xfef3dd));
+    /// assert_eq!(Theme::thesis().amplitude(1.0), Colour::hex(0x56207c));
     /// ```
     pub fn amplitude(&self, share: f64) -> Colour {
         let count = self.amplitudes.len();
@@ -182,17 +187,22 @@ impl Theme {
         block.mixed(towards, share)
     }
 
-    /// The colour of letters on a block or the page; of those that belong to something, a shade of its colour.
+    /// The colour of letters on a block or the page; of those that belong to something, a shade of its colour. Its
+    /// [contrast](super::difference::contrast) with what lies below is at least 4.5.
     pub fn letters_on(&self, below: Colour, of: Option<Colour>) -> Colour {
-        let ink = if below.brightness() < BRIGHT {
+        let ink = if contrast(Colour::WHITE, below) > contrast(Colour::BLACK, below) {
             Colour::WHITE
         } else {
             Colour::BLACK
         };
-        match of {
-            Some(colour) => colour.mixed(ink, 0.55),
-            None => below.mixed(ink, 0.75),
-        }
+        let (from, least) = match of {
+            Some(colour) => (colour, 11),
+            None => (below, 15),
+        };
+        // In steps of a twentieth towards black or white, one of which reads on any colour.
+        let shade = |step: u32| from.mixed(ink, f64::from(step) / 20.0);
+        let legible = |colour: &Colour| contrast(*colour, below) >= LEGIBLE;
+        (least..=20).map(shade).find(legible).unwrap_or(ink)
     }
 
     /// The brighter of page and ink.

@@ -1,13 +1,14 @@
 //! [`Text`]: a line of words, and how wide words are in our own fonts.
 //!
 //! Widths are sums of advances, without kerning: a pair moves by a few hundredths of the size, which wrapping and
-//! placing do not notice. A character that a face lacks shows as the face's box for missing characters.
+//! placing do not notice. The width of a character that a face lacks, and that another font
+//! has to draw, is estimated.
 
 use std::sync::OnceLock;
 
 use skrifa::MetadataProvider;
 use skrifa::instance::{LocationRef, Size};
-use skrifa::raw::FontRef;
+use skrifa::raw::{FileRef, FontRef};
 
 use super::{Colour, PagePoint};
 
@@ -154,6 +155,20 @@ impl Text {
 /// The space at which no line is broken.
 pub const NO_BREAK: char = '\u{a0}';
 
+/// Whether bytes are a font, or a collection of fonts.
+pub fn opens(data: &[u8]) -> bool {
+    FileRef::new(data).is_ok_and(|file| file.fonts().any(|font| font.is_ok()))
+}
+
+/// Whether a font, or one of a collection, has a character.
+pub fn covers(data: &[u8], character: char) -> bool {
+    let Ok(file) = FileRef::new(data) else {
+        return false;
+    };
+    let mut fonts = file.fonts().filter_map(Result::ok);
+    fonts.any(|font| font.charmap().map(character).is_some())
+}
+
 /// How wide words are, in pixels.
 pub fn width(words: &str, face: Face, size: f64) -> f64 {
     let common = common_advances(face);
@@ -166,9 +181,26 @@ pub fn width(words: &str, face: Face, size: f64) -> f64 {
 
 /// How far the pen moves for a character, in parts of the size.
 fn advance(font: &FontRef<'_>, c: char) -> f64 {
-    let glyph = font.charmap().map(c).unwrap_or_default();
+    let Some(glyph) = font.charmap().map(c) else {
+        return elsewhere(c);
+    };
     let metrics = font.glyph_metrics(Size::new(1.0), LocationRef::default());
     f64::from(metrics.advance_width(glyph).unwrap_or(0.0))
+}
+
+/// How wide a character is, in parts of the size, that is set in a font of other hands: a full square in the scripts and
+/// signs that are written in squares.
+fn elsewhere(c: char) -> f64 {
+    match u32::from(c) {
+        0x1100..=0x115F
+        | 0x2E80..=0xA4CF
+        | 0xAC00..=0xD7A3
+        | 0xF900..=0xFAFF
+        | 0xFE30..=0xFE6F
+        | 0xFF00..=0xFF60
+        | 0x1F000..=0x3FFFF => 1.0,
+        _ => 0.62,
+    }
 }
 
 /// Advances of the first 128 characters, looked up once: breaking lines asks for them again and again.

@@ -253,7 +253,7 @@ mod tests {
     fn displaced_blocks_keep_their_areas_and_sides() {
         for scene in falling() {
             let analysis = Analysis::of(&scene);
-            let displaced = displacements(&analysis, 0, unit(&scene), 1.0);
+            let displaced = displacements(&analysis, 0, unit(&scene, None), 1.0);
             let mut count = 0;
             for (block, displacement) in scene.blocks.iter().zip(&displaced) {
                 let Some(displacement) = displacement else {
@@ -296,7 +296,7 @@ mod tests {
             let analysis = Analysis::of(&scene);
             let heaps = together(&analysis, 0, |_| true);
             assert_eq!(heaps.len(), 1);
-            let amplitude = amplitude(&analysis, &heaps[0], unit(&scene));
+            let amplitude = amplitude(&analysis, &heaps[0], unit(&scene, None));
             // Where the way is short the square is all there is.
             let (short, half) = (
                 shared(&analysis, amplitude / 4.0),
@@ -364,7 +364,7 @@ mod tests {
             brick("small", 200.0, 0.3)
         );
         let scene = Scene::from_json(&text).unwrap_or_else(|problems| panic!("{problems}"));
-        let displaced = displacements(&Analysis::of(&scene), 0, unit(&scene), 1.0);
+        let displaced = displacements(&Analysis::of(&scene), 0, unit(&scene, None), 1.0);
         for (block, displacement) in scene.blocks.iter().zip(displaced) {
             let displacement = displacement.expect("it tips");
             let turned = displacement.turned(Vector::new(1.0, 0.0));

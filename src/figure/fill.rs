@@ -1,11 +1,13 @@
-//! [`Fills`]: the colours of blocks, which tell the amplitudes that normalised arrows hide.
+//! [`Fills`]: the colours of blocks, and the one thing they tell.
 //!
-//! A block's amplitude is the larger of its weight and the largest normal force of one of its interfaces; it is told as
-//! a share of the smallest force limit of all robots. A held block tells how far its robot is used instead:
-//! max(|Fx|/limit, |Fy|/limit). Where no robot has a limit, amplitudes are shares of the largest in the figure, and the
-//! key says so.
+//! What a colour tells is [chosen](Fill), and the key says it: amplitudes, stresses or friction, always of every block
+//! alike. Under the rule of the source a held block tells how far its robot is used, and every other block its
+//! amplitude as a share of the smallest limit of all robots; where no robot has a limit, of the largest in the figure.
 
+use super::option::Fill;
+use super::words::quantity;
 use crate::analysis::{Analysis, FrameAnalysis};
+use crate::drawing::{Colour, PLASMA, Theme};
 use crate::scene::{BlockId, BodyId, Frame, Scene};
 
 /// What a full share stands for.
@@ -15,6 +17,12 @@ pub(crate) enum FillScale {
     Limit(f64),
     /// The largest amplitude in the figure, N.
     Largest(f64),
+    /// The largest stress in the figure, N/m², and the thickness it is for, m.
+    Stress(f64, f64),
+    /// All friction available.
+    Friction,
+    /// Nothing: blocks are plain.
+    Plain,
 }
 
 /// Shares of all blocks in all frames.
@@ -24,45 +32,35 @@ pub(crate) struct Fills {
     pub scale: FillScale,
     /// For each frame the shares of its placed blocks, in placing order.
     pub shares: Vec<Vec<f64>>,
+    rule: Fill,
 }
 
 impl Fills {
     /// The shares of every frame.
-    pub fn of(analysis: &Analysis<'_>) -> Fills {
+    pub fn of(analysis: &Analysis<'_>, rule: Fill) -> Fills {
         let scene = analysis.scene;
-        let frames = || scene.frames.iter().zip(&analysis.frames);
-        let amplitudes: Vec<Vec<f64>> = frames()
-            .map(|(frame, found)| amplitudes(scene, frame, found))
-            .collect();
-        let limit = scene
-            .robots
-            .iter()
-            .flat_map(|r| [r.limits.fx, r.limits.fy])
-            .fold(f64::INFINITY, f64::min);
-        if !limit.is_finite() {
-            let largest = amplitudes.iter().flatten().copied().fold(0.0, f64::max);
-            let share = |a: &f64| if largest > 0.0 { a / largest } else { 0.0 };
-            let shares = amplitudes
-                .iter()
-                .map(|frame| frame.iter().map(share).collect())
-                .collect();
-            return Fills {
-                scale: FillScale::Largest(largest),
-                shares,
-            };
-        }
-        let shares = frames()
-            .zip(amplitudes)
-            .map(|((frame, found), amplitudes)| {
-                let of_block = |(block, amplitude): (&BlockId, f64)| {
-                    held(scene, found, *block).unwrap_or_else(|| share(amplitude, limit))
-                };
-                frame.placed.iter().zip(amplitudes).map(of_block).collect()
-            })
-            .collect();
+        let each = |amount: fn(&Scene, &Frame, &FrameAnalysis) -> Vec<f64>| -> Vec<Vec<f64>> {
+            let frames = scene.frames.iter().zip(&analysis.frames);
+            frames
+                .map(|(frame, found)| amount(scene, frame, found))
+                .collect()
+        };
+        let (scale, shares) = match rule {
+            Fill::Amplitude => to_largest(each(amplitudes), FillScale::Largest),
+            Fill::Stress => to_largest(each(stresses), |largest| {
+                FillScale::Stress(largest, scene.thickness)
+            }),
+            Fill::Friction => (FillScale::Friction, each(friction)),
+            Fill::None => (
+                FillScale::Plain,
+                each(|_, frame, _| vec![0.0; frame.placed.len()]),
+            ),
+            Fill::Source => source(analysis, each(amplitudes)),
+        };
         Fills {
-            scale: FillScale::Limit(limit),
+            scale,
             shares,
+            rule,
         }
     }
 
@@ -73,8 +71,107 @@ impl Fills {
             all().fold(f64::INFINITY, f64::min),
             all().fold(0.0, f64::max),
         );
-        most - least > 0.02 || most > 0.08
+        self.scale != FillScale::Plain && (most - least > 0.02 || most > 0.08)
     }
+
+    /// The colour of a share.
+    pub fn colour(&self, theme: &Theme, share: f64) -> Colour {
+        ramp(self.rule)(theme, share)
+    }
+
+    /// How a rule turns a share into a colour.
+    pub fn ramp(&self) -> fn(&Theme, f64) -> Colour {
+        ramp(self.rule)
+    }
+
+    /// What the ends of the scale stand for, and what it tells.
+    pub fn key(&self) -> ([String; 2], String) {
+        let ends = |most: String| ["0".to_owned(), most];
+        match self.scale {
+            FillScale::Limit(limit) => {
+                let limit = quantity(limit, "N");
+                let what = format!("of the robots' limit of {limit}, the source's rule");
+                (ends("100 %".into()), what)
+            }
+            FillScale::Largest(largest) => (
+                ends(quantity(largest, "N")),
+                "weight or largest normal force of a block".into(),
+            ),
+            FillScale::Stress(largest, thickness) => {
+                let thickness = quantity(thickness, "m");
+                let what =
+                    format!("largest mean pressure on a joint of a block, {thickness} thick");
+                (ends(quantity(largest, "N/m²")), what)
+            }
+            FillScale::Friction => (
+                ends("100 %".into()),
+                "largest share of the friction available at a joint of a block".into(),
+            ),
+            FillScale::Plain => (ends(String::new()), String::new()),
+        }
+    }
+
+    /// What a block's colour says, in words; empty for plain blocks.
+    pub fn description(&self, share: f64) -> String {
+        match self.scale {
+            FillScale::Limit(limit) => format!(
+                "colour: {:.1} % of the robots' limit of {}",
+                100.0 * share,
+                quantity(limit, "N")
+            ),
+            FillScale::Largest(largest) => format!("colour: {}", quantity(share * largest, "N")),
+            FillScale::Stress(largest, _) => {
+                format!("colour: {}", quantity(share * largest, "N/m²"))
+            }
+            FillScale::Friction => {
+                format!("colour: {:.1} % of the friction available", 100.0 * share)
+            }
+            FillScale::Plain => String::new(),
+        }
+    }
+}
+
+fn ramp(rule: Fill) -> fn(&Theme, f64) -> Colour {
+    match rule {
+        Fill::Source => |_, share| {
+            // `as` holds on at the ends and takes a share that is no number as 0.
+            let entry = ((share * PLASMA.len() as f64) as usize).min(PLASMA.len() - 1);
+            Colour::hex(PLASMA[entry])
+        },
+        _ => Theme::amplitude,
+    }
+}
+
+/// Amounts as shares of the largest.
+fn to_largest(
+    amounts: Vec<Vec<f64>>,
+    scale: impl Fn(f64) -> FillScale,
+) -> (FillScale, Vec<Vec<f64>>) {
+    let largest = amounts.iter().flatten().copied().fold(0.0, f64::max);
+    let share = |a: f64| if largest > 0.0 { a / largest } else { 0.0 };
+    let frame = |frame: Vec<f64>| frame.into_iter().map(share).collect();
+    (scale(largest), amounts.into_iter().map(frame).collect())
+}
+
+/// The source's rule.
+fn source(analysis: &Analysis<'_>, amplitudes: Vec<Vec<f64>>) -> (FillScale, Vec<Vec<f64>>) {
+    let scene = analysis.scene;
+    let limits = scene.robots.iter().flat_map(|r| [r.limits.fx, r.limits.fy]);
+    let limit = limits.fold(f64::INFINITY, f64::min);
+    if !limit.is_finite() {
+        return to_largest(amplitudes, FillScale::Largest);
+    }
+    let frames = scene.frames.iter().zip(&analysis.frames);
+    let shares = frames
+        .zip(amplitudes)
+        .map(|((frame, found), amplitudes)| {
+            let of_block = |(block, amplitude): (&BlockId, f64)| {
+                held(scene, found, *block).unwrap_or_else(|| share(amplitude, limit))
+            };
+            frame.placed.iter().zip(amplitudes).map(of_block).collect()
+        })
+        .collect();
+    (FillScale::Limit(limit), shares)
 }
 
 /// A share of a limit; all of it where the limit is 0 and something is asked of it.
@@ -98,19 +195,51 @@ fn held(scene: &Scene, found: &FrameAnalysis, block: BlockId) -> Option<f64> {
     Some(share(robot.force.x.abs(), limits.fx).max(share(robot.force.y.abs(), limits.fy)))
 }
 
-fn amplitudes(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec<f64> {
-    let mut largest = vec![0.0_f64; scene.blocks.len()];
+/// For each placed block the largest amount of its interfaces.
+fn largest(
+    scene: &Scene,
+    frame: &Frame,
+    found: &FrameAnalysis,
+    amount: impl Fn(&crate::analysis::Contact) -> f64,
+) -> Vec<f64> {
+    let mut most = vec![0.0_f64; scene.blocks.len()];
     for contact in &found.contacts {
-        let normal: f64 = contact.normal_forces.iter().sum();
+        let amount = amount(contact);
         for body in contact.interface.bodies {
             if let BodyId::Block(block) = body {
-                largest[block.0] = largest[block.0].max(normal);
+                most[block.0] = most[block.0].max(amount);
             }
         }
     }
-    frame
-        .placed
-        .iter()
-        .map(|block| largest[block.0].max(scene.blocks[block.0].weight))
+    frame.placed.iter().map(|block| most[block.0]).collect()
+}
+
+fn amplitudes(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec<f64> {
+    let normals = largest(scene, frame, found, |c| c.normal_forces.iter().sum());
+    let weights = frame.placed.iter().map(|b| scene.blocks[b.0].weight);
+    normals
+        .into_iter()
+        .zip(weights)
+        .map(|(n, w)| n.max(w))
         .collect()
+}
+
+/// Normal force over the area of its interface, N/m². A corner has no area, and no stress that could be told.
+fn stresses(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec<f64> {
+    largest(scene, frame, found, |contact| {
+        let area = contact.interface.length() * scene.thickness;
+        let normal: f64 = contact.normal_forces.iter().sum();
+        if area > 0.0 { normal / area } else { 0.0 }
+    })
+}
+
+fn friction(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec<f64> {
+    largest(scene, frame, found, |contact| {
+        let pressed: f64 = contact.normal_forces.iter().sum();
+        if pressed > 0.0 {
+            contact.friction_used.clamp(0.0, 1.0)
+        } else {
+            0.0
+        }
+    })
 }

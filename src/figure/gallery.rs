@@ -2,7 +2,7 @@
 
 use super::caption::caption;
 use super::freebody::freebody;
-use super::option::{Corners, ForceStyle, Normalisation, Options};
+use super::option::{Corners, Fill, ForceStyle, Normalisation, Options};
 use super::ring::ring;
 use super::shapes::shapes;
 use super::{Kind, draw};
@@ -95,6 +95,7 @@ fn plate(name: &'static str, subject: &Subject, theme: &Theme) -> Plate {
     let options = Options {
         style: ForceStyle::Components,
         normalisation: Normalisation::Source,
+        fill: Fill::Source,
         theme: theme.clone(),
         ..Options::default()
     };

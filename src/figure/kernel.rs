@@ -1,9 +1,10 @@
 //! The kernel: the stretch of each interface within which its resultant is safe, and where in it the resultant sits.
 
 use super::bearing::{Bearing, bearings};
+use super::by_colour::ByColour;
 use super::label;
 use super::legend::{self, Entry};
-use super::panel::{ByColour, Pen};
+use super::panel::Pen;
 use super::stage::Stage;
 use super::told;
 use super::verdict;
@@ -13,6 +14,8 @@ use crate::drawing::{Camera, Colour, Group, Item, Outline, PagePoint, Path, Stro
 use crate::geometry::{Bounds, Point};
 use crate::scene::Scene;
 
+/// A resultant farther out than this lies beyond its safe stretch and not at its end, in half stretches.
+const BEYOND: f64 = 1.0 + 1e-6;
 /// Width of a safe stretch in unit edges; and between which widths it stays, pixels.
 const BOLD: (f64, f64, f64) = (0.085, 1.6, 4.6);
 
@@ -125,7 +128,7 @@ fn dot(unit: f64) -> f64 {
 }
 
 fn rest(theme: &Theme, bold: f64) -> Stroke {
-    Stroke::new(theme.falls, 0.45 * bold)
+    Stroke::new(theme.faint, 0.45 * bold)
         .dashed([1.1 * bold, 0.9 * bold])
         .mitred()
 }
@@ -220,13 +223,14 @@ fn dots(pen: &Pen<'_>, found: &FrameAnalysis, ink: &mut dyn FnMut(PagePoint)) ->
     group
 }
 
-/// A disc within a safe stretch, a diamond at its end.
+/// A disc within a safe stretch, a diamond at its end; red where it lies beyond.
 fn sign(bearing: &Bearing, at: PagePoint, radius: f64, theme: &Theme) -> (Colour, Outline) {
     if at_end(bearing) {
         let r = 1.35 * radius;
         let corners = [(0.0, -r), (r, 0.0), (0.0, r), (-r, 0.0)];
         let diamond = Outline::ring(corners.map(|(x, y)| at.moved(x, y)));
-        return (theme.falls, diamond);
+        let outside = bearing.eccentricity.is_some_and(|share| share > BEYOND);
+        return (if outside { theme.falls } else { theme.ink }, diamond);
     }
     (theme.ink, Outline::circle(at, radius))
 }

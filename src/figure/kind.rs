@@ -62,6 +62,14 @@ pub fn pages(analysis: &Analysis<'_>, kind: Kind, options: &Options) -> Vec<Draw
     strip::pages(analysis, kind, &kind.options(options))
 }
 
+/// The panels of [`draw`] a page each, one per frame, all alike in size and scale.
+pub fn panels(analysis: &Analysis<'_>, kind: Kind, options: &Options) -> Vec<Drawing> {
+    if kind == Kind::Mechanism {
+        return strip::pages(&analysis.elementary(), kind, &kind.options(options));
+    }
+    strip::pages(analysis, kind, &kind.options(options))
+}
+
 /// The pages of a mechanism: each frame that falls in steps along its way, each other frame once.
 fn moving(analysis: &Analysis<'_>, options: &Options) -> Vec<Drawing> {
     let at = |step: u32| {

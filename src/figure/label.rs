@@ -1,12 +1,14 @@
 //! [`labels`]: names of blocks and robots, and amounts on request, where they hide nothing.
 //!
 //! A name stands inside its block where there is room, beside it with a leader line where there is none. Labels lie on
-//! no arrow, outline, disc or other label; one for which nowhere is clear is left out, and their description counts those.
+//! no arrow, outline, disc or other label; one for which nowhere is clear is left out, and the figure counts those. What
+//! the words below a frame name comes first, and bears its name in a frame of any number of blocks.
 
-use super::arrow::{ForceArrow, TurnArrow};
-use super::panel::Pen;
+use super::arrow::{ArrowKind, ForceArrow, TurnArrow, TurnKind};
+use super::panel::{CENTROID, Pen};
 use super::stage::Stage;
-use super::words::quantity;
+use super::view;
+use super::words::{counted, listed, quantity};
 use crate::drawing::arrow::head_size;
 use crate::drawing::placement::{Ink, Placed, Wish, place};
 use crate::drawing::{
@@ -17,9 +19,13 @@ use crate::scene::{BlockId, BodyId};
 
 /// Above so many blocks in a frame labels would be soup.
 pub(crate) const MOST_BLOCKS: usize = 60;
+/// Where a unit edge is at least this long, pixels, any name may stand beside its block …
+const ROOMY: f64 = 26.0;
+/// … and of so many blocks in any case.
+const FEW: usize = 12;
 /// Places tried along each axis of a block.
 const TRIED: usize = 13;
-/// Letters smaller than this are left out, pixels.
+/// Letters are no smaller than this, pixels.
 const SMALLEST: f64 = 9.0;
 /// Height of a line of letters, in sizes.
 const HIGH: f64 = 0.96;
@@ -33,32 +39,49 @@ struct Label {
     wish: Wish,
     /// The colour of what it tells of; `None` for plain letters.
     colour: Option<Colour>,
+    /// Whether the words below the frame name it: then it is there in any case.
+    named: bool,
 }
+
+/// The class of a frame's labels; the description of their group counts those without room.
+pub(crate) const CLASS: &str = "labels";
 
 /// The labels of a frame, clear of all `ink`.
 pub(crate) fn labels(pen: &Pen<'_>, view: Bounds, mut ink: Ink) -> Group {
-    let mut group = Group::of_class("labels");
-    let labels = wanted(pen);
+    let mut group = Group::of_class(CLASS);
+    let labels = wanted(pen, view);
     if labels.is_empty() {
         return group;
     }
+    ink.index();
     let page = pen.camera.rect(view);
     let wishes: Vec<Wish> = labels.iter().map(|l| l.wish.clone()).collect();
     let places = place(&mut ink, page, &wishes);
-    let mut missing = 0;
+    let mut missing: Vec<(&str, usize)> = Vec::new();
     for (label, placed) in labels.iter().zip(places) {
-        match placed {
-            Some(placed) => group.items.push(drawn(pen, label, placed).into()),
-            None => missing += 1,
+        if let Some(placed) = placed {
+            group.items.push(drawn(pen, label, placed).into());
+            continue;
+        }
+        if label.named {
+            group.items.push(over(pen, label).into());
+            continue;
+        }
+        let what = match label.class {
+            "amount" => "amount",
+            _ => "name",
+        };
+        match missing.iter_mut().find(|known| known.0 == what) {
+            Some(known) => known.1 += 1,
+            None => missing.push((what, 1)),
         }
     }
-    if missing > 0 {
-        let labels = if missing == 1 {
-            "label has"
-        } else {
-            "labels have"
-        };
-        group.description = format!("{missing} {labels} no room");
+    let missing: Vec<String> = missing
+        .into_iter()
+        .map(|(what, n)| counted(n, what))
+        .collect();
+    if !missing.is_empty() {
+        group.description = format!("no room for {}", listed(&missing));
     }
     group
 }
@@ -74,30 +97,73 @@ pub(crate) fn left_out(stage: &Stage<'_>) -> Option<String> {
         (false, true) => "amounts",
         (false, false) => return None,
     };
-    (most > MOST_BLOCKS).then(|| format!("{most} blocks: {what} left out"))
+    let named = (0..frames.len()).any(|frame| !mentioned(stage, frame).is_empty());
+    let but = if named {
+        " but those the text names"
+    } else {
+        ""
+    };
+    (most > MOST_BLOCKS).then(|| format!("{most} blocks: {what} left out{but}"))
 }
 
-fn wanted(pen: &Pen<'_>) -> Vec<Label> {
+fn wanted(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
     let options = pen.stage.options;
     let frame = &pen.stage.analysis.scene.frames[pen.number];
+    let few = frame.placed.len() <= MOST_BLOCKS;
     let mut labels = Vec::new();
-    if frame.placed.len() > MOST_BLOCKS {
-        return labels;
-    }
     if options.labels {
-        labels.extend(frame.placed.iter().map(|id| name(pen, *id)));
-        labels.extend(robots(pen));
+        let first = mentioned(pen.stage, pen.number);
+        let names = first.iter().filter_map(|id| name(pen, *id, view));
+        labels.extend(names.map(|label| Label {
+            named: true,
+            ..label
+        }));
+        labels.extend(robots(pen, view));
+        if few {
+            let others = frame.placed.iter().filter(|id| !first.contains(id));
+            // Leaders from everywhere to everywhere would hide the figure: small blocks are named where they lie.
+            let roam = pen.unit() >= ROOMY || frame.placed.len() <= FEW;
+            let names = others.filter_map(|id| name(pen, *id, view));
+            labels.extend(names.map(|label| Label {
+                wish: Wish {
+                    roams: label.wish.roams && roam,
+                    ..label.wish
+                },
+                ..label
+            }));
+        }
     }
-    if options.amounts {
+    if few {
         labels.extend(amounts(pen));
     }
-    labels.retain(|label| label.size >= SMALLEST && !label.words.is_empty());
+    labels.retain(|label| !label.words.is_empty());
     labels
+}
+
+/// The blocks that the words below a frame name, in placing order.
+fn mentioned(stage: &Stage<'_>, frame: usize) -> Vec<BlockId> {
+    let scene = stage.analysis.scene;
+    let said = stage.kind.reason(stage, frame);
+    let placed = scene.frames[frame].placed.iter().copied();
+    placed
+        .filter(|id| names(&said, &scene.blocks[id.0].id))
+        .collect()
+}
+
+/// Whether a text has a name as a word of its own.
+fn names(text: &str, name: &str) -> bool {
+    let apart = |c: Option<char>| c.is_none_or(|c| !c.is_alphanumeric());
+    !name.is_empty()
+        && text.match_indices(name).any(|(at, _)| {
+            apart(text[..at].chars().next_back()) && apart(text[at + name.len()..].chars().next())
+        })
 }
 
 /// Size of a block's name, pixels.
 fn name_size(pen: &Pen<'_>) -> f64 {
-    (0.25 * pen.unit()).min(pen.stage.options.theme.sizes.name)
+    (0.25 * pen.unit())
+        .max(SMALLEST)
+        .min(pen.stage.options.theme.sizes.name)
 }
 
 fn label(words: String, face: Face, size: f64, class: &'static str, wish: Wish) -> Label {
@@ -112,27 +178,33 @@ fn label(words: String, face: Face, size: f64, class: &'static str, wish: Wish) 
         size,
         class,
         colour: None,
+        named: false,
     }
 }
 
-fn name(pen: &Pen<'_>, id: BlockId) -> Label {
+/// The name of a block; `None` where nothing of it is in view.
+fn name(pen: &Pen<'_>, id: BlockId, view: Bounds) -> Option<Label> {
     let block = &pen.stage.analysis.scene.blocks[id.0];
+    let zoomed = pen.stage.options.zoom.is_some();
+    if zoomed && view::common(view, block.body.polygon.bounds()).is_none() {
+        return None;
+    }
     let size = name_size(pen);
     let wish = Wish {
         anchor: pen.camera.place(pen.moved(id, block.centroid)),
         from: 0.4 * pen.unit(),
         size: (0.0, 0.0),
-        preferred: inside(&block.body.polygon, block.centroid)
+        preferred: inside(&block.body.polygon, block.centroid, zoomed.then_some(view))
             .into_iter()
             .map(|p| pen.camera.place(pen.moved(id, p)))
             .collect(),
         ease: 0.5 * size,
-        roams: true,
+        roams: !zoomed || view::holds(view, block.centroid),
     };
-    label(block.id.clone(), Face::SansBold, size, "name", wish)
+    Some(label(block.id.clone(), Face::SansBold, size, "name", wish))
 }
 
-fn robots(pen: &Pen<'_>) -> Vec<Label> {
+fn robots(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
     let scene = pen.stage.analysis.scene;
     let size = name_size(pen);
     // Above the smallest letters names of robots stand back a little.
@@ -149,11 +221,16 @@ fn robots(pen: &Pen<'_>) -> Vec<Label> {
         let id = scene.robots[hold.robot.0].id.clone();
         label(id, Face::Sans, size, "robot-name", wish)
     };
-    scene.frames[pen.number].holds.iter().map(named).collect()
+    let zoomed = pen.stage.options.zoom.is_some();
+    let holds = scene.frames[pen.number].holds.iter();
+    let shown = holds.filter(|hold| !zoomed || view::holds(view, hold.at));
+    shown.map(named).collect()
 }
 
 fn amounts(pen: &Pen<'_>) -> Vec<Label> {
-    let marks = &pen.stage.marks[pen.number];
+    let (marks, options) = (&pen.stage.marks[pen.number], pen.stage.options);
+    // How large a load is belongs to the question, not to the answer: it is always told.
+    let asked = |load: bool| options.amounts || (load && options.labels);
     let size = (0.2 * pen.unit())
         .max(SMALLEST)
         .min(pen.stage.options.theme.sizes.amount);
@@ -163,7 +240,8 @@ fn amounts(pen: &Pen<'_>) -> Vec<Label> {
         _ => true,
     };
     let seen = marks.arrows.iter().filter(|a| pen.seen(a));
-    let straight = seen.filter(said).map(|arrow| {
+    let wanted = |arrow: &&ForceArrow| asked(arrow.kind == ArrowKind::Load) && said(arrow);
+    let straight = seen.filter(wanted).map(|arrow| {
         let words = quantity(arrow.force.norm(), "N");
         let (from, along) = (pen.camera.place(arrow.at), pen.camera.turn(arrow.reach()));
         let wide = text::width(&words, Face::Sans, size);
@@ -181,6 +259,7 @@ fn amounts(pen: &Pen<'_>) -> Vec<Label> {
         }
     });
     let turns = marks.turns.iter().filter(|t| pen.turn_seen(t));
+    let turns = turns.filter(|t| asked(t.kind == TurnKind::Load));
     let turning = turns.map(|turn| {
         let wish = Wish {
             anchor: pen.camera.place(turn.at),
@@ -226,9 +305,10 @@ fn beside(
     middles
 }
 
-/// Places inside a polygon, those nearest to its middle first.
-fn inside(polygon: &Polygon, middle: Point) -> Vec<Point> {
-    let bounds = polygon.bounds();
+/// Places inside a polygon, those nearest to its middle first; of a part of it where only that is in view.
+fn inside(polygon: &Polygon, middle: Point, view: Option<Bounds>) -> Vec<Point> {
+    let whole = polygon.bounds();
+    let bounds = view.and_then(|v| view::common(v, whole)).unwrap_or(whole);
     let share = |i: usize| (i as f64 + 0.5) / TRIED as f64;
     let mut points: Vec<Point> = (0..TRIED * TRIED)
         .map(|i| {
@@ -263,6 +343,9 @@ pub(crate) fn ink(pen: &Pen<'_>) -> Ink {
     for arrow in marks.arrows.iter().filter(|a| pen.seen(a)) {
         let (from, along) = (pen.camera.place(arrow.at), pen.camera.turn(arrow.reach()));
         ink.arrow(from, along, pen.width(arrow));
+        if arrow.kind == ArrowKind::Weight {
+            ink.disc(from, CENTROID * pen.width(arrow) + 1.0);
+        }
     }
     for turn in marks.turns.iter().filter(|t| pen.turn_seen(t)) {
         turning(&mut ink, pen, turn);
@@ -296,6 +379,16 @@ fn drawn(pen: &Pen<'_>, label: &Label, placed: Placed) -> Group {
     let colour = theme.letters_on(below, label.colour);
     let words = Text::new(at, label.words.as_str(), label.face, label.size, colour);
     group.with(words.anchored(Anchor::Middle))
+}
+
+/// A label for which nowhere is clear, over whatever lies at its anchor, with a seam around its letters.
+fn over(pen: &Pen<'_>, label: &Label) -> Group {
+    let below = pen.below(label.wish.anchor);
+    let colour = pen.stage.options.theme.letters_on(below, label.colour);
+    let at = label.wish.anchor.moved(0.0, 0.36 * label.size);
+    let words = Text::new(at, label.words.as_str(), label.face, label.size, colour);
+    let words = words.anchored(Anchor::Middle).with_halo(below, 1.5);
+    Group::of_class(label.class).with(words)
 }
 
 fn middle(rect: PageRect) -> PagePoint {

@@ -1,15 +1,27 @@
 //! [`Layout`]: how many panels stand beside each other, how wide they are and at what scale.
 
+use super::dimension;
 use super::stage::Stage;
+use crate::drawing::{Face, text};
 
 /// Most room around a figure, pixels.
 pub(crate) const MARGIN: f64 = 36.0;
-/// Room between panels beside each other, pixels.
-pub(crate) const GAP: f64 = 44.0;
+/// Most room between panels beside each other, pixels; on a page of its own width at most this share of it.
+const GAP: (f64, f64) = (44.0, 0.05);
 /// Most room across for all panels of a row, pixels.
 const ACROSS: f64 = 1028.0;
 /// Least width of a panel, so that captions have room, pixels.
 const LEAST: f64 = 240.0;
+/// Least width of one of many panels, where more room would make the figure longer than a page, pixels.
+const NARROW: f64 = 120.0;
+/// Most panels beside each other where nobody asks for more.
+const MOST_COLUMNS: usize = 8;
+/// The panels of a page are together at most so many times as high as wide, so that title and key have room …
+const PAGE: f64 = 1.2;
+/// … and a column of print, narrower than this in pixels, 110 mm, so many times.
+const COLUMN: (f64, f64) = (520.0, 2.2);
+/// What stands below a panel beside its caption: the verdict and what it says, pixels.
+const BELOW: f64 = 64.0;
 /// A unit edge is drawn at most this long in a strip, pixels.
 const LARGEST_UNIT: f64 = 72.0;
 /// A unit edge is drawn at least this long, if fewer columns can help it, pixels.
@@ -22,6 +34,8 @@ pub(crate) struct Layout {
     pub margin: f64,
     /// Panels beside each other.
     pub columns: usize,
+    /// Room between panels beside each other, pixels.
+    pub gap: f64,
     /// Width of a panel, pixels.
     pub panel: f64,
     /// Width of all panels of a row with the gaps, pixels.
@@ -38,8 +52,13 @@ impl Layout {
             .options
             .width
             .map_or(ACROSS, |width| (width - 2.0 * margin).max(1.0));
+        let gap = match stage.options.width {
+            Some(width) => GAP.0.min(GAP.1 * width),
+            None => GAP.0,
+        };
         let count = count.max(1);
-        let scale = |columns| Layout::scale(stage, across, columns, count);
+        let room = |columns| room(across, gap, columns);
+        let scale = |columns| Layout::scale(stage, room(columns), columns, count);
         let columns = match stage.options.columns {
             Some(columns) => columns.clamp(1, count),
             None => {
@@ -50,42 +69,85 @@ impl Layout {
                 };
                 let fits = |columns: usize| {
                     scale(columns) * stage.unit >= SMALLEST_UNIT
-                        && room(across, columns) >= LEAST.min(across)
+                        && room(columns) >= LEAST.min(across)
                 };
-                (1..=most).rev().find(|c| fits(*c)).unwrap_or(1)
+                let roomy = (1..=most).rev().find(|c| fits(*c)).unwrap_or(1);
+                let high = |columns: usize| {
+                    let words = words(stage, count, room(columns)) + BELOW;
+                    let panel = stage.view.height() * scale(columns) + words;
+                    count.div_ceil(columns) as f64 * panel
+                };
+                let page = if across < COLUMN.0 { COLUMN.1 } else { PAGE };
+                // More columns where the figure would not fit on a page; the fewest that help, or those that help most.
+                let narrow = roomy + 1..=count.min(MOST_COLUMNS);
+                let narrow = || narrow.clone().filter(|c| room(*c) >= NARROW);
+                if high(roomy) <= page * across {
+                    roomy
+                } else {
+                    let enough = narrow().find(|c| high(*c) <= page * across);
+                    let least = narrow().min_by(|a, b| high(*a).total_cmp(&high(*b)));
+                    let least = least.filter(|c| high(*c) < high(roomy));
+                    enough.or(least).unwrap_or(roomy)
+                }
             }
         };
         let scale = scale(columns);
         let least = if count == 1 { 1.6 * LEAST } else { LEAST };
-        let panel = (stage.view.width() * scale).max(least.min(room(across, columns)));
-        let between = (columns - 1) as f64 * GAP;
+        let dimensions = dimensions(stage);
+        let panel = (stage.view.width() * scale + dimensions).max(least.min(room(columns)));
+        let between = (columns - 1) as f64 * gap;
         Layout {
             margin,
             columns,
+            gap,
             panel,
             content: columns as f64 * panel + between,
             scale,
         }
     }
 
-    fn scale(stage: &Stage<'_>, across: f64, columns: usize, count: usize) -> f64 {
+    fn scale(stage: &Stage<'_>, room: f64, columns: usize, count: usize) -> f64 {
         let rows = count.div_ceil(columns);
         let high = match (count, rows) {
             (1, _) => 640.0,
             (_, 1) => 460.0,
             _ => 360.0,
         };
-        // A page of its own width fixes the scale; otherwise panels are as wide as their captions need.
+        // A page of its own width fixes the scale, and so do many panels; otherwise panels are as wide as their captions
+        // need.
         let wide = match stage.options.width {
-            Some(_) => room(across, columns),
-            None => room(across, columns).max(LEAST),
+            Some(_) => room,
+            None if columns > 3 => room,
+            None => room.max(LEAST),
         };
-        let scale = (wide / stage.view.width())
+        let scale = ((wide - dimensions(stage)).max(1.0) / stage.view.width())
             .min(high / stage.view.height())
             .min(LARGEST_UNIT / stage.unit);
         // A scene too small for its own coordinates to tell its places apart has no scale.
         if scale.is_finite() { scale } else { 1.0 }
     }
+}
+
+/// Room that dimension lines take beside a picture, pixels.
+fn dimensions(stage: &Stage<'_>) -> f64 {
+    if stage.options.dimensions {
+        2.0 * dimension::ASIDE
+    } else {
+        0.0
+    }
+}
+
+/// How high the longest caption is in panels of this width, pixels.
+fn words(stage: &Stage<'_>, count: usize, panel: f64) -> f64 {
+    let (scene, size) = (stage.analysis.scene, stage.options.theme.sizes.caption);
+    if !stage.options.captions || count < 2 {
+        return 0.0;
+    }
+    let lines = scene.frames.iter().map(|frame| {
+        let words = format!("(a) {}", frame.title);
+        text::wrap(&words, Face::Serif, size, panel).len()
+    });
+    lines.max().unwrap_or(0) as f64 * 1.3 * size
 }
 
 /// Room around a figure on a page of this width, pixels.
@@ -94,6 +156,6 @@ fn margin(width: f64) -> f64 {
 }
 
 /// Room for one of several panels beside each other, pixels.
-fn room(across: f64, columns: usize) -> f64 {
-    ((across - (columns - 1) as f64 * GAP) / columns as f64).max(1.0)
+fn room(across: f64, gap: f64, columns: usize) -> f64 {
+    ((across - (columns - 1) as f64 * gap) / columns as f64).max(1.0)
 }

@@ -1,11 +1,10 @@
 //! The key: what the colours and signs of a figure mean. It lists only what occurs.
 
-use super::arrow::TurnKind;
-use super::fill::FillScale;
+use super::arrow::{ArrowKind, TurnKind};
 use super::option::{ArrowScale, Options};
-use super::panel::TEXTURE;
+use super::panel::{CENTROID, TEXTURE};
 use super::stage::Stage;
-use super::words::{quantity, round_below};
+use super::words::{counted, quantity, round_below};
 use crate::drawing::arrow::{HEAD_LENGTH, straight};
 use crate::drawing::{
     Colour, Face, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme, text,
@@ -31,11 +30,13 @@ pub(crate) enum Entry {
     /// What is missing.
     Missing,
     /// A bar of amplitude colours: what its ends say, and what it tells.
-    Amplitudes([String; 2], String),
+    Amplitudes([String; 2], String, fn(&Theme, f64) -> Colour),
     /// An arrow so many pixels long from tail to tip, its shaft so wide, of an amount.
     Scale(f64, f64, String),
     /// A line of a colour, so many pixels wide, and what it means.
     Line(Colour, f64, String),
+    /// A bar so many pixels long, of a length.
+    Metres(f64, String),
     /// What is left out.
     Note(String),
     /// A sign so many pixels wide, drawn from the middle of its left end, and what it means.
@@ -57,8 +58,8 @@ impl Entry {
         };
         match self {
             Entry::Blocks(_) => vec![Entry::Colours(theme.arrows.clone())],
-            Entry::Amplitudes(ends, what) => {
-                below(Some(Entry::Amplitudes(ends, String::new())), &what)
+            Entry::Amplitudes(ends, what, ramp) => {
+                below(Some(Entry::Amplitudes(ends, String::new(), ramp)), &what)
             }
             Entry::Sign(sign, width, meaning) => {
                 below(Some(Entry::Sign(sign, width, String::new())), &meaning)
@@ -82,11 +83,12 @@ impl Entry {
             Entry::Robot(_, id) => 2.0 * SIGN + 7.0 + wide(&robot(id)),
             Entry::Planned(_) => 2.0 * SIGN + 7.0 + wide(PLANNED),
             Entry::Missing => 34.0 + 7.0 + wide(MISSING),
-            Entry::Amplitudes([low, high], what) => {
+            Entry::Amplitudes([low, high], what, _) => {
                 wide(low) + 7.0 + BAR + 7.0 + wide(high) + 8.0 + wide(what)
             }
             Entry::Scale(length, _, amount) => length + 7.0 + wide(amount),
             Entry::Line(_, _, meaning) => STROKE + 7.0 + wide(meaning),
+            Entry::Metres(length, amount) => length + 7.0 + wide(amount),
             Entry::Note(words) => wide(words),
             Entry::Sign(_, width, meaning) => width + 7.0 + wide(meaning),
         }
@@ -161,7 +163,7 @@ impl Entry {
                     words(34.0 + 7.0, MISSING),
                 ]
             }
-            Entry::Amplitudes([low, high], what) => {
+            Entry::Amplitudes([low, high], what, ramp) => {
                 let start = text::width(low, Face::Sans, size) + 7.0;
                 let mut items = vec![words(0.0, low)];
                 let parts = 64;
@@ -173,7 +175,7 @@ impl Entry {
                         width: BAR - x,
                         height: 10.0,
                     };
-                    let fill = theme.amplitude((f64::from(part) + 0.5) / f64::from(parts));
+                    let fill = ramp(theme, (f64::from(part) + 0.5) / f64::from(parts));
                     items.push(Path::filled(Outline::rounded(rect, 0.0), fill).into());
                 }
                 items.push(words(start + BAR + 7.0, high));
@@ -185,6 +187,14 @@ impl Entry {
                 let line = Outline::line([at, at.moved(STROKE, 0.0)]);
                 let path = Path::stroked(line, Stroke::new(*colour, *width));
                 vec![path.into(), words(STROKE + 7.0, meaning)]
+            }
+            Entry::Metres(length, amount) => {
+                let mut bar = Outline::line([at, at.moved(*length, 0.0)]);
+                for x in [0.0, *length] {
+                    bar.extend(Outline::line([at.moved(x, -4.0), at.moved(x, 4.0)]));
+                }
+                let path = Path::stroked(bar, Stroke::new(theme.faint, 1.4));
+                vec![path.into(), words(length + 7.0, amount)]
             }
             Entry::Note(note) => vec![words(0.0, note)],
             Entry::Sign(sign, width, meaning) => {
@@ -200,9 +210,11 @@ impl Entry {
     }
 }
 
+/// Above so many robots the key counts the rest.
+const MOST_ROBOTS: usize = 16;
 const COLOURS: &str = "the forces on a block share a colour";
 const PLANNED: &str = "planned block";
-const MISSING: &str = "missing: what would have to stick or be given";
+const MISSING: &str = "missing force, without which it falls";
 const BAR: f64 = 120.0;
 
 fn robot(id: &str) -> String {
@@ -256,6 +268,14 @@ pub(crate) fn entries(stage: &Stage<'_>, unit: f64) -> Vec<Entry> {
     } else if seen.len() > 1 && unit >= TEXTURE {
         entries.push(Entry::Colours(theme.arrows.clone()));
     }
+    if !stage.options.printed() && unit >= TEXTURE {
+        let weights = stage.marks.iter().flat_map(|m| &m.arrows);
+        if weights.into_iter().any(|a| a.kind == ArrowKind::Weight) {
+            let words = "weight, from the centroid".to_owned();
+            entries.push(Entry::Sign(weight_sign, SAMPLE, words));
+        }
+    }
+    entries.extend(loads(stage));
     entries.extend(robots(stage));
     let missing = stage.marks.iter().any(|m| {
         m.arrows.iter().any(|a| a.kind.is_failure())
@@ -268,18 +288,58 @@ pub(crate) fn entries(stage: &Stage<'_>, unit: f64) -> Vec<Entry> {
     }
     let painted = scene.blocks.iter().any(|b| b.body.fill.is_none());
     if painted && stage.fills.vary() {
-        entries.push(match stage.fills.scale {
-            FillScale::Limit(limit) => {
-                let what = format!("of the robots' limit of {}", quantity(limit, "N"));
-                Entry::Amplitudes(["0".into(), "100 %".into()], what)
-            }
-            FillScale::Largest(largest) => Entry::Amplitudes(
-                ["0".into(), quantity(largest, "N")],
-                "weight or largest normal force".into(),
-            ),
-        });
+        let (ends, what) = stage.fills.key();
+        entries.push(Entry::Amplitudes(ends, what, stage.fills.ramp()));
     }
     entries
+}
+
+/// Length of a sample arrow, pixels.
+const SAMPLE: f64 = 26.0;
+
+fn weight_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    let (colour, from) = (theme.arrow(1), at.moved(4.0, 0.0));
+    let arrow = straight(from, (SAMPLE - 4.0, 0.0), 2.6);
+    let ring = Outline::circle(from, CENTROID * 2.6);
+    vec![
+        Path::filled(arrow, colour).into(),
+        Path::filled(ring, theme.page)
+            .with_stroke(Stroke::new(colour, 1.2))
+            .into(),
+    ]
+}
+
+fn load_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    let arrow = straight(at, (SAMPLE, 0.0), 3.4);
+    vec![
+        Path::filled(arrow, theme.page)
+            .with_stroke(Stroke::new(theme.load, 1.2))
+            .into(),
+    ]
+}
+
+/// A bar of a round number of metres, at most a quarter of a picture `content` pixels wide, a metre being `scale` pixels.
+pub(crate) fn metres(scale: f64, content: f64) -> Option<Entry> {
+    let metres = round_below(0.25 * content / scale);
+    (metres > 0.0).then(|| Entry::Metres(metres * scale, quantity(metres, "m")))
+}
+
+/// What a load looks like and how large loads are; none where no frame shows one.
+pub(crate) fn loads(stage: &Stage<'_>) -> Option<Entry> {
+    let scene = stage.analysis.scene;
+    let placed = |block| scene.frames.iter().any(|f| f.placed.contains(&block));
+    let loads = scene.loads.iter().filter(|l| placed(l.block));
+    let amounts: Vec<f64> = loads.map(|l| l.force.norm()).filter(|a| *a > 0.0).collect();
+    let least = amounts.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = amounts.iter().copied().fold(0.0, f64::max);
+    let (least, most) = (quantity(least, "N"), quantity(most, "N"));
+    let words = match amounts.len() {
+        0 => return None,
+        1 => format!("load of {most}"),
+        n if least == most => format!("{n} loads of {most} each"),
+        n => format!("{n} loads of {least} to {most}"),
+    };
+    Some(Entry::Sign(load_sign, SAMPLE, words))
 }
 
 /// The robots that hold or plan in any frame, and what a plan looks like.
@@ -298,10 +358,15 @@ pub(crate) fn robots(stage: &Stage<'_>) -> Vec<Entry> {
             .iter()
             .any(|f| f.plans.iter().any(|p| p.robot.0 == number))
     };
-    for (number, robot) in scene.robots.iter().enumerate().take(8) {
-        if holds(number) || plans(number) {
-            entries.push(Entry::Robot(theme.robot(number), robot.id.clone()));
-        }
+    let busy = |number: &usize| holds(*number) || plans(*number);
+    let busy: Vec<usize> = (0..scene.robots.len()).filter(busy).collect();
+    for number in busy.iter().take(MOST_ROBOTS) {
+        let id = scene.robots[*number].id.clone();
+        entries.push(Entry::Robot(theme.robot(*number), id));
+    }
+    if busy.len() > MOST_ROBOTS {
+        let left = busy.len() - MOST_ROBOTS;
+        entries.push(Entry::Note(format!("and {}", counted(left, "more robot"))));
     }
     if let Some(number) = (0..scene.robots.len()).find(|n| plans(*n)) {
         entries.push(Entry::Planned(theme.robot(number)));

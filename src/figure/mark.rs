@@ -8,8 +8,9 @@
 use super::arrow::{ArrowKind, ForceArrow, Head, Marks, TurnArrow, TurnKind};
 use super::option::{ForceStyle, Normalisation, Options};
 use super::stage::unit;
+use super::view;
 use crate::analysis::{Analysis, Contact, Failure, FrameAnalysis};
-use crate::drawing::Colour;
+use crate::drawing::{Colour, Theme};
 use crate::geometry::{Point, Vector, quarter_turn};
 use crate::scene::{BlockId, BodyId, Frame, Scene};
 
@@ -42,12 +43,16 @@ pub(crate) fn largest(
     found: &FrameAnalysis,
     options: &Options,
 ) -> f64 {
-    let edge = unit(scene);
-    let weights = frame.placed.iter().map(|b| scene.blocks[b.0].weight);
+    let edge = unit(scene, options.zoom);
+    let near = options.zoom.map(|block| view::around(scene, block));
+    let shown = |at: Point| near.is_none_or(|near| view::holds(near, at));
+    let blocks = frame.placed.iter().map(|b| &scene.blocks[b.0]);
+    let blocks = blocks.filter(|b| shown(b.centroid));
+    let weights = blocks.map(|b| b.weight);
     let mut most = weights.fold(0.0, f64::max);
     match options.normalisation {
         Normalisation::Source => {
-            for contact in &found.contacts {
+            for contact in found.contacts.iter().filter(|c| shown(c.resultant.at)) {
                 most = contact
                     .normal_forces
                     .iter()
@@ -55,7 +60,7 @@ pub(crate) fn largest(
                     .fold(most, f64::max)
                     .max(contact.friction_force.abs());
             }
-            for robot in &found.robots {
+            for robot in found.robots.iter().filter(|r| shown(r.at)) {
                 most = most
                     .max(robot.force.x.abs())
                     .max(robot.force.y.abs())
@@ -63,15 +68,15 @@ pub(crate) fn largest(
             }
         }
         Normalisation::Drawn => {
-            for contact in &found.contacts {
+            for contact in found.contacts.iter().filter(|c| shown(c.resultant.at)) {
                 for part in parts(contact, options.style) {
                     most = most.max(part.force.norm());
                 }
             }
-            for robot in &found.robots {
+            for robot in found.robots.iter().filter(|r| shown(r.at)) {
                 most = most.max(robot.force.norm()).max(robot.torque.abs() / edge);
             }
-            for failure in &found.failures {
+            for failure in found.failures.iter().filter(|f| shown(place(f))) {
                 most = most.max(match failure {
                     Failure::Tension { force, .. }
                     | Failure::Friction { force, .. }
@@ -82,10 +87,20 @@ pub(crate) fn largest(
         }
     }
     let loads = scene.loads.iter();
-    for load in loads.filter(|l| frame.placed.contains(&l.block)) {
+    for load in loads.filter(|l| frame.placed.contains(&l.block) && shown(l.at)) {
         most = most.max(load.force.norm()).max(load.torque.abs() / edge);
     }
     most
+}
+
+/// Where something is missing.
+fn place(failure: &Failure) -> Point {
+    match failure {
+        Failure::Tension { at, .. }
+        | Failure::Friction { at, .. }
+        | Failure::RobotForce { at, .. }
+        | Failure::RobotTorque { at, .. } => *at,
+    }
 }
 
 /// Every arrow of frame `frame` (from 0), `newtons_per_unit` N being one unit edge long.
@@ -111,7 +126,7 @@ pub fn marks(
         return marks;
     }
     let scene = analysis.scene;
-    let edge = unit(scene);
+    let edge = unit(scene, options.zoom);
     let pen = Pen {
         scene,
         options,
@@ -278,9 +293,10 @@ impl Pen<'_> {
                 scene.down() * block.weight,
                 look,
             );
+            let load_look = (theme.load, theme.widths.robot);
             for load in scene.loads.iter().filter(|l| l.block == *id) {
-                self.straight(marks, ArrowKind::Load, on, load.at, load.force, look);
-                self.torque(marks, TurnKind::Load, on, load.at, load.torque, look);
+                self.straight(marks, ArrowKind::Load, on, load.at, load.force, load_look);
+                self.torque(marks, TurnKind::Load, on, load.at, load.torque, load_look);
             }
             for number in &touching[id.0] {
                 let contact = &found.contacts[*number];
@@ -330,7 +346,13 @@ impl Pen<'_> {
 
     fn failures(&self, found: &FrameAnalysis, marks: &mut Marks) {
         let theme = &self.options.theme;
-        let look = (theme.failure, theme.widths.failure);
+        // The source's figures keep the source's red; our own is darker, so that a grey print tells it from green.
+        let failure = if self.options.printed() && *theme == Theme::thesis() {
+            Colour::hex(0xff0000)
+        } else {
+            theme.failure
+        };
+        let look = (failure, theme.widths.failure);
         let source = match self.options.normalisation {
             Normalisation::Source => Some(acting(self.scene, found)),
             Normalisation::Drawn => None,

@@ -4,10 +4,13 @@
 //! [`Analysis`](crate::analysis::Analysis) become shapes of a [`Drawing`](crate::drawing::Drawing). Nothing is computed
 //! here that a verdict rests on. What a figure shows is its [`Kind`]; one file per kind.
 
+mod apart;
 mod arrow;
 mod bearing;
+mod by_colour;
 mod caption;
 mod collapse;
+mod dimension;
 mod displacement;
 mod fill;
 mod forces;
@@ -41,9 +44,9 @@ pub use caption::caption;
 pub use forces::forces;
 pub use freebody::freebody;
 pub use gallery::{Plate, gallery};
-pub use kind::{Kind, draw, pages};
+pub use kind::{Kind, draw, pages, panels};
 pub use mark::{arrows, marks};
-pub use option::{ArrowScale, Corners, ForceStyle, Normalisation, Options};
+pub use option::{ArrowScale, Corners, Fill, ForceStyle, Normalisation, Options};
 pub use ring::ring;
 pub use shapes::shapes;
 pub(crate) use words::letter;

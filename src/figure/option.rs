@@ -1,6 +1,7 @@
 //! [`Options`]: the choices a reader has about a figure of forces.
 
 use crate::drawing::Theme;
+use crate::scene::BlockId;
 
 /// How the force of an interface is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -34,6 +35,25 @@ pub enum ArrowScale {
     Strip,
 }
 
+/// What the colours of blocks tell.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Fill {
+    /// The larger of a block's weight and the largest normal force of one of its interfaces, on a scale from 0 to the
+    /// largest in the figure.
+    #[default]
+    Amplitude,
+    /// The largest mean pressure, normal force over area, on one of its interfaces, N/m². A corner has no area and is
+    /// left out.
+    Stress,
+    /// The largest share of the friction available that one of its interfaces uses.
+    Friction,
+    /// Nothing: blocks are plain.
+    None,
+    /// The rule of the source, in its colours: a held block tells how far its robot is used, every other its amplitude as
+    /// a share of the smallest limit of all robots; where no robot has a limit, of the largest in the figure.
+    Source,
+}
+
 /// Which forces of its interfaces a free-body diagram shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Corners {
@@ -54,6 +74,8 @@ pub struct Options {
     pub normalisation: Normalisation,
     /// Over what the scale of arrows is shared.
     pub scale: ArrowScale,
+    /// What the colours of blocks tell.
+    pub fill: Fill,
     /// Which forces of its interfaces a free-body diagram shows.
     pub corners: Corners,
     /// How much of the way a mechanism is drawn along, 0 … 1.
@@ -62,10 +84,20 @@ pub struct Options {
     pub columns: Option<usize>,
     /// Colours.
     pub theme: Theme,
-    /// Whether titles and captions are written.
+    /// Whether the figure's title is written.
+    pub titles: bool,
+    /// Whether the frames' captions are written.
     pub captions: bool,
-    /// Whether verdicts, scales and the key are shown.
+    /// Whether verdicts and what is said below them are shown.
+    pub verdicts: bool,
+    /// Whether the scale of arrows and the key are shown.
     pub keys: bool,
+    /// Whether a bar of a round number of metres is shown.
+    pub scale_bar: bool,
+    /// Whether the width and the height of all blocks of a frame are measured at its edges.
+    pub dimensions: bool,
+    /// The block whose neighbourhood alone is shown; everything where `None`.
+    pub zoom: Option<BlockId>,
     /// Whether blocks and robots bear their names, in frames of at most 60 blocks.
     pub labels: bool,
     /// Whether arrows bear their amounts, in frames of at most 60 blocks.
@@ -80,12 +112,18 @@ impl Default for Options {
             style: ForceStyle::default(),
             normalisation: Normalisation::default(),
             scale: ArrowScale::default(),
+            fill: Fill::default(),
             corners: Corners::default(),
             way: 1.0,
             columns: None,
             theme: Theme::default(),
+            titles: true,
             captions: true,
+            verdicts: true,
             keys: true,
+            scale_bar: false,
+            dimensions: false,
+            zoom: None,
             labels: true,
             amounts: false,
             width: None,

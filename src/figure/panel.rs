@@ -2,7 +2,8 @@
 
 use core::f64::consts::FRAC_PI_2;
 
-use super::arrow::{ForceArrow, LEAST_SEEN, TurnArrow, TurnKind};
+use super::arrow::{ArrowKind, ForceArrow, LEAST_SEEN, TurnArrow, TurnKind};
+use super::by_colour::ByColour;
 use super::displacement::Displacement;
 use super::label;
 use super::stage::{MANY, Stage};
@@ -13,6 +14,8 @@ use crate::drawing::{Camera, Colour, Group, Item, Outline, PagePoint, Path, Stro
 use crate::geometry::{Bounds, Lattice, Point, Vector};
 use crate::scene::{BlockId, Body, BodyId, Rgb};
 
+/// Radius of the ring at the tail of a weight, in widths of its shaft.
+pub(crate) const CENTROID: f64 = 1.25;
 /// Radius of a turning arrow in unit edges: around a robot's disc.
 const TURN: f64 = 0.46;
 
@@ -33,21 +36,25 @@ pub(crate) fn picture(stage: &Stage<'_>, number: usize, view: Bounds, camera: &C
     let many = pen.many();
     let mut group = Group {
         camera: Some(*camera),
+        clip: stage.options.zoom.map(|_| camera.rect(view)),
         ..Group::of_class("picture")
     };
     group.items.push(pen.ground(view).into());
     group.items.push(pen.blocks().into());
     group.items.push(pen.plans().into());
     group.items.push(pen.discs().into());
+    let dust = stage.dusty(camera.length(1.0));
     group.items.push(
-        if many {
+        if dust {
+            Group::of_class("forces")
+        } else if many {
             pen.arrows_by_colour()
         } else {
             pen.arrows(false)
         }
         .into(),
     );
-    if !many && pen.unit() >= TEXTURE {
+    if !many && !dust && pen.unit() >= TEXTURE {
         group.items.push(pen.heads().into());
     }
     group.items.push(pen.arrows(true).into());
@@ -84,33 +91,6 @@ pub(crate) fn seams(body: &Body, lattice: Option<Lattice>, camera: &Camera) -> O
         }
     }
     outline
-}
-
-/// Outlines joined by colour, in the order in which the colours came.
-#[derive(Default)]
-pub(crate) struct ByColour(Vec<(Colour, Outline)>);
-
-impl ByColour {
-    pub fn add(&mut self, fill: Colour, outline: Outline) {
-        match self.0.iter_mut().find(|known| known.0 == fill) {
-            Some(known) => known.1.extend(outline),
-            None => self.0.push((fill, outline)),
-        }
-    }
-
-    pub fn paths(self, stroke: Option<Stroke>) -> impl Iterator<Item = Item> {
-        let path = move |(fill, outline)| Path {
-            stroke: stroke.clone(),
-            ..Path::filled(outline, fill)
-        };
-        self.0.into_iter().map(path).map(Item::from)
-    }
-
-    /// The same as lines so many pixels wide.
-    pub fn lines(self, width: f64) -> impl Iterator<Item = Item> {
-        let path = move |(colour, outline)| Path::stroked(outline, Stroke::new(colour, width));
-        self.0.into_iter().map(path).map(Item::from)
-    }
 }
 
 /// What draws the parts of a frame's picture.
@@ -209,6 +189,7 @@ impl<'a> Pen<'a> {
     ) -> Group {
         let mut group = Group {
             camera: Some(*self.camera),
+            clip: self.stage.options.zoom.map(|_| self.camera.rect(view)),
             ..Group::of_class("picture")
         };
         let parts = [self.ground(view), blocks, self.plans(), self.discs()];
@@ -229,12 +210,11 @@ impl<'a> Pen<'a> {
         }
         match scene.blocks[id.0].body.fill {
             Some(fill) => colour(fill),
-            None if !self.stage.kind.tells_amplitudes() => self.stage.options.theme.block,
-            None => self
-                .stage
-                .options
-                .theme
-                .amplitude(self.stage.fills.shares[self.number][place]),
+            None if self.stage.plain() => self.stage.options.theme.block,
+            None => {
+                let share = self.stage.fills.shares[self.number][place];
+                self.stage.fills.colour(&self.stage.options.theme, share)
+            }
         }
     }
 
@@ -380,7 +360,23 @@ impl<'a> Pen<'a> {
             self.camera.turn(arrow.reach()),
             self.width(arrow),
         );
+        if arrow.kind == ArrowKind::Load {
+            // Hollow: what acts from outside is told from what the structure answers, in a grey print too.
+            let edge = Stroke::new(arrow.colour, (0.3 * self.width(arrow)).clamp(0.7, 2.0));
+            return Path::filled(outline, self.stage.options.theme.page).with_stroke(edge.mitred());
+        }
         Path::filled(outline, arrow.colour).cased(self.seam_around(arrow), self.casing)
+    }
+
+    /// The ring at the tail of a weight, by which it is told from other forces.
+    fn centroid(&self, arrow: &ForceArrow) -> Option<Path> {
+        let marked = arrow.kind == ArrowKind::Weight
+            && !self.stage.options.printed()
+            && self.unit() >= TEXTURE;
+        let width = self.width(arrow);
+        let ring = Outline::circle(self.camera.place(arrow.at), CENTROID * width);
+        let edge = Stroke::new(arrow.colour, (0.45 * width).clamp(0.8, 2.0));
+        marked.then(|| Path::filled(ring, self.stage.options.theme.page).with_stroke(edge))
     }
 
     /// The seam that sets an arrow off from the block it acts on.
@@ -404,7 +400,10 @@ impl<'a> Pen<'a> {
             ..Group::of_class("heads")
         };
         let marks = &self.stage.marks[self.number];
-        let there = marks.arrows.iter().filter(|a| !a.kind.is_failure());
+        let there = marks
+            .arrows
+            .iter()
+            .filter(|a| !a.kind.is_failure() && a.kind != ArrowKind::Load);
         for arrow in there.filter(|a| self.seen(a)) {
             let width = self.width(arrow);
             let (from, along) = (self.camera.place(arrow.at), self.camera.turn(arrow.reach()));
@@ -412,6 +411,7 @@ impl<'a> Pen<'a> {
             group
                 .items
                 .push(head.cased(self.seam_around(arrow), self.casing).into());
+            group.items.extend(self.centroid(arrow).map(Item::from));
         }
         group
     }
@@ -468,12 +468,11 @@ impl<'a> Pen<'a> {
             .filter(|a| a.kind.is_failure() == missing && self.seen(a))
         {
             let title = told::arrow(self.stage, arrow);
-            group.items.push(
-                Group::of_class("force")
-                    .titled(title)
-                    .with(self.arrow(arrow))
-                    .into(),
-            );
+            let mut force = Group::of_class("force")
+                .titled(title)
+                .with(self.arrow(arrow));
+            force.items.extend(self.centroid(arrow).map(Item::from));
+            group.items.push(force.into());
         }
         for turn in marks
             .turns

@@ -77,7 +77,7 @@ fn chain(analysis: &Analysis<'_>, frame: usize, marks: &Marks) -> Option<Chain> 
         return None;
     }
     let (share, least) = APART;
-    let apart = (share * structure.diagonal()).max(least * unit(scene));
+    let apart = (share * structure.diagonal()).max(least * unit(scene, None));
     // Its left edge beside the structure, its middle as high as the structure's.
     let middle = 0.5 * (structure.min.y + structure.max.y);
     let shift = Vector::new(
@@ -104,7 +104,7 @@ fn larger(times: f64) -> String {
 pub(crate) fn reach(analysis: &Analysis<'_>, frame: usize, marks: &Marks) -> Option<Bounds> {
     let chain = chain(analysis, frame, marks)?;
     let own = Bounds::of(chain.corners)?;
-    Some(own.grown(0.3 * unit(analysis.scene)))
+    Some(own.grown(0.3 * unit(analysis.scene, None)))
 }
 
 /// What the camera sees of a frame: the structure with the forces on it from outside, and their polygon.

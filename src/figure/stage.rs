@@ -1,16 +1,20 @@
 //! [`Stage`]: what all panels of a figure share: the unit edge, the view, colours, and each frame's arrows.
 
+use super::apart::apart;
 use super::arrow::Marks;
-use super::fill::Fills;
+use super::fill::{FillScale, Fills};
 use super::kind::Kind;
 use super::option::{ArrowScale, Options};
 use super::view;
 use crate::analysis::Analysis;
 use crate::geometry::{Bounds, Point};
-use crate::scene::Scene;
+use crate::scene::{Block, BlockId, Scene};
 
 /// Above so many blocks in a frame, blocks are drawn together by colour, without names.
 pub(crate) const MANY: usize = 1000;
+
+/// Where a unit edge is shorter than this, pixels, 2.2 mm, the arrows of a figure are dust.
+const DUST: f64 = 8.4;
 
 /// What all panels of a figure share.
 pub(crate) struct Stage<'a> {
@@ -42,9 +46,19 @@ impl<'a> Stage<'a> {
         let marks: Vec<Marks> = own
             .iter()
             .enumerate()
-            .map(|(i, own)| kind.marks(analysis, i, options, reference(*own)))
+            .map(|(i, own)| {
+                let mut marks = kind.marks(analysis, i, options, reference(*own));
+                if let Some(near) = options.zoom.map(|block| view::around(scene, block)) {
+                    marks.arrows.retain(|arrow| view::holds(near, arrow.at));
+                    marks.turns.retain(|turn| view::holds(near, turn.at));
+                }
+                if kind.tells_amplitudes() && !options.printed() {
+                    apart(&mut marks);
+                }
+                marks
+            })
             .collect();
-        let unit = unit(scene);
+        let unit = unit(scene, options.zoom);
         let reach: Vec<Option<Bounds>> = (0..marks.len())
             .map(|frame| kind.reach(analysis, frame, unit, &marks[frame]))
             .collect();
@@ -54,6 +68,10 @@ impl<'a> Stage<'a> {
             max: Point::origin(),
         }
         .grown(unit);
+        let shown = match options.zoom {
+            Some(block) => vec![view::around(scene, block); shown.len()],
+            None => shown,
+        };
         let view = shown
             .iter()
             .copied()
@@ -66,9 +84,25 @@ impl<'a> Stage<'a> {
             unit,
             shown,
             view,
-            fills: Fills::of(analysis),
+            fills: Fills::of(analysis, options.fill),
             marks,
         }
+    }
+
+    /// Whether arrows would be dust where a metre is so many pixels long, and colours tell the forces instead.
+    pub fn dusty(&self, scale: f64) -> bool {
+        let told = self
+            .analysis
+            .scene
+            .blocks
+            .iter()
+            .any(|b| b.body.fill.is_none());
+        self.unit * scale < DUST && told && !self.plain() && !self.options.printed()
+    }
+
+    /// Whether blocks have one plain colour.
+    pub fn plain(&self) -> bool {
+        !self.kind.tells_amplitudes() || self.fills.scale == FillScale::Plain
     }
 
     /// What the panels of a row show: as wide as all frames need, so that structures stand one below the other, and as
@@ -86,14 +120,20 @@ impl<'a> Stage<'a> {
 
 /// The unit edge in metres: the lattice's side, unless blocks are far larger than cells; off the lattice a typical size,
 /// 0.6·√area of the middle block, which is about the edge of a regular hexagon of that area.
-pub(crate) fn unit(scene: &Scene) -> f64 {
+/// Of a neighbourhood it is the typical size of what lies in it.
+pub(crate) fn unit(scene: &Scene, zoom: Option<BlockId>) -> f64 {
+    let near = zoom.map(|block| view::around(scene, block));
+    let shown = |b: &&Block| near.is_none_or(|near| near.meets(b.body.polygon.bounds()));
     let mut sizes: Vec<f64> = scene
         .blocks
         .iter()
+        .filter(shown)
         .map(|b| b.body.polygon.area().sqrt())
         .collect();
     sizes.sort_by(f64::total_cmp);
-    let typical = 0.6 * sizes.get(sizes.len() / 2).copied().unwrap_or(1.0);
+    // Around a block it is the block itself that has to be seen, however large its neighbours are.
+    let middle = if zoom.is_some() { 0 } else { sizes.len() / 2 };
+    let typical = 0.6 * sizes.get(middle).copied().unwrap_or(1.0);
     match scene.lattice {
         Some(lattice) if typical < 1.5 * lattice.side => lattice.side,
         _ => typical,

@@ -1,14 +1,15 @@
 //! [`Strip`]: a page of panels, one per frame, each with its caption and verdict, and one key below them all. What a
 //! panel shows is its [`Kind`]'s affair.
 
+use super::dimension;
 use super::kind::Kind;
 use super::label;
-use super::layout::{GAP, Layout};
+use super::layout::Layout;
 use super::legend;
 use super::option::{ArrowScale, Options};
 use super::stage::Stage;
 use super::verdict;
-use super::words::{letter, quantity};
+use super::words::{counted, letter, quantity};
 use crate::analysis::{Analysis, FrameAnalysis};
 use crate::drawing::{
     Anchor, Camera, Drawing, Face, Group, Item, Outline, PagePoint, Path, Stroke, Text, text,
@@ -19,8 +20,8 @@ use crate::geometry::Bounds;
 const CAPTION_LINE: f64 = 22.0 / 17.0;
 /// Height of a line of what is said below a verdict, in sizes of its letters.
 const REASON_LINE: f64 = 1.36;
-const MOST_CAPTION_LINES: usize = 6;
-const MOST_REASON_LINES: usize = 4;
+const MOST_CAPTION_LINES: usize = 8;
+const MOST_REASON_LINES: usize = 12;
 
 /// The figure of an analysis: a panel of this kind for each frame.
 pub(crate) fn strip(analysis: &Analysis<'_>, kind: Kind, options: &Options) -> Drawing {
@@ -64,13 +65,22 @@ impl Strip<'_> {
         let (options, scene) = (self.stage.options, self.stage.analysis.scene);
         let theme = &options.theme;
         let unit = self.layout.scale * self.stage.unit;
-        let entries = if options.keys {
+        let mut entries = if options.keys {
             let mut entries = self.stage.kind.entries(self.stage, unit);
             entries.extend(label::left_out(self.stage).map(legend::Entry::Note));
             entries
         } else {
             Vec::new()
         };
+        if self.stage.dusty(self.layout.scale) {
+            let arrows = self.stage.marks.iter().flat_map(|m| &m.arrows);
+            let count = arrows.filter(|a| !a.kind.is_failure()).count();
+            let left_out = format!("{} too small to read, left out", counted(count, "arrow"));
+            entries.push(legend::Entry::Note(left_out));
+        }
+        if options.scale_bar {
+            entries.extend(legend::metres(self.layout.scale, self.layout.content));
+        }
         let margin = self.layout.margin;
         // A narrow picture gets a page wide enough for its words.
         let inner = match options.width {
@@ -88,7 +98,7 @@ impl Strip<'_> {
         let left = middle - self.layout.content / 2.0;
         let mut items: Vec<Item> = Vec::new();
         let mut y = margin;
-        if options.captions && !scene.title.is_empty() {
+        if options.titles && !scene.title.is_empty() {
             let (face, size) = (Face::SerifBold, theme.sizes.title);
             let lines = text::wrap(&scene.title, face, size, inner);
             for line in text::cut(lines, 3, face, size, inner) {
@@ -125,7 +135,7 @@ impl Strip<'_> {
                 .max()
                 .unwrap_or(0);
             for (column, frame) in row.iter().enumerate() {
-                let x = left + column as f64 * (self.layout.panel + GAP);
+                let x = left + column as f64 * (self.layout.panel + self.layout.gap);
                 let (panel, end) = self.panel(*frame, (view, captions), PagePoint::new(x, y));
                 items.push(panel.into());
                 bottom = f64::max(bottom, end);
@@ -177,9 +187,15 @@ impl Strip<'_> {
             ..Group::of_class("frame")
         };
         group.title = self.said(frame, ": ", verdict::word(found.verdict));
-        group = group.with(stage.kind.picture(stage, frame, view, &camera));
+        let picture = stage.kind.picture(stage, frame, view, &camera);
+        let cramped = without_room(&picture);
+        group = group.with(picture);
         let middle = at.x + layout.panel / 2.0;
         let mut y = at.y + view.height() * layout.scale;
+        if options.dimensions {
+            group = group.with(dimension::lines(stage, frame, view, &camera));
+            y += dimension::BELOW;
+        }
         let lines = self.caption_lines(frame);
         y += if captions > 0 { 10.0 } else { 0.0 };
         for (number, line) in lines.into_iter().enumerate() {
@@ -189,18 +205,25 @@ impl Strip<'_> {
                 .with(Text::new(at, line, Face::Serif, size, theme.ink).anchored(Anchor::Middle));
         }
         y += captions as f64 * line_height;
-        if options.keys {
+        if options.verdicts || options.keys {
             y += 8.0;
             let half = theme.sizes.verdict * 10.0 / 13.5;
-            group
-                .items
-                .extend(self.verdict(frame, PagePoint::new(middle, y + half)));
-            y += 2.2 * half;
-            let (reason, size) = (stage.kind.reason(stage, frame), theme.sizes.reason);
+            let (signs, below) = self.verdict(frame, PagePoint::new(middle, y + half));
+            group.items.extend(signs);
+            y += 2.2 * half + below;
+            let reason = if options.verdicts {
+                stage.kind.reason(stage, frame)
+            } else {
+                String::new()
+            };
+            let size = theme.sizes.reason;
             let unseen = stage.marks[frame].unseen(stage.unit, layout.scale);
+            let unseen = unseen.filter(|_| !stage.dusty(layout.scale));
             let lines = balanced(&reason, Face::Sans, size, layout.panel, MOST_REASON_LINES);
             let unseen = unseen.map(|u| balanced(&u, Face::Sans, size, layout.panel, 2));
-            for line in lines.into_iter().chain(unseen.into_iter().flatten()) {
+            let cramped = cramped.map(|c| balanced(&c, Face::Sans, size, layout.panel, 2));
+            let notes = unseen.into_iter().chain(cramped).flatten();
+            for line in lines.into_iter().chain(notes) {
                 y += REASON_LINE * size;
                 let at = PagePoint::new(middle, y - 0.32 * size);
                 group = group.with(
@@ -235,15 +258,21 @@ impl Strip<'_> {
         )
     }
 
-    /// The mark, the word and the scale of arrows in one line about `centre`.
-    fn verdict(&self, frame: usize, centre: PagePoint) -> Vec<Item> {
+    /// The mark, the word and the scale of arrows in one line about `centre`, the scale below where the panel is too narrow;
+    /// and the height of what stands below.
+    fn verdict(&self, frame: usize, centre: PagePoint) -> (Vec<Item>, f64) {
         let theme = &self.stage.options.theme;
         let found = &self.stage.analysis.frames[frame];
         let word = verdict::word(found.verdict);
         let size = theme.sizes.verdict;
         let wide = text::width(word, Face::SansBold, size);
         let radius = size * 7.5 / 13.5;
-        let lead = 2.0 * radius + 6.0 + wide;
+        let options = self.stage.options;
+        let lead = if options.verdicts {
+            2.0 * radius + 6.0 + wide + 22.0
+        } else {
+            0.0
+        };
         let unit = self.layout.scale * self.stage.unit;
         let scale = match self.stage.options.scale {
             ArrowScale::Panel => legend::scale(
@@ -253,40 +282,56 @@ impl Strip<'_> {
             ),
             ArrowScale::Strip => None,
         };
-        let total = lead
-            + scale.as_ref().map_or(0.0, |s| {
-                22.0 + legend::widest(std::slice::from_ref(s), theme)
-            });
+        let scale = scale.filter(|_| options.keys && !self.stage.dusty(self.layout.scale));
+        let long = scale.as_ref().map_or(0.0, |scale| {
+            legend::widest(std::slice::from_ref(scale), theme)
+        });
+        let alone = (lead - 22.0).max(0.0);
+        let stacked = scale.is_some() && alone > 0.0 && lead + long > self.layout.panel;
+        let total = if scale.is_none() || stacked {
+            alone
+        } else {
+            lead + long
+        };
         let start = centre.moved(-total / 2.0, 0.0);
         let colour = verdict::colour(found.verdict, theme);
         let at = start.moved(2.0 * radius + 6.0, 0.35 * size);
-        let mut items: Vec<Item> = vec![
+        let mut items: Vec<Item> = Vec::new();
+        let signs: [Item; 2] = [
             verdict::mark(found.verdict, start.moved(radius, 0.0), radius, theme).into(),
             Text::new(at, word, Face::SansBold, size, colour).into(),
         ];
-        if let Some(scale) = scale {
-            items.extend(legend::single(&scale, start.moved(lead + 22.0, 0.0), theme).0);
+        if options.verdicts {
+            items.extend(signs);
         }
-        items
+        let below = if stacked { 1.7 * size } else { 0.0 };
+        if let Some(scale) = scale {
+            let at = if stacked {
+                centre.moved(-long / 2.0, below)
+            } else {
+                start.moved(lead, 0.0)
+            };
+            items.extend(legend::single(&scale, at, theme).0);
+        }
+        (items, below)
     }
 
-    /// `(a) Initial situation`; without a letter where there is but one frame, without what the heading says already.
+    /// `(a) Initial situation`; without a letter where there is but one frame, without what the heading says already;
+    /// and around which block where that is all that is shown.
     fn caption(&self, frame: usize, between: &str) -> String {
         let scene = self.stage.analysis.scene;
         let title = &scene.frames[frame].title;
+        let mut parts = Vec::new();
         if scene.frames.len() > 1 {
-            let letter = letter(frame);
-            return if title.is_empty() {
-                format!("({letter})")
-            } else {
-                format!("({letter}){between}{title}")
-            };
+            parts.push(format!("({})", letter(frame)));
         }
-        if *title == scene.title {
-            String::new()
-        } else {
-            title.clone()
+        if !title.is_empty() && (scene.frames.len() > 1 || *title != scene.title) {
+            parts.push(title.clone());
         }
+        if let Some(block) = self.stage.options.zoom {
+            parts.push(format!("around block {}", scene.blocks[block.0].id));
+        }
+        parts.join(between)
     }
 
     /// The whole figure in sentences.
@@ -326,6 +371,15 @@ impl Strip<'_> {
             .collect();
         frames.join(" ")
     }
+}
+
+/// What a picture says of the labels that have no room in it.
+fn without_room(picture: &Group) -> Option<String> {
+    let groups = picture.items.iter().filter_map(|item| match item {
+        Item::Group(group) if group.class == label::CLASS => Some(group.description.clone()),
+        _ => None,
+    });
+    groups.into_iter().find(|said| !said.is_empty())
 }
 
 /// Words in as few lines as `room` allows, and those about equally long.

@@ -5,12 +5,13 @@
 
 use super::arrow::{ArrowKind, ForceArrow, Marks, TurnKind};
 use super::bearing::bearings;
+use super::by_colour::ByColour;
 use super::funicular::{Giver, Stretch, stretches};
 use super::label;
 use super::legend::{self, Entry};
 use super::mark;
 use super::option::{ArrowScale, Options};
-use super::panel::{ByColour, Pen};
+use super::panel::Pen;
 use super::stage::Stage;
 use super::told;
 use super::verdict;

@@ -1,7 +1,6 @@
 //! What a hovering mouse and a screen reader are told of blocks and arrows: their numbers, with units.
 
 use super::arrow::{ArrowKind, ForceArrow, TurnArrow, TurnKind};
-use super::fill::FillScale;
 use super::stage::Stage;
 use super::words::{force, quantity};
 use crate::analysis::Motion;
@@ -13,17 +12,10 @@ pub(crate) fn block(stage: &Stage<'_>, frame: usize, place: usize, block: &Block
     if !stage.kind.tells_amplitudes() {
         return format!("weight {weight}");
     }
-    let share = stage.fills.shares[frame][place];
-    let fill = match stage.fills.scale {
-        FillScale::Limit(limit) => {
-            format!(
-                "colour: {:.1} % of the robots' limit of {}",
-                100.0 * share,
-                quantity(limit, "N")
-            )
-        }
-        FillScale::Largest(largest) => format!("colour: {}", quantity(share * largest, "N")),
-    };
+    let fill = stage.fills.description(stage.fills.shares[frame][place]);
+    if fill.is_empty() {
+        return format!("weight {weight}");
+    }
     format!("weight {weight}, {fill}")
 }
 

@@ -3,9 +3,10 @@
 //! The forces are those of one balance of many: another may use less here and more there.
 
 use super::bearing::{Bearing, bearings};
+use super::by_colour::ByColour;
 use super::label;
 use super::legend::{self, Entry};
-use super::panel::{ByColour, Pen};
+use super::panel::Pen;
 use super::stage::Stage;
 use super::told;
 use super::verdict;
@@ -44,7 +45,7 @@ pub(crate) fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
     let used = most_used(scene, found);
     match found.verdict {
         Verdict::Stable => format!("in the balance shown: {used}"),
-        Verdict::Unstable => format!("of what is carried beside what is missing: {used}"),
+        Verdict::Unstable => format!("it falls; with the missing forces added, {used}"),
         Verdict::Undecided => format!(
             "in what was found: {used}; {}",
             verdict::reason(scene, found)
@@ -70,7 +71,7 @@ pub(crate) fn entries(stage: &Stage<'_>) -> Vec<Entry> {
             (true, true) => "of the friction available; in discs, of a robot's limits",
         };
         let ends = ["0".to_owned(), "100 %".to_owned()];
-        entries.push(Entry::Amplitudes(ends, what.into()));
+        entries.push(Entry::Amplitudes(ends, what.into(), Theme::amplitude));
     }
     let spent = frames
         .iter()

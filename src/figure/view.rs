@@ -9,6 +9,8 @@ use crate::scene::{BlockId, Frame, Scene};
 const BEYOND: f64 = 0.12;
 /// A piece of ground of at most so many unit edges each way, near the structure, is shown whole.
 const PIECE: f64 = 3.0;
+/// How far beyond a block its neighbourhood reaches, in its larger side.
+const NEIGHBOURS: f64 = 1.1;
 /// Room around all that is shown, in unit edges.
 const ROOM: f64 = 0.08;
 
@@ -28,8 +30,8 @@ pub(crate) fn shown(
             let ends = Bounds::of([arrow.at, arrow.at + arrow.reach()]);
             ends.map(|b| b.grown(HEAD_WIDTH * arrow.width / 2.0))
         });
-        let turns = marks.turns.iter().map(|turn| around(turn.at, 0.7 * unit));
-        let robots = frame.holds.iter().map(|hold| around(hold.at, disc * unit));
+        let turns = marks.turns.iter().map(|turn| near(turn.at, 0.7 * unit));
+        let robots = frame.holds.iter().map(|hold| near(hold.at, disc * unit));
         let all = blocks
             .chain(arrows)
             .chain(turns)
@@ -37,7 +39,7 @@ pub(crate) fn shown(
             .chain(ground)
             .chain(*reach);
         all.reduce(Bounds::union)
-            .unwrap_or(around(Point::origin(), unit))
+            .unwrap_or(near(Point::origin(), unit))
             .grown(ROOM * unit)
     };
     scene
@@ -84,12 +86,23 @@ fn ground(scene: &Scene, unit: f64) -> Option<Bounds> {
     ground().filter_map(shown).reduce(Bounds::union)
 }
 
-fn around(p: Point, radius: f64) -> Bounds {
+/// A block's neighbourhood: a box that reaches beyond it by as much as it is large.
+pub(crate) fn around(scene: &Scene, block: BlockId) -> Bounds {
+    let bounds = scene.blocks[block.0].body.polygon.bounds();
+    bounds.grown(NEIGHBOURS * bounds.width().max(bounds.height()))
+}
+
+/// Whether a point lies in a box.
+pub(crate) fn holds(bounds: Bounds, p: Point) -> bool {
+    (bounds.min.x..=bounds.max.x).contains(&p.x) && (bounds.min.y..=bounds.max.y).contains(&p.y)
+}
+
+fn near(p: Point, radius: f64) -> Bounds {
     Bounds { min: p, max: p }.grown(radius)
 }
 
 /// What two boxes have in common, `None` where they are apart.
-fn common(a: Bounds, b: Bounds) -> Option<Bounds> {
+pub(crate) fn common(a: Bounds, b: Bounds) -> Option<Bounds> {
     let (min, max) = (a.min.sup(&b.min), a.max.inf(&b.max));
     let size: Vector = max - min;
     (size.x >= 0.0 && size.y >= 0.0).then_some(Bounds { min, max })

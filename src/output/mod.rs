@@ -1,7 +1,7 @@
 //! From a [`Drawing`](crate::drawing::Drawing) to files: SVG text, and PNG and PDF bytes made from that text.
 //!
 //! The SVG is the figure; the others are pictures of it, so that they cannot disagree. Same drawing, same bytes, on
-//! every machine: no clock, no path, no font but our own.
+//! every machine: no clock, no path, no font but our own and those that are given.
 //!
 //! # Size in print
 //!
@@ -10,9 +10,11 @@
 //! wide. A column of a journal is about 84 mm wide, two of them 174 mm; letters below 6 pt are hard to read.
 
 pub mod file;
+pub mod fonts;
 pub mod pdf;
 pub mod png;
 pub mod svg;
+pub mod tikz;
 mod tree;
 
 /// Millimetres per inch.

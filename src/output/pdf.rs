@@ -16,6 +16,7 @@ use krilla::text::{Font, GlyphId, KrillaGlyph};
 use resvg::tiny_skia::PathSegment;
 use resvg::usvg;
 
+use super::fonts::Fonts;
 use super::{MM_PER_INCH, PIXELS_PER_INCH, svg, tree};
 use crate::drawing::{Drawing, Face};
 use crate::text::line;
@@ -62,6 +63,18 @@ const POINTS_PER_INCH: f64 = 72.0;
 /// # Ok::<(), drystone::output::pdf::PdfError>(())
 /// ```
 pub fn write(drawing: &Drawing, width_mm: Option<f64>) -> Result<Vec<u8>, PdfError> {
+    write_in(drawing, width_mm, &Fonts::default())
+}
+
+/// As [`write()`], with more fonts than ours. A line of words for which ours do not suffice is drawn as outlines.
+///
+/// # Errors
+/// As [`write()`].
+pub fn write_in(
+    drawing: &Drawing,
+    width_mm: Option<f64>,
+    fonts: &Fonts,
+) -> Result<Vec<u8>, PdfError> {
     let natural_mm = drawing.width * MM_PER_INCH / PIXELS_PER_INCH;
     let width = width_mm.unwrap_or(natural_mm);
     let height = width * drawing.height / drawing.width;
@@ -69,7 +82,7 @@ pub fn write(drawing: &Drawing, width_mm: Option<f64>) -> Result<Vec<u8>, PdfErr
     if !(fits(width) && fits(height)) {
         return Err(PdfError::Size { width, height });
     }
-    let tree = tree::read(&svg::write(drawing)).map_err(PdfError::Unwritable)?;
+    let tree = tree::read(&svg::write(drawing), fonts).map_err(PdfError::Unwritable)?;
     let points = |mm: f64| (mm * POINTS_PER_INCH / MM_PER_INCH) as f32;
     let page = PageSettings::from_wh(points(width), points(height))
         .ok_or(PdfError::Size { width, height })?;
@@ -158,6 +171,10 @@ impl Pen<'_, '_> {
     }
 
     fn text(&mut self, text: &usvg::Text) {
+        if tree::foreign(text) {
+            self.group(text.flattened());
+            return;
+        }
         for span in text.layouted() {
             let (fill, stroke) = (
                 span.fill.as_ref().and_then(fill),

@@ -12,6 +12,7 @@ use std::fmt::Write as _;
 
 use outline::{number, steps};
 
+use super::fonts::Fonts;
 use super::tree::{self, Run};
 use crate::drawing::{Anchor, Drawing, Face, Group, Item, Join, Path, Stroke, Text};
 use crate::text::xml;
@@ -29,12 +30,14 @@ pub enum Words {
 }
 
 /// What else there is to choose.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
     /// Width in print, mm; where nothing is said a pixel is a 96th of an inch.
     pub width_mm: Option<f64>,
     /// How words are written.
     pub words: Words,
+    /// The fonts in which words become outlines.
+    pub fonts: Fonts,
 }
 
 /// Words that could not be laid out, or a font that could not be cut.
@@ -82,7 +85,7 @@ pub fn write(drawing: &Drawing) -> String {
 /// let words = Text::new(PagePoint::new(5.0, 20.0), "Keystone", Face::Serif, 14.0, Colour::BLACK);
 /// let drawing = Drawing { width: 120.0, height: 30.0, title: "A word".into(), description: String::new(),
 ///     background: None, items: vec![words.into()] };
-/// let svg = write_with(&drawing, &Options { width_mm: Some(84.0), words: Words::Outlines })?;
+/// let svg = write_with(&drawing, &Options { width_mm: Some(84.0), words: Words::Outlines, ..Options::default() })?;
 /// assert!(svg.contains("width=\"84mm\" height=\"21mm\" viewBox=\"0 0 120 30\""));
 /// assert!(!svg.contains("<text"));
 /// # Ok::<(), drystone::output::svg::WordsError>(())
@@ -93,7 +96,7 @@ pub fn write_with(drawing: &Drawing, options: &Options) -> Result<String, WordsE
         return Ok(document(drawing, options.width_mm, &mark, Form::Names));
     }
     let numbered = document(drawing, None, "", Form::Numbered);
-    let tree = tree::read(&numbered).map_err(WordsError)?;
+    let tree = tree::read(&numbered, &options.fonts).map_err(WordsError)?;
     let texts = tree::texts(tree.root());
     if options.words == Words::Outlines {
         let outlines = texts.iter().filter_map(|t| glyph::numbered(t)).collect();

@@ -1,24 +1,27 @@
 //! [`read`]: an SVG of ours as resvg understands it, every word set in our own fonts.
 //!
 //! What is drawn in pixels, written as PDF or turned into outlines all begins here, so that words stand in the same
-//! places everywhere. Whatever fonts the machine has, none of them is looked at. A character that our fonts lack shows
-//! as a box.
+//! places everywhere. Whatever fonts the machine has, none of them is looked at but those that were given. A character that
+//! no font has shows as a question mark, never as an empty box.
 
+use std::borrow::Cow;
 use std::sync::{Arc, OnceLock};
 
 use resvg::tiny_skia::Transform;
 use resvg::usvg::{self, Group, Node, fontdb};
 
+use super::fonts::Fonts;
 use crate::drawing::Face;
 
 /// An SVG document as a tree of shapes and words that are laid out.
 ///
 /// # Errors
 /// What resvg has against the text.
-pub(super) fn read(svg: &str) -> Result<usvg::Tree, String> {
+pub(super) fn read(svg: &str, more: &Fonts) -> Result<usvg::Tree, String> {
+    let svg = &legible(svg, more);
     let options = usvg::Options {
         font_family: "Libertinus Serif".to_owned(),
-        fontdb: Arc::clone(&fonts().0),
+        fontdb: database(more),
         // A drawing is whole in itself: nothing is fetched from the machine it is drawn on.
         image_href_resolver: usvg::ImageHrefResolver {
             resolve_string: Box::new(|_, _| None),
@@ -27,6 +30,36 @@ pub(super) fn read(svg: &str) -> Result<usvg::Tree, String> {
         ..usvg::Options::default()
     };
     usvg::Tree::from_str(svg, &options).map_err(|e| e.to_string())
+}
+
+/// The text with question marks for the characters that no font has.
+fn legible<'s>(svg: &'s str, fonts: &Fonts) -> Cow<'s, str> {
+    let lacking = fonts.lacking(svg);
+    if lacking.is_empty() {
+        return Cow::Borrowed(svg);
+    }
+    let shown = |c: char| if lacking.contains(&c) { '?' } else { c };
+    Cow::Owned(svg.chars().map(shown).collect())
+}
+
+/// Our fonts, and behind them those that were given.
+fn database(more: &Fonts) -> Arc<fontdb::Database> {
+    let ours = &fonts().0;
+    if more.more().is_empty() {
+        return Arc::clone(ours);
+    }
+    let mut all = fontdb::Database::clone(ours);
+    for data in more.more() {
+        all.load_font_data(data.as_ref().clone());
+    }
+    Arc::new(all)
+}
+
+/// Whether some glyph of a line of words is of a font that is not ours.
+pub(super) fn foreign(text: &usvg::Text) -> bool {
+    let spans = text.layouted().iter();
+    let mut glyphs = spans.flat_map(|span| &span.positioned_glyphs);
+    glyphs.any(|glyph| face(glyph.font).is_none())
 }
 
 /// The words of a tree, the lowest first.
@@ -101,10 +134,10 @@ fn face(id: fontdb::ID) -> Option<Face> {
 }
 
 /// Our fonts, and the name under which resvg knows each.
-type Fonts = (Arc<fontdb::Database>, Vec<(fontdb::ID, Face)>);
+type Ours = (Arc<fontdb::Database>, Vec<(fontdb::ID, Face)>);
 
-fn fonts() -> &'static Fonts {
-    static FONTS: OnceLock<Fonts> = OnceLock::new();
+fn fonts() -> &'static Ours {
+    static FONTS: OnceLock<Ours> = OnceLock::new();
     FONTS.get_or_init(|| {
         let mut fonts = fontdb::Database::new();
         let mut known = Vec::new();

@@ -3,6 +3,10 @@
 //! All are made from one [`Study`] and dated by the version that was measured, not by a clock. The JSON form is
 //! [`result::accuracy_json`](crate::report::result::accuracy_json).
 
+mod picture;
+
+pub use picture::picture;
+
 use std::fmt::Write as _;
 
 use maud::{DOCTYPE, PreEscaped, html};

@@ -44,6 +44,8 @@ pub struct Scene {
     pub title: String,
     /// Gravity in m/s². Weights act along it; only its direction matters for blocks with a given weight.
     pub gravity: Vector,
+    /// How thick the structure is, metres, across the plane.
+    pub thickness: f64,
     /// The safety kernel in 0 … 1: application points move inward by half this share of the stretch, each.
     pub kernel: f64,
     /// The lattice, where the scene has one.

@@ -242,6 +242,7 @@ impl<'f> Resolution<'f> {
         Some(Scene {
             title: self.file.title.clone().unwrap_or_default(),
             gravity: self.gravity,
+            thickness: self.thickness,
             kernel: self.kernel,
             lattice: self.lattice,
             exact,

@@ -27,6 +27,9 @@ use crate::scene::{Frame, Scene};
 /// The solver tolerances that are measured.
 pub const TOLERANCES: [f64; 6] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-9, 1e-12];
 
+/// The tolerance that an analysis has where nothing else is asked.
+pub const DEFAULT_TOLERANCE: f64 = crate::solve::TOLERANCE;
+
 /// Where a frame's groups are so near the edge, in parts of the heaviest load, calling a falling one stable is no mistake.
 const BAND: f64 = 10.0 * Proof::BAND;
 

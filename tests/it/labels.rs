@@ -1,10 +1,11 @@
 //! Labels hide nothing: measured on the drawings themselves, whoever placed them.
 
 use drystone::analysis::Analysis;
-use drystone::drawing::{Anchor, Drawing, Group, Item, PagePoint, Segment, Text, text};
+use drystone::drawing::{Anchor, Drawing, Face, Group, Item, PagePoint, Segment, Text, text};
 use drystone::figure::{self, Options};
 use drystone::scene::BlockId;
 
+use crate::lines::brought;
 use crate::pictures::{gallery, scene};
 
 /// An upright box: left, top, right, bottom.
@@ -231,6 +232,217 @@ fn on_a_page_as_wide_as_a_column_words_stay_large_and_nothing_is_cut() {
             );
         }
     }
+}
+
+/// Whether a text has a name as a word of its own.
+fn names(text: &str, name: &str) -> bool {
+    let apart = |c: Option<char>| c.is_none_or(|c| !c.is_alphanumeric());
+    text.match_indices(name).any(|(at, _)| {
+        apart(text[..at].chars().next_back()) && apart(text[at + name.len()..].chars().next())
+    })
+}
+
+#[test]
+fn what_the_words_below_a_frame_name_is_labelled_and_what_is_not_is_counted() {
+    let (mut named, mut counted) = (0, 0);
+    for (name, scene) in gallery().into_iter().chain(brought()) {
+        let analysis = Analysis::of(&scene);
+        for width in [None, Some(COLUMN)] {
+            let options = Options {
+                width,
+                ..Options::default()
+            };
+            for kind in figure::Kind::ALL {
+                let drawing = figure::draw(&analysis, kind, &options);
+                let what = format!("{name} {} {width:?}", kind.name());
+                let frames = classes(&drawing.items, &["frame"]);
+                assert_eq!(frames.len(), scene.frames.len(), "{what}");
+                for (frame, group) in scene.frames.iter().zip(frames) {
+                    let own: Vec<Text> = group
+                        .items
+                        .iter()
+                        .filter_map(|item| match item {
+                            Item::Text(text) if text.face == Face::Sans => Some(text.clone()),
+                            _ => None,
+                        })
+                        .collect();
+                    let said: Vec<&str> = own.iter().map(|t| t.words.as_str()).collect();
+                    let said = said.join(" ");
+                    let labels: Vec<String> = classes(&group.items, &["name"])
+                        .into_iter()
+                        .flat_map(texts)
+                        .map(|t| t.words)
+                        .collect();
+                    let blocks = frame.placed.iter().map(|id| &scene.blocks[id.0].id);
+                    for id in blocks.filter(|id| names(&said, id)) {
+                        named += 1;
+                        assert!(labels.contains(id), "{what}: {id} of {said:?} has no label");
+                    }
+                    let robots = classes(&group.items, &["robot-name"]).len();
+                    let wanted = frame.placed.len() + frame.holds.len();
+                    let missing = wanted.saturating_sub(labels.len() + robots);
+                    if missing > 0 && frame.placed.len() <= 60 {
+                        counted += 1;
+                        let told = if missing == 1 {
+                            "no room for 1 name".to_owned()
+                        } else {
+                            format!("no room for {missing} names")
+                        };
+                        assert!(said.contains(&told), "{what}: {missing} of {said:?}");
+                    }
+                }
+            }
+        }
+    }
+    assert!(
+        named > 60 && counted > 5,
+        "{named} named, {counted} counted"
+    );
+}
+
+#[test]
+fn a_load_tells_its_amount_and_a_key_what_it_is() {
+    let scene = scene("tests/scenes/loaded.json");
+    let drawing = figure::forces(&Analysis::of(&scene), &Options::default());
+    let amounts: Vec<String> = classes(&drawing.items, &["amount"])
+        .into_iter()
+        .flat_map(texts)
+        .map(|t| t.words)
+        .collect();
+    assert_eq!(amounts.len(), scene.loads.len(), "{amounts:?}");
+    let key: Vec<Text> = classes(&drawing.items, &["key"])
+        .into_iter()
+        .flat_map(texts)
+        .collect();
+    assert!(
+        key.iter()
+            .any(|t| t.words.contains("2 loads of 800 N to 4 kN")),
+        "{key:?}"
+    );
+    assert!(key.iter().any(|t| t.words.contains("weight")), "{key:?}");
+}
+
+#[test]
+fn robots_beyond_the_key_are_counted_in_it() {
+    let scene = scene("tests/scenes/robots10.json");
+    let drawing = figure::forces(&Analysis::of(&scene), &Options::default());
+    let key: Vec<Text> = classes(&drawing.items, &["key"])
+        .into_iter()
+        .flat_map(texts)
+        .collect();
+    for robot in &scene.robots {
+        let words = format!("robot {}", robot.id);
+        assert!(key.iter().any(|t| t.words == words), "{words}");
+    }
+}
+
+#[test]
+fn thirty_steps_fit_on_a_page_and_figure_4_in_a_column() {
+    let drawn = |path: &str, width| {
+        let scene = scene(path);
+        let options = Options {
+            width,
+            ..Options::default()
+        };
+        figure::forces(&Analysis::of(&scene), &options)
+    };
+    let steps = drawn("tests/scenes/steps30.json", None);
+    assert!(
+        steps.height / steps.width < 297.0 / 210.0,
+        "{} × {}",
+        steps.width,
+        steps.height
+    );
+    let figure = drawn("assets/thesis/figure-4.json", Some(COLUMN));
+    let high = figure.height / figure.width * 84.0;
+    assert!(high < 220.0, "{high} mm");
+}
+
+#[test]
+fn switches_leave_out_what_they_name_and_nothing_else() {
+    let scene = scene("tests/scenes/lintel.json");
+    let analysis = Analysis::of(&scene);
+    let said = |options: &Options| {
+        let drawing = figure::forces(&analysis, options);
+        let page = Group {
+            items: drawing.items,
+            ..Group::default()
+        };
+        texts(&page)
+            .into_iter()
+            .map(|t| t.words)
+            .collect::<Vec<String>>()
+    };
+    let full = said(&Options::default());
+    let has = |said: &[String], words: &str| said.iter().any(|s| s.contains(words));
+    let signs = ["A lintel, and", "(b) The crane", "stands", "robot crane"];
+    assert!(signs.iter().all(|words| has(&full, words)), "{full:?}");
+    let less = [
+        Options {
+            titles: false,
+            ..Options::default()
+        },
+        Options {
+            captions: false,
+            ..Options::default()
+        },
+        Options {
+            verdicts: false,
+            ..Options::default()
+        },
+        Options {
+            keys: false,
+            ..Options::default()
+        },
+    ];
+    for (number, options) in less.iter().enumerate() {
+        let left = said(options);
+        for (other, words) in signs.iter().enumerate() {
+            assert_eq!(has(&left, words), other != number, "{words}: {left:?}");
+        }
+    }
+    let more = Options {
+        scale_bar: true,
+        dimensions: true,
+        ..Options::default()
+    };
+    let more = said(&more);
+    let metres = |said: &[String]| said.iter().filter(|s| s.ends_with(" m")).count();
+    assert_eq!((metres(&full), metres(&more)), (0, 7), "{more:?}");
+}
+
+#[test]
+fn around_a_block_its_neighbours_are_drawn_and_named() {
+    let scene = scene("tests/scenes/tinyhuge.json");
+    let pebble = scene
+        .blocks
+        .iter()
+        .position(|b| b.id == "pebble")
+        .expect("there is one");
+    let options = Options {
+        zoom: Some(BlockId(pebble)),
+        ..Options::default()
+    };
+    let drawing = figure::forces(&Analysis::of(&scene), &options);
+    let picture = classes(&drawing.items, &["picture"])[0];
+    assert!(picture.clip.is_some());
+    let labels: Vec<String> = classes(&drawing.items, &["name"])
+        .into_iter()
+        .flat_map(texts)
+        .map(|t| t.words)
+        .collect();
+    assert!(labels.contains(&"pebble".to_owned()), "{labels:?}");
+    let forces = classes(&drawing.items, &["force"]);
+    assert!(forces.iter().any(|f| f.title.contains("on block pebble")));
+    let page = Group {
+        items: drawing.items.clone(),
+        ..Group::default()
+    };
+    assert!(
+        texts(&page)
+            .iter()
+            .any(|t| t.words == "around block pebble")
+    );
 }
 
 #[test]

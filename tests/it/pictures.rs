@@ -1,7 +1,7 @@
 //! Pictures: the source's arrows and fills in numbers, and what every figure must hold to.
 
 use drystone::drawing::{Colour, Drawing, Group, Item, Outline, Theme};
-use drystone::figure::{self, ArrowKind, ForceStyle, Normalisation, Options};
+use drystone::figure::{self, ArrowKind, Fill, ForceStyle, Normalisation, Options};
 use drystone::geometry::{Point, Vector};
 use drystone::output::{png, svg};
 use drystone::{Analysis, Scene};
@@ -114,7 +114,11 @@ fn fills_are_the_sources() {
         serde_json::from_str(include_str!("../reference/panels.json")).expect("JSON");
     for (name, panel) in panels.as_object().expect("panels") {
         let scene = scene(panel["scene"].as_str().expect("a scene"));
-        let drawing = figure::forces(&Analysis::of(&scene), &Options::default());
+        let options = Options {
+            fill: Fill::Source,
+            ..Options::default()
+        };
+        let drawing = figure::forces(&Analysis::of(&scene), &options);
         let fills = fills(&drawing, panel["frame"].as_u64().expect("a frame") as usize);
         let blocks = panel["blocks"].as_array().expect("blocks");
         assert_eq!(fills.len(), blocks.len(), "{name}");
@@ -342,18 +346,30 @@ fn without_a_limit_the_key_says_what_the_colours_stand_for() {
     let two = r#"{ "drystone": 1, "ground": [ { "polygon": [[-1,-1],[9,-1],[9,0],[-1,0]] } ], "blocks": [
         { "id": "low", "polygon": [[0,0],[2,0],[2,1],[0,1]], "weight": 6 },
         { "id": "high", "polygon": [[0,1],[2,1],[2,2],[0,2]], "weight": 2 } ] }"#;
-    let svg = drawn(&from_json(two));
-    assert!(svg.contains(">8 N</text>") && svg.contains("weight or largest normal force"));
+    let text = drawn(&from_json(two));
+    assert!(text.contains(">8 N</text>") && text.contains("weight or largest normal force"));
+    let full = Options::default().theme.amplitude(1.0).css();
     assert!(
-        svg.contains("fill=\"#f0f921\""),
+        text.contains(&format!("fill=\"{full}\"")),
         "the most loaded block is at the end of the scale"
     );
-    assert!(!svg.contains("limit of"));
+    assert!(!text.contains("limit of"));
     let limited = two.replace(
         "\"ground\"",
         r#""robots": [ { "id": "r", "limits": { "force": 20 } } ], "ground""#,
     );
-    assert!(drawn(&from_json(&limited)).contains("of the robots&#39; limit of 20 N"));
+    // A robot that holds nothing changes no colour but under the source's rule, which has its own key.
+    let of_blocks = |text: &str, fill: &str| text.matches(&format!("fill=\"{fill}\"")).count();
+    let with_robot = drawn(&from_json(&limited));
+    assert!(!with_robot.contains("limit of"));
+    assert_eq!(of_blocks(&with_robot, &full), of_blocks(&text, &full));
+    let options = Options {
+        fill: Fill::Source,
+        ..Options::default()
+    };
+    let scene = from_json(&limited);
+    let source = svg::write(&figure::forces(&Analysis::of(&scene), &options));
+    assert!(source.contains("of the robots&#39; limit of 20 N"));
 }
 
 #[test]

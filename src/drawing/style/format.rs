@@ -126,12 +126,13 @@ impl Theme {
 /// A field of a theme that is one colour, by its key.
 type ColourField = (&'static str, fn(&mut Theme) -> &mut Colour);
 
-const COLOURS: [ColourField; 14] = [
+const COLOURS: [ColourField; 15] = [
     ("page", |t| &mut t.page),
     ("ink", |t| &mut t.ink),
     ("faint", |t| &mut t.faint),
     ("rule", |t| &mut t.rule),
     ("casing", |t| &mut t.casing),
+    ("load", |t| &mut t.load),
     ("failure", |t| &mut t.failure),
     ("ground", |t| &mut t.ground),
     ("block", |t| &mut t.block),

@@ -1,6 +1,6 @@
 //! How far apart the colours of each theme are that can meet, and style files that are right and wrong.
 
-use super::super::difference::{Sight, difference, lightness, seen};
+use super::super::difference::{Sight, contrast, difference, lightness, seen};
 use super::super::ramp;
 use super::format::Notation;
 use super::*;
@@ -87,14 +87,14 @@ const ALL: &[Sight] = &[
 #[test]
 fn colours_that_can_meet_are_as_far_apart_as_told() {
     let told = [
-        (Theme::thesis(), FULL, [13.1, 24.9, 21.0, 34.2, 25.2]),
+        (Theme::thesis(), FULL, [13.1, 24.9, 35.5, 33.1, 38.8]),
         (
             Theme::paper(),
             &[Sight::Grey][..],
-            [14.7, 35.5, 17.0, 52.4, 51.9],
+            [14.7, 35.5, 17.0, 36.9, 44.1],
         ),
-        (Theme::colourblind(), ALL, [12.1, 17.9, 12.5, 26.8, 21.3]),
-        (Theme::dark(), FULL, [23.6, 17.7, 34.7, 33.3, 33.3]),
+        (Theme::colourblind(), ALL, [12.1, 17.9, 12.5, 27.0, 35.7]),
+        (Theme::dark(), FULL, [23.6, 17.7, 34.7, 30.0, 38.2]),
     ];
     for (theme, sights, told) in told {
         let found = least_of(&theme, sights);
@@ -123,12 +123,81 @@ fn the_themes_keep_what_they_promise() {
         );
     }
     // The measure sees what is wrong: the source's red is one of its greens in grey.
-    assert!(least(&Theme::thesis(), Sight::Grey).failure < 0.5);
+    let printed = Theme {
+        failure: Colour::hex(0xff0000),
+        ..Theme::thesis()
+    };
+    assert!(least(&printed, Sight::Grey).failure < 0.5);
+    assert!(least(&Theme::thesis(), Sight::Grey).failure > 12.0);
     // Robots beside each other too, and arrows that read as black on the page of `paper`.
     let paper = Theme::paper();
     assert!((lightness(paper.robot(0)) - lightness(paper.robot(1))).abs() > 13.0);
     assert!(paper.arrows.iter().all(|a| lightness(*a) < 35.0));
-    assert!(paper.amplitudes.iter().all(|a| lightness(*a) > 84.0));
+    let ends = [0, 255].map(|i| lightness(paper.amplitudes[i]));
+    assert!(
+        (ends[0] - 95.0).abs() < 1.0 && (ends[1] - 35.0).abs() < 1.0,
+        "{ends:?}"
+    );
+}
+
+#[test]
+fn more_is_darker_on_a_light_page_and_lighter_on_a_dark_one() {
+    for name in Theme::NAMES {
+        let theme = Theme::named(name).expect(name);
+        let towards = (lightness(theme.ink) - lightness(theme.page)).signum();
+        for pair in theme.amplitudes.windows(2) {
+            // Half a step of a channel is rounding.
+            let step = towards * (lightness(pair[1]) - lightness(pair[0]));
+            assert!(step > -0.4, "{name}: {pair:?}");
+        }
+        let whole = lightness(theme.amplitudes[255]) - lightness(theme.amplitudes[0]);
+        assert!(towards * whole > 50.0, "{name}: {whole}");
+        // The mark of what falls is told from that of what stands in a grey print.
+        let marks = lightness(theme.stands) - lightness(theme.falls);
+        assert!(marks.abs() > 10.0, "{name}: {marks}");
+        assert!(
+            theme
+                .arrows
+                .iter()
+                .all(|a| difference(*a, theme.load) > 15.0),
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn letters_are_legible_on_whatever_they_can_lie_on() {
+    for name in Theme::NAMES {
+        let theme = Theme::named(name).expect(name);
+        let plain = [theme.page, theme.ground, theme.block];
+        let motion = theme.page.mixed(theme.motion, 0.38);
+        let below = theme.amplitudes.iter().chain(&plain).chain([&motion]);
+        let of = || {
+            theme
+                .arrows
+                .iter()
+                .chain(&theme.robots)
+                .chain([&theme.failure, &theme.load])
+        };
+        for below in below.copied().chain(ramp::named("plasma").expect("known")) {
+            for of in of().map(|c| Some(*c)).chain([None]) {
+                let reads = contrast(theme.letters_on(below, of), below);
+                assert!(reads >= 4.5, "{name}: {reads} on {}", below.css());
+            }
+        }
+        for words in [
+            theme.ink,
+            theme.faint,
+            theme.stands,
+            theme.falls,
+            theme.undecided,
+        ] {
+            let reads = contrast(words, theme.page);
+            assert!(reads >= 4.5, "{name}: {reads} of {}", words.css());
+        }
+    }
+    // The measure sees letters that do not read.
+    assert!(contrast(Colour::hex(0x999999), Colour::WHITE) < 4.5);
 }
 
 #[test]

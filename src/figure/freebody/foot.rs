@@ -89,7 +89,7 @@ impl Sheet<'_> {
 
     /// An arrow that tells the scale; `None` where lengths tell nothing.
     fn scale(&self) -> Option<legend::Entry> {
-        let largest = largest(&self.forces, unit(self.analysis.scene), self.options);
+        let largest = largest(&self.forces, unit(self.analysis.scene, None), self.options);
         let amount = round_below(largest);
         let longest = longest(self.analysis, self.block, &self.camera);
         (amount > 0.0).then(|| {
@@ -106,7 +106,7 @@ impl Sheet<'_> {
         }
         let unseen = self.arrows.iter().filter(|a| !Sheet::seen(a)).count();
         if unseen > 0 {
-            let largest = largest(&self.forces, unit(self.analysis.scene), self.options);
+            let largest = largest(&self.forces, unit(self.analysis.scene, None), self.options);
             let longest = longest(self.analysis, self.block, &self.camera);
             let amount = quantity(round_above(largest * LEAST_SEEN / longest), "N");
             let forces = if unseen == 1 { "force" } else { "forces" };

@@ -380,7 +380,7 @@ pub(super) fn arrows(
 ) -> Vec<Arrow> {
     let name = &analysis.scene.blocks[block.0].id;
     let detail = detail(contacts.len(), options);
-    let edge = unit(analysis.scene);
+    let edge = unit(analysis.scene, None);
     let largest = largest(forces, edge, options);
     let naming = options.corners == Corners::All;
     let shorter = shorter(analysis, block, camera);

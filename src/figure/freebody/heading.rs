@@ -15,7 +15,7 @@ pub(super) fn heading(
     options: &Options,
     width: f64,
 ) -> Vec<(String, Face, f64)> {
-    if !options.captions {
+    if !options.titles {
         return Vec::new();
     }
     let scene = analysis.scene;

@@ -28,6 +28,7 @@ fn scene() -> Scene {
     Scene {
         title: "A \"wedge\"".into(),
         gravity: Vector::new(0.0, -9.81),
+        thickness: 1.0,
         kernel: 0.0,
         lattice: None,
         exact: false,

@@ -100,6 +100,96 @@ fn steps_follow_one_another_in_an_animated_png() {
 }
 
 #[test]
+fn each_panel_goes_to_a_file_of_its_own() {
+    let bench = Bench::new();
+    let ran = bench.run("render falls.json -o step.svg --panels");
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    assert!(!bench.path("step.svg").exists());
+    for name in ["step-a.svg", "step-b.svg"] {
+        let svg = fs::read_to_string(bench.path(name)).expect(name);
+        assert_eq!(svg.matches("class=\"frame\"").count(), 1, "{name}");
+    }
+    for line in [
+        "render falls.json -o - --panels",
+        "render stands.json -o a.svg --kind freebody --block left --panels",
+        "render falls.json -o a.png --kind build --animate 1 --panels",
+    ] {
+        assert_eq!(bench.run(line).code, 2, "{line}");
+    }
+}
+
+#[test]
+fn a_neighbourhood_is_drawn_by_the_name_of_its_block() {
+    let bench = Bench::new();
+    let ran = bench.run("render stands.json -o near.svg --zoom lintel --fill none");
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let svg = fs::read_to_string(bench.path("near.svg")).expect("drawn");
+    assert!(svg.contains("around block lintel"));
+    let ran = bench.run("render stands.json -o near.svg --zoom lintl");
+    assert_eq!(ran.code, 2);
+    assert!(ran.err.contains("did you mean lintel?"), "{}", ran.err);
+}
+
+#[test]
+fn a_figure_for_latex_holds_its_words_and_pairs_its_groups() {
+    let bench = Bench::new();
+    let ran = bench.run("render stands.json -o a.tikz --width-mm 84");
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let tikz = fs::read_to_string(bench.path("a.tikz")).expect("drawn");
+    let count = |what: &str| tikz.matches(what).count();
+    assert_eq!(
+        (count("\\begin{tikzpicture}"), count("\\end{tikzpicture}")),
+        (1, 1)
+    );
+    assert_eq!(count("\\begin{scope}"), count("\\end{scope}"));
+    assert!(tikz.contains("{lintel}") && tikz.contains("{stands}"));
+    assert!(!tikz.contains("NaN") && !tikz.contains("inf"));
+}
+
+#[test]
+fn characters_that_no_font_has_are_named_and_never_drawn_as_boxes() {
+    let bench = Bench::new();
+    let scene = r#"{ "drystone": 1, "title": "石塔", "ground": [{ "polygon": [[-1,-1],[3,-1],[3,0],[-1,0]] }],
+        "blocks": [{ "id": "لوح", "polygon": [[0,0],[2,0],[2,1],[0,1]], "weight": 4 }] }"#;
+    fs::write(bench.path("stone.json"), scene).expect("writable");
+    for line in [
+        "render stone.json -o s.png",
+        "render stone.json -o s.pdf",
+        "render stone.json -o s.svg --text paths",
+    ] {
+        let ran = bench.run(line);
+        assert_eq!(ran.code, 0, "{line}: {}", ran.err);
+        for named in ["石 (U+77F3)", "塔 (U+5854)", "U+0644", "--font FILE"] {
+            assert!(ran.err.contains(named), "{line}: {}", ran.err);
+        }
+    }
+    let svg = fs::read_to_string(bench.path("s.svg")).expect("drawn");
+    assert!(
+        svg.contains("aria-label=\"U+77F3\u{a0}5854\""),
+        "spelled out"
+    );
+    // Words that a browser sets stay as they are: it has its own fonts.
+    let ran = bench.run("render stone.json -o named.svg");
+    assert!(ran.code == 0 && !ran.err.contains("warning"), "{}", ran.err);
+    let svg = fs::read_to_string(bench.path("named.svg")).expect("drawn");
+    assert!(svg.contains(">石塔</text>"));
+    for (line, said) in [
+        (
+            "render stone.json -o s.png --font stone.json",
+            "it is no font",
+        ),
+        ("render stone.json -o s.png --font none.ttf", "none.ttf"),
+    ] {
+        let ran = bench.run(line);
+        assert!(
+            ran.code == 2 && ran.err.contains(said),
+            "{line}: {}",
+            ran.err
+        );
+    }
+}
+
+#[test]
 fn a_broken_scene_breaks_the_book() {
     let bench = Bench::new();
     assert_eq!(bench.run("mdbook supports html").code, 0);

@@ -1,0 +1,64 @@
+//! Scripts that no font has: their characters are named in a warning and drawn as their code points.
+
+use std::borrow::Cow;
+
+use crate::cli::page::Page;
+use crate::cli::source::Source;
+use crate::cli::terminal::Terminal;
+use crate::output::fonts::Fonts;
+use crate::scene::Scene;
+
+/// Says which characters of the scenes no font has.
+pub(crate) fn warn(sources: &[Source], fonts: &Fonts, terminal: &Terminal) {
+    for source in sources {
+        let lacking = fonts.lacking(&words(&source.scene).join(" "));
+        if lacking.is_empty() {
+            continue;
+        }
+        let shown: Vec<String> = lacking.iter().take(20).map(|c| character(*c)).collect();
+        let more = match lacking.len().saturating_sub(20) {
+            0 => String::new(),
+            more => format!(" and {more} more"),
+        };
+        terminal.complain(&Page::of(&format!(
+            "warning: {}: no font has {}{more}; they are told by their code points. Give a font that has them with \
+             --font FILE",
+            source.name(),
+            shown.join(" ")
+        )));
+    }
+}
+
+/// The words of a scene that figures show.
+fn words(scene: &Scene) -> Vec<&str> {
+    let blocks = scene.blocks.iter().map(|b| b.id.as_str());
+    let robots = scene.robots.iter().map(|r| r.id.as_str());
+    let frames = scene.frames.iter().map(|f| f.title.as_str());
+    let title = std::iter::once(scene.title.as_str());
+    title.chain(frames).chain(blocks).chain(robots).collect()
+}
+
+/// The scene with the characters that no font has told by their code points.
+pub(crate) fn legible(scene: &Scene, fonts: &Fonts) -> Scene {
+    let mut scene = scene.clone();
+    let spell = |words: &mut String| {
+        if let Cow::Owned(spelled) = fonts.spelled(words) {
+            *words = spelled;
+        }
+    };
+    spell(&mut scene.title);
+    scene.frames.iter_mut().for_each(|f| spell(&mut f.title));
+    scene.blocks.iter_mut().for_each(|b| spell(&mut b.id));
+    scene.robots.iter_mut().for_each(|r| spell(&mut r.id));
+    scene
+}
+
+/// A character as a person reads it: itself and its number; its number alone where it would move the others about.
+fn character(c: char) -> String {
+    let number = format!("U+{:04X}", u32::from(c));
+    if c.is_alphanumeric() {
+        format!("{c} ({number})")
+    } else {
+        number
+    }
+}

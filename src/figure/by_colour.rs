@@ -1,0 +1,30 @@
+//! [`ByColour`]: outlines joined by their colour, so that very many of them are few paths.
+
+use crate::drawing::{Colour, Item, Outline, Path, Stroke};
+
+/// Outlines joined by colour, in the order in which the colours came.
+#[derive(Default)]
+pub(crate) struct ByColour(Vec<(Colour, Outline)>);
+
+impl ByColour {
+    pub fn add(&mut self, fill: Colour, outline: Outline) {
+        match self.0.iter_mut().find(|known| known.0 == fill) {
+            Some(known) => known.1.extend(outline),
+            None => self.0.push((fill, outline)),
+        }
+    }
+
+    pub fn paths(self, stroke: Option<Stroke>) -> impl Iterator<Item = Item> {
+        let path = move |(fill, outline)| Path {
+            stroke: stroke.clone(),
+            ..Path::filled(outline, fill)
+        };
+        self.0.into_iter().map(path).map(Item::from)
+    }
+
+    /// The same as lines so many pixels wide.
+    pub fn lines(self, width: f64) -> impl Iterator<Item = Item> {
+        let path = move |(colour, outline)| Path::stroked(outline, Stroke::new(colour, width));
+        self.0.into_iter().map(path).map(Item::from)
+    }
+}

@@ -1,0 +1,68 @@
+//! Dimension lines: how wide and how high the blocks of a frame are, at the edges of its picture.
+
+use super::stage::Stage;
+use super::words::quantity;
+use crate::drawing::{Anchor, Camera, Face, Group, Outline, PagePoint, Path, Stroke, Text, text};
+use crate::geometry::Bounds;
+
+/// Room below a picture for its width, pixels.
+pub(crate) const BELOW: f64 = 26.0;
+/// Room on either side of a picture for its height, pixels: a figure stays in the middle of its panel.
+pub(crate) const ASIDE: f64 = 58.0;
+/// Half the length of the stroke across an end, pixels.
+const TICK: f64 = 4.0;
+
+/// The lines of a frame's picture, of what lies in `view`; nothing for a frame without blocks.
+pub(crate) fn lines(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Camera) -> Group {
+    let group = Group::of_class("dimensions");
+    let scene = stage.analysis.scene;
+    let blocks = scene.frames[frame].placed.iter();
+    let blocks = blocks.map(|id| scene.blocks[id.0].body.polygon.bounds());
+    let Some(all) = blocks.reduce(Bounds::union) else {
+        return group;
+    };
+    let theme = &stage.options.theme;
+    let (page, measured) = (camera.rect(view), camera.rect(all));
+    let size = theme.sizes.reason;
+    let stroke = || Stroke::new(theme.faint, 0.8);
+    let words = |value: f64| quantity(value, "m");
+
+    let y = page.at.y + page.height + 0.5 * BELOW;
+    let (left, right) = (measured.at.x, measured.at.x + measured.width);
+    let mut across = Outline::line([PagePoint::new(left, y), PagePoint::new(right, y)]);
+    for x in [left, right] {
+        let ends = [PagePoint::new(x, y - TICK), PagePoint::new(x, y + TICK)];
+        across.extend(Outline::line(ends));
+    }
+    let x = page.at.x - 10.0;
+    let (top, bottom) = (measured.at.y, measured.at.y + measured.height);
+    let mut up = Outline::line([PagePoint::new(x, top), PagePoint::new(x, bottom)]);
+    for y in [top, bottom] {
+        let ends = [PagePoint::new(x - TICK, y), PagePoint::new(x + TICK, y)];
+        up.extend(Outline::line(ends));
+    }
+    let label = |at: PagePoint, value: f64, anchor| {
+        Text::new(at, words(value), Face::Sans, size, theme.faint).anchored(anchor)
+    };
+    // On the line where it is long enough, else beside its end.
+    let wide = text::width(&words(all.width()), Face::Sans, size);
+    let below = if wide + 4.0 < measured.width {
+        label(
+            PagePoint::new((left + right) / 2.0, y + size + 1.0),
+            all.width(),
+            Anchor::Middle,
+        )
+    } else {
+        label(
+            PagePoint::new(right + 7.0, y + 0.36 * size),
+            all.width(),
+            Anchor::Start,
+        )
+    };
+    let beside = PagePoint::new(x - 7.0, (top + bottom) / 2.0 + 0.36 * size);
+    group
+        .with(Path::stroked(across, stroke()))
+        .with(Path::stroked(up, stroke()))
+        .with(below)
+        .with(label(beside, all.height(), Anchor::End))
+}

@@ -1,0 +1,115 @@
+//! [`Fonts`]: the fonts in which words are drawn: ours, and those a person adds for other scripts.
+//!
+//! Which fonts a machine has is never looked at: the same drawing and the same font files give the same picture
+//! everywhere. A character that none of them has would be an empty box; it is [spelled out](Fonts::spelled) instead.
+
+use std::borrow::Cow;
+use std::sync::Arc;
+
+use crate::drawing::{Face, text};
+
+/// Our fonts, and more where they are asked for.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Fonts {
+    more: Vec<Arc<Vec<u8>>>,
+}
+
+impl Fonts {
+    /// Our fonts and these files, of fonts or collections of fonts (.ttf, .otf, .ttc), which serve where ours lack a
+    /// character, the first one first.
+    ///
+    /// # Errors
+    /// The number, from 0, of the first file that is no font.
+    ///
+    /// # Example
+    /// ```
+    /// use drystone::output::fonts::Fonts;
+    /// assert_eq!(Fonts::with(vec![b"no font".to_vec()]), Err(0));
+    /// assert_eq!(Fonts::with(Vec::new()), Ok(Fonts::default()));
+    /// ```
+    pub fn with(files: Vec<Vec<u8>>) -> Result<Fonts, usize> {
+        if let Some(wrong) = files.iter().position(|data| !text::opens(data)) {
+            return Err(wrong);
+        }
+        Ok(Fonts {
+            more: files.into_iter().map(Arc::new).collect(),
+        })
+    }
+
+    /// The files beside ours.
+    pub(super) fn more(&self) -> &[Arc<Vec<u8>>] {
+        &self.more
+    }
+
+    /// Whether some font has a character. White space needs none.
+    pub fn has(&self, c: char) -> bool {
+        (c.is_whitespace() && !c.is_control())
+            || matches!(c, '\n' | '\t' | '\r')
+            || Face::ALL.iter().any(|face| face.has(c))
+            || self.more.iter().any(|data| text::covers(data, c))
+    }
+
+    /// The characters of a text that no font has, each once, in order of appearance.
+    pub fn lacking(&self, text: &str) -> Vec<char> {
+        let mut lacking = Vec::new();
+        for c in text
+            .chars()
+            .filter(|c| !c.is_ascii_graphic() && !self.has(*c))
+        {
+            if !lacking.contains(&c) {
+                lacking.push(c);
+            }
+        }
+        lacking
+    }
+
+    /// A text with the characters that no font has told by their code points, so that two names stay two names.
+    ///
+    /// ```
+    /// use drystone::output::fonts::Fonts;
+    /// assert_eq!(Fonts::default().spelled("Камень 石頭"), "Камень U+77F3\u{a0}982D");
+    /// ```
+    pub fn spelled<'t>(&self, text: &'t str) -> Cow<'t, str> {
+        if self.lacking(text).is_empty() {
+            return Cow::Borrowed(text);
+        }
+        let mut out = String::new();
+        let mut within = false;
+        for c in text.chars() {
+            let lacks = !c.is_ascii_graphic() && !self.has(c);
+            if lacks {
+                out.push_str(if within { "\u{a0}" } else { "U+" });
+                out.push_str(&format!("{:04X}", u32::from(c)));
+            } else {
+                out.push(c);
+            }
+            within = lacks;
+        }
+        Cow::Owned(out)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_no_font_has_is_spelled_out_and_two_names_stay_two() {
+        let fonts = Fonts::default();
+        let names = ["石", "塔", "لوح", "पत्थर", "돌", "🪨", "a\u{202e}b", "\u{7}"];
+        let mut spelled: Vec<String> = names
+            .iter()
+            .map(|n| fonts.spelled(n).into_owned())
+            .collect();
+        for name in &spelled {
+            assert!(fonts.lacking(name).is_empty(), "{name}");
+        }
+        spelled.sort();
+        spelled.dedup();
+        assert_eq!(spelled.len(), names.len());
+        for plain in ["Keystone 3", "Größe · 4,5 m²", "Камень", "µ ≤ 0.7", "a\tb"] {
+            assert_eq!(fonts.spelled(plain), plain);
+        }
+        assert_eq!(fonts.lacking("石頭石"), ['石', '頭']);
+    }
+}

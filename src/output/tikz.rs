@@ -1,0 +1,286 @@
+//! [`write()`]: a drawing as a TikZ picture, for documents that are set in LaTeX: its words in the document's own fonts.
+//!
+//! It needs the packages `tikz` and nothing else; `\input` the file where the figure is to stand.
+
+use std::fmt::Write as _;
+
+use super::{MM_PER_INCH, PIXELS_PER_INCH};
+use crate::drawing::{
+    Anchor, Colour, Drawing, Face, Group, Item, Join, Outline, PagePoint, Path, Segment, Stroke,
+    Text,
+};
+
+/// PostScript points per inch, of which TeX has its own name.
+const BIG_POINTS: f64 = 72.0;
+
+/// A drawing as a `tikzpicture`, `width_mm` wide or, where nothing is said, a 96th of an inch per pixel.
+///
+/// # Panics
+/// Where a number of the drawing is not finite: that is an error of ours, never of a scene.
+///
+/// # Example
+/// ```
+/// use drystone::drawing::{Colour, Drawing, Face, PagePoint, Text};
+/// let words = Text::new(PagePoint::new(5.0, 20.0), "50 % & more", Face::Serif, 12.0, Colour::BLACK);
+/// let drawing = Drawing { width: 120.0, height: 30.0, title: "A word".into(), description: String::new(),
+///     background: None, items: vec![words.into()] };
+/// let tikz = drystone::output::tikz::write(&drawing, None);
+/// assert!(tikz.contains(r"\begin{tikzpicture}") && tikz.contains(r"50 \% \& more"));
+/// ```
+pub fn write(drawing: &Drawing, width_mm: Option<f64>) -> String {
+    let unit = match width_mm {
+        Some(mm) => mm / drawing.width * BIG_POINTS / MM_PER_INCH,
+        None => BIG_POINTS / PIXELS_PER_INCH,
+    };
+    let mut pen = Pen {
+        text: String::new(),
+        unit,
+    };
+    pen.line(&format!("% {}", comment(&drawing.title)));
+    pen.line(&format!(
+        "\\begin{{tikzpicture}}[x={u}bp,y=-{u}bp,line join=round,line cap=round]",
+        u = number(unit)
+    ));
+    let (w, h) = (number(drawing.width), number(drawing.height));
+    match drawing.background {
+        Some(page) => pen.line(&format!(
+            "\\fill[{}] (0,0) rectangle ({w},{h});",
+            fill(page)
+        )),
+        None => pen.line(&format!("\\path (0,0) rectangle ({w},{h});")),
+    }
+    pen.items(&drawing.items);
+    pen.line("\\end{tikzpicture}");
+    pen.text
+}
+
+struct Pen {
+    text: String,
+    /// Big points per pixel.
+    unit: f64,
+}
+
+impl Pen {
+    fn line(&mut self, line: &str) {
+        self.text.push_str(line);
+        self.text.push('\n');
+    }
+
+    fn items(&mut self, items: &[Item]) {
+        for item in items {
+            match item {
+                Item::Path(path) => self.path(path),
+                Item::Text(text) => self.words(text),
+                Item::Group(group) => self.group(group),
+            }
+        }
+    }
+
+    fn group(&mut self, group: &Group) {
+        let Some(clip) = group.clip else {
+            self.items(&group.items);
+            return;
+        };
+        let end = clip.at.moved(clip.width, clip.height);
+        self.line("\\begin{scope}");
+        self.line(&format!(
+            "\\clip {} rectangle {};",
+            place(clip.at),
+            place(end)
+        ));
+        self.items(&group.items);
+        self.line("\\end{scope}");
+    }
+
+    fn path(&mut self, path: &Path) {
+        if path.outline.segments.is_empty() {
+            return;
+        }
+        let steps = steps(&path.outline);
+        let opacity = if path.opacity < 1.0 {
+            format!(",opacity={}", number(path.opacity))
+        } else {
+            String::new()
+        };
+        let filled = path
+            .fill
+            .map(|c| format!("\\fill[{}{opacity}] {steps};", fill(c)));
+        let drawn = path.stroke.as_ref().filter(|s| s.width > 0.0);
+        let drawn = drawn.map(|s| format!("\\draw[{}{opacity}] {steps};", self.stroke(s)));
+        let mut passes = [filled, drawn];
+        if path.fill_last {
+            passes.reverse();
+        }
+        for pass in passes.into_iter().flatten() {
+            self.line(&pass);
+        }
+    }
+
+    fn stroke(&self, stroke: &Stroke) -> String {
+        let mut said = format!(
+            "draw={},line width={}bp",
+            colour(stroke.colour),
+            number(stroke.width * self.unit)
+        );
+        if stroke.join == Join::Miter {
+            said.push_str(",line join=miter,line cap=butt");
+        }
+        if !stroke.dash.is_empty() {
+            said.push_str(",dash pattern=");
+            for (i, length) in stroke.dash.iter().enumerate() {
+                let what = if i % 2 == 0 { "on" } else { "off" };
+                // A `String` takes every character; this cannot fail.
+                let _ = write!(said, "{what} {}bp ", number(length * self.unit));
+            }
+        }
+        said
+    }
+
+    fn words(&mut self, text: &Text) {
+        let anchor = match text.anchor {
+            Anchor::Start => "base west",
+            Anchor::Middle => "base",
+            Anchor::End => "base east",
+        };
+        let face = match text.face {
+            Face::Serif => "",
+            Face::SerifItalic => "\\itshape",
+            Face::SerifBold => "\\bfseries",
+            Face::Sans => "\\sffamily",
+            Face::SansBold => "\\sffamily\\bfseries",
+        };
+        let size = text.size * self.unit;
+        self.line(&format!(
+            "\\node[anchor={anchor},inner sep=0pt,text={},font=\\fontsize{{{}bp}}{{{}bp}}\\selectfont{face}] at {} {{{}}};",
+            colour(text.fill),
+            number(size),
+            number(1.2 * size),
+            place(text.at),
+            escaped(&text.words)
+        ));
+    }
+}
+
+fn colour(Colour([r, g, b]): Colour) -> String {
+    format!("{{rgb,255:red,{r};green,{g};blue,{b}}}")
+}
+
+fn fill(of: Colour) -> String {
+    format!("fill={}", colour(of))
+}
+
+fn place(p: PagePoint) -> String {
+    format!("({},{})", number(p.x), number(p.y))
+}
+
+fn steps(outline: &Outline) -> String {
+    let mut steps = String::new();
+    for segment in &outline.segments {
+        let step = match *segment {
+            Segment::Move(p) => place(p),
+            Segment::Line(p) => format!("--{}", place(p)),
+            Segment::Curve(a, b, c) => {
+                format!("..controls{}and{}..{}", place(a), place(b), place(c))
+            }
+            Segment::Close => "--cycle".to_owned(),
+        };
+        steps.push_str(&step);
+    }
+    steps
+}
+
+/// A number with at most three decimals and no exponent, which TeX does not read.
+fn number(value: f64) -> String {
+    assert!(
+        value.is_finite(),
+        "a drawing holds the number {value}; every number of a drawing is finite"
+    );
+    let mut text = format!("{value:.3}");
+    let kept = text.trim_end_matches('0').trim_end_matches('.').len();
+    text.truncate(kept);
+    if text == "-0" { "0".to_owned() } else { text }
+}
+
+/// Text that may stand after a percent sign: one line of it.
+fn comment(text: &str) -> String {
+    text.chars()
+        .map(|c| if c.is_control() { ' ' } else { c })
+        .collect()
+}
+
+/// Words as LaTeX reads them. Letters of other scripts stay, for the fonts of the document.
+fn escaped(words: &str) -> String {
+    let mut out = String::with_capacity(words.len());
+    for c in words.chars() {
+        match c {
+            '\\' => out.push_str("\\textbackslash{}"),
+            '{' | '}' | '$' | '&' | '#' | '%' | '_' => {
+                out.push('\\');
+                out.push(c);
+            }
+            '~' => out.push_str("\\textasciitilde{}"),
+            '^' => out.push_str("\\textasciicircum{}"),
+            '<' => out.push_str("\\textless{}"),
+            '>' => out.push_str("\\textgreater{}"),
+            '|' => out.push_str("\\textbar{}"),
+            '"' => out.push_str("\\textquotedbl{}"),
+            '\u{a0}' => out.push('~'),
+            '−' => out.push_str("$-$"),
+            '·' => out.push_str("$\\cdot$"),
+            '×' => out.push_str("$\\times$"),
+            '°' => out.push_str("$^{\\circ}$"),
+            'µ' | 'μ' => out.push_str("$\\mu$"),
+            '≤' => out.push_str("$\\leq$"),
+            '≥' => out.push_str("$\\geq$"),
+            '…' => out.push_str("\\ldots{}"),
+            '–' => out.push_str("--"),
+            '—' => out.push_str("---"),
+            '⁻' => out.push_str("$^{-}$"),
+            '⁰'..='⁹' | '¹' | '²' | '³' => match "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().position(|d| d == c)
+            {
+                Some(digit) => {
+                    let _ = write!(out, "$^{{{digit}}}$");
+                }
+                None => out.push(c),
+            },
+            c if c.is_control() => out.push(' '),
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hostile_words_are_words_and_braces_pair() {
+        let nasty = "\\input{/etc/passwd} 50 % of #1 $x_2^3$ & ~ {{ } |<>\" 2×10⁻³ N·m\u{7}\n";
+        let escaped = escaped(nasty);
+        assert!(!escaped.contains("\\input") && !escaped.contains('\n'));
+        let mut depth = 0;
+        let mut before = ' ';
+        for c in escaped.chars() {
+            match c {
+                '{' if before != '\\' => depth += 1,
+                '}' if before != '\\' => depth -= 1,
+                _ => {}
+            }
+            assert!(depth >= 0);
+            before = c;
+        }
+        assert_eq!(depth, 0, "{escaped}");
+        assert!(
+            escaped.contains("$\\times$10$^{-}$$^{3}$ N$\\cdot$m"),
+            "{escaped}"
+        );
+    }
+
+    #[test]
+    fn numbers_have_no_exponent_and_no_minus_zero() {
+        assert_eq!(number(1e-9), "0");
+        assert_eq!(number(-1e-9), "0");
+        assert_eq!(number(123456.7891), "123456.789");
+    }
+}
