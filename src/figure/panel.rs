@@ -61,9 +61,9 @@ pub(crate) fn picture(stage: &Stage<'_>, number: usize, view: Bounds, camera: &C
     group
         .items
         .push(label::labels(&pen, view, label::ink(&pen)).into());
-    group
-        .items
-        .retain(|item| !matches!(item, Item::Group(g) if g.items.is_empty()));
+    group.items.retain(
+        |item| !matches!(item, Item::Group(g) if g.items.is_empty() && g.description.is_empty()),
+    );
     group
 }
 
@@ -198,7 +198,7 @@ impl<'a> Pen<'a> {
         group.items.push(label::labels(self, view, ink).into());
         group
             .items
-            .retain(|item| !matches!(item, Item::Group(g) if g.items.is_empty()));
+            .retain(|item| !matches!(item, Item::Group(g) if g.items.is_empty() && g.description.is_empty()));
         group
     }
 

@@ -15,6 +15,8 @@ pub(crate) const MANY: usize = 1000;
 
 /// Where a unit edge is shorter than this, pixels, 2.2 mm, the arrows of a figure are dust.
 const DUST: f64 = 8.4;
+/// Fewer blocks than this are no crowd: their arrows stay, and what is too short to be seen is counted.
+const CROWD: usize = 40;
 
 /// What all panels of a figure share.
 pub(crate) struct Stage<'a> {
@@ -97,7 +99,13 @@ impl<'a> Stage<'a> {
             .blocks
             .iter()
             .any(|b| b.body.fill.is_none());
-        self.unit * scale < DUST && told && !self.plain() && !self.options.printed()
+        let frames = self.analysis.scene.frames.iter();
+        let most = frames.map(|f| f.placed.len()).max().unwrap_or(0);
+        most >= CROWD
+            && self.unit * scale < DUST
+            && told
+            && !self.plain()
+            && !self.options.printed()
     }
 
     /// Whether blocks have one plain colour.

@@ -45,7 +45,7 @@ pub(crate) fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
     let used = most_used(scene, found);
     match found.verdict {
         Verdict::Stable => format!("in the balance shown: {used}"),
-        Verdict::Unstable => format!("it falls; with the missing forces added, {used}"),
+        Verdict::Unstable => format!("with the missing forces added, {used}"),
         Verdict::Undecided => format!(
             "in what was found: {used}; {}",
             verdict::reason(scene, found)

@@ -268,7 +268,7 @@ fn every_kind_of_figure_says_what_it_shows() {
         ),
         (
             "utilisation",
-            "beside what is missing",
+            "with the missing forces added",
             "in the balance shown",
         ),
     ] {

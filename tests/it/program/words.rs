@@ -227,7 +227,7 @@ fn themes_and_styles_change_the_picture() {
         .run("render stands.json -o - --style mine.toml --theme paper")
         .out;
     assert!(
-        both.contains("fill=\"#ffeedd\"") && both.contains("#f9f9f7"),
+        both.contains("fill=\"#ffeedd\"") && both.contains("#f0f0ee"),
         "{both}"
     );
 }
