@@ -237,8 +237,16 @@ fn on_a_page_as_wide_as_a_column_words_stay_large_and_nothing_is_cut() {
 /// Whether a text has a name as a word of its own.
 fn names(text: &str, name: &str) -> bool {
     let apart = |c: Option<char>| c.is_none_or(|c| !c.is_alphanumeric());
+    // A number before a unit or a noun is an amount or a count and names nothing.
+    let counts = |rest: &str| {
+        let word = rest.trim_start_matches([' ', '\u{a0}', '\u{202f}']);
+        ["N", "kN", "MN", "mN", "name", "force"]
+            .iter()
+            .any(|noun| word.starts_with(noun))
+    };
     text.match_indices(name).any(|(at, _)| {
-        apart(text[..at].chars().next_back()) && apart(text[at + name.len()..].chars().next())
+        let rest = &text[at + name.len()..];
+        apart(text[..at].chars().next_back()) && apart(rest.chars().next()) && !counts(rest)
     })
 }
 

@@ -182,6 +182,15 @@ fn same(
         "{what}: {:?} {:?} {}",
         before.proof, after.proof, after.doubt
     );
+    // A random pile may have a gap on which the verdict hinges; then it has it however it lies.
+    if before.doubt.contains("narrow gaps") {
+        assert!(
+            after.doubt.contains("narrow gaps"),
+            "{what}: {}",
+            after.doubt
+        );
+        return;
+    }
     assert_ne!(
         before.verdict,
         Verdict::Undecided,
