@@ -56,11 +56,14 @@
 //! | [`output::pdf::write`] | a PDF page | a drawing, through that text |
 //! | [`study::study`] | what accuracy costs | scenes |
 //! | [`report::result::to_json`] | JSON for other programs | an analysis |
+//! | [`text`] | words that do nothing | text of others |
 //!
 //! Why it is built so stands in [`doc::design`]; axes, units and signs in [`doc::conventions`]; tolerances and traps in
 //! [`doc::numerics`].
 
 // Blank lines keep the order of reading: the formatter would sort them.
+
+pub mod text;
 
 pub mod geometry;
 
@@ -115,6 +118,9 @@ pub mod doc {
     #[doc = include_str!("doc/accuracy.md")]
     #[doc = include_str!("../assets/accuracy.svg")]
     pub mod accuracy {}
+
+    #[doc = include_str!("doc/performance.md")]
+    pub mod performance {}
 
     #[doc = include_str!("doc/import.md")]
     pub mod import {}

@@ -8,6 +8,8 @@
 mod component;
 mod frame;
 mod margin;
+mod mechanism;
+mod near;
 mod option;
 
 use std::collections::BTreeMap;
@@ -26,7 +28,7 @@ pub use crate::proof::{Demand, Motion, Proof};
 pub use crate::resultant::Resultant;
 use crate::resultant::{friction_used, of as resultant_of};
 use crate::scene::{BlockId, BodyId, RobotId, Scene};
-use crate::solve::Effort;
+use crate::solve::{Effort, Until};
 pub use component::Method;
 use component::{Findings, solved};
 use frame::{settle, worst};
@@ -192,6 +194,9 @@ pub struct SolveReport {
     pub seconds: f64,
 }
 
+/// Why a frame is undecided whose programs were given up at the deadline.
+const LATE: &str = "the time limit was reached before it was decided";
+
 /// What is known of the components of earlier frames.
 #[derive(Default)]
 struct Known {
@@ -224,23 +229,8 @@ impl<'s> Analysis<'s> {
 
     /// Examines every frame of a scene, and what else is asked for.
     pub fn with(scene: &'s Scene, options: &Options) -> Analysis<'s> {
-        let found = Interfaces::of(scene);
-        let mut known = Known::default();
-        let frames = scene
-            .frames
-            .iter()
-            .map(|frame| {
-                let interfaces = found.in_frame(scene, frame);
-                let situation = Situation {
-                    scene,
-                    frame,
-                    interfaces: &interfaces,
-                };
-                let mut analysis = examined(&situation, *options, &mut known);
-                analysis.notices.extend(found.notices.iter().cloned());
-                analysis
-            })
-            .collect();
+        let (found, mut frames) = examine(scene, options);
+        near::judge(scene, &found, &mut frames, options);
         Analysis { scene, frames }
     }
 
@@ -254,6 +244,28 @@ impl<'s> Analysis<'s> {
     }
 }
 
+/// Examines every frame of a scene with its gaps as they are.
+fn examine(scene: &Scene, options: &Options) -> (Interfaces, Vec<FrameAnalysis>) {
+    let found = Interfaces::of(scene);
+    let mut known = Known::default();
+    let frames = scene
+        .frames
+        .iter()
+        .map(|frame| {
+            let interfaces = found.in_frame(scene, frame);
+            let situation = Situation {
+                scene,
+                frame,
+                interfaces: &interfaces,
+            };
+            let mut analysis = examined(&situation, *options, &mut known);
+            analysis.notices.extend(found.notices.iter().cloned());
+            analysis
+        })
+        .collect();
+    (found, frames)
+}
+
 /// Examines one frame.
 fn examined(situation: &Situation, options: Options, known: &mut Known) -> FrameAnalysis {
     let start = Instant::now();
@@ -263,7 +275,10 @@ fn examined(situation: &Situation, options: Options, known: &mut Known) -> Frame
     let fresh: Vec<usize> = (0..components.len())
         .filter(|k| !known.findings.contains_key(&keys[*k]))
         .collect();
-    let one = |k: &usize| solved(&components[*k], options);
+    let one = |k: &usize| {
+        let _until = Until::set(options.deadline);
+        solved(&components[*k], options)
+    };
     // Many small components are worth the threads; the order of the results is that of the components either way.
     let findings: Vec<Findings> = if fresh.len() > 16 {
         fresh.par_iter().map(one).collect()
@@ -289,6 +304,10 @@ fn examined(situation: &Situation, options: Options, known: &mut Known) -> Frame
         .iter()
         .fold(Count::default(), |sum, f| sum.and(f.1.count));
     settle(&mut analysis, situation, count);
+    if analysis.verdict == Verdict::Undecided && options.is_late() {
+        analysis.doubt = format!("{LATE}: {}", analysis.doubt);
+    }
+    let _until = Until::set(options.deadline);
     let methods = found.iter().map(|f| f.1.method);
     analysis.solve = SolveReport {
         method: methods.max().unwrap_or(Method::ClosedForm),

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 
-use crate::analysis::{Analysis, Verdict};
+use crate::analysis::{self, Analysis, Verdict};
 use crate::cli::complaint::Complaint;
 use crate::cli::destination::{self, Destination};
 use crate::cli::ending::Ending;
@@ -49,7 +49,10 @@ pub(crate) struct Render {
     /// The block that a free-body diagram cuts free, by its id
     #[arg(long, value_name = "ID")]
     block: Option<String>,
-    /// Show the frames one after the other in an animated PNG, each for so many seconds
+    /// In a free-body diagram name every force that may act at every end of its interfaces, also those that are zero
+    #[arg(long)]
+    corners: bool,
+    /// Show the frames one after the other in an animated PNG, each for so many seconds; of a mechanism its way in steps
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     animate: Option<f64>,
     /// Write its amount beside every arrow
@@ -82,6 +85,8 @@ enum Kind {
     Utilisation,
     /// The steps of a construction, arrows to one scale in all of them; --animate shows them one after the other
     Build,
+    /// The forces on the structure from outside, and their polygon beside it
+    Polygon,
     /// One block cut free, with every force that may act on it by name
     Freebody,
 }
@@ -121,6 +126,7 @@ impl Kind {
             Kind::Kernel => Some(figure::Kind::Kernel),
             Kind::Utilisation => Some(figure::Kind::Utilisation),
             Kind::Build => Some(figure::Kind::Build),
+            Kind::Polygon => Some(figure::Kind::Polygon),
             Kind::Freebody => None,
         }
     }
@@ -144,13 +150,20 @@ impl Render {
             let why = "--block names the block of a free-body diagram; add --kind freebody";
             return Err(vec![Complaint::CommandLine(why.into())]);
         }
+        if self.corners && !matches!(self.kind, Kind::Freebody) {
+            let why = "--corners is about the forces of a free-body diagram; add --kind freebody";
+            return Err(vec![Complaint::CommandLine(why.into())]);
+        }
         if self.animate.is_some() && (format != Format::Png || self.kind.panels().is_none()) {
             let why = "--animate makes a PNG of the frames of a figure; write a .png, of any kind but freebody";
             return Err(vec![Complaint::CommandLine(why.into())]);
         }
         self.check_count(&destination, format, terminal)
             .map_err(|c| vec![c])?;
-        let (theme, sources) = match (self.look.theme(), source::read(&self.scenes, self.frame)) {
+        let (theme, sources) = match (
+            self.look.theme(),
+            source::read(&self.scenes, self.frame, self.level.contact_tolerance),
+        ) {
             (Ok(theme), Ok(sources)) => (theme, sources),
             (theme, sources) => {
                 let scenes = sources.err().into_iter().flatten();
@@ -169,9 +182,10 @@ impl Render {
             Shown::Never
         };
         let progress = Progress::begin(2 * sources.len(), shown);
+        let asked = self.level.options();
         let rendered: Vec<Result<Rendered, Complaint>> = sources
             .par_iter()
-            .map(|source| self.render(source, &options, format, &progress))
+            .map(|source| self.render(source, &asked, &options, format, &progress))
             .collect();
         drop(progress);
         let rendered = all(rendered)?;
@@ -229,12 +243,13 @@ impl Render {
     fn render(
         &self,
         source: &Source,
+        asked: &analysis::Options,
         options: &figure::Options,
         format: Format,
         progress: &Progress,
     ) -> Result<Rendered, Complaint> {
         progress.doing(&source.name());
-        let analysis = Analysis::with(&source.scene, &self.level.options());
+        let analysis = Analysis::with(&source.scene, asked);
         progress.step();
         let bytes = match self.animate {
             Some(seconds) => {
@@ -312,6 +327,11 @@ impl Render {
             scale: match self.arrow_scale {
                 ArrowScale::Panel => figure::ArrowScale::Panel,
                 ArrowScale::Strip => figure::ArrowScale::Strip,
+            },
+            corners: if self.corners {
+                figure::Corners::All
+            } else {
+                figure::Corners::Few
             },
             columns: self.columns.map(usize::from),
             amounts: self.amounts,

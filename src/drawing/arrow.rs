@@ -1,7 +1,8 @@
-//! Arrows as filled outlines: a straight one whose shaft is the vector, and one that turns about a point.
+//! Arrows as filled outlines: a straight one, and one that turns about a point.
 //!
-//! The head lies beyond the shaft, as in the source's figures: of width 3·w and length 4.5·w for a shaft of width w, so
-//! that a short arrow still tells its direction and the shaft alone tells its amount.
+//! From tail to tip an arrow is exactly as long as what it tells: the head, of width 3·w and length 4.5·w for a shaft
+//! of width w, lies within that length. An arrow shorter than its head is a head alone, smaller in proportion, so that
+//! lengths can be compared down to the shortest.
 
 use core::f64::consts::PI;
 
@@ -12,7 +13,15 @@ pub const HEAD_WIDTH: f64 = 3.0;
 /// Length of a head in shaft widths.
 pub const HEAD_LENGTH: f64 = 4.5;
 
-/// An arrow whose shaft runs from `from` by `along` (right and down), `width` pixels wide. Empty for a zero vector.
+/// How long and how wide the head of an arrow of this length and width of its shaft is, pixels or metres.
+pub fn head_size(length: f64, width: f64) -> (f64, f64) {
+    let full = HEAD_LENGTH * width;
+    let long = length.min(full);
+    (long, HEAD_WIDTH / HEAD_LENGTH * long)
+}
+
+/// An arrow from `from` to its tip at `from` + `along` (right and down), its shaft `width` pixels wide. Empty for a zero
+/// vector.
 pub fn straight(from: PagePoint, along: (f64, f64), width: f64) -> Outline {
     let length = libm::hypot(along.0, along.1);
     if length.is_nan() || length <= 0.0 {
@@ -21,14 +30,16 @@ pub fn straight(from: PagePoint, along: (f64, f64), width: f64) -> Outline {
     let (ux, uy) = (along.0 / length, along.1 / length);
     let at =
         |forward: f64, aside: f64| from.moved(ux * forward - uy * aside, uy * forward + ux * aside);
-    let (half, head) = (width / 2.0, HEAD_WIDTH * width / 2.0);
+    let (long, wide) = head_size(length, width);
+    let (neck, head) = (length - long, wide / 2.0);
+    let half = (width / 2.0).min(head / HEAD_WIDTH);
     Outline::ring([
         at(0.0, -half),
-        at(length, -half),
-        at(length, -head),
-        at(length + HEAD_LENGTH * width, 0.0),
-        at(length, head),
-        at(length, half),
+        at(neck, -half),
+        at(neck, -head),
+        at(length, 0.0),
+        at(neck, head),
+        at(neck, half),
         at(0.0, half),
     ])
 }
@@ -42,28 +53,39 @@ pub fn head(from: PagePoint, along: (f64, f64), width: f64) -> Outline {
     Outline::line(corners)
 }
 
-/// An arrow along a circle about `centre`, from the angle `start` through `sweep` radians, both anticlockwise as seen on
-/// the page (from the x axis to the right), `width` pixels wide. The head lies beyond the sweep. Empty for a zero sweep.
+/// An arrow along a circle about `centre`, from the angle `start` to its tip `sweep` radians farther, both anticlockwise
+/// as seen on the page (from the x axis to the right), `width` pixels wide. Empty for a zero sweep.
 pub fn turning(centre: PagePoint, radius: f64, start: f64, sweep: f64, width: f64) -> Outline {
     if !(sweep.abs() > 0.0 && radius > 0.0) {
         return Outline::default();
     }
     let at = |angle: f64, r: f64| centre.moved(r * libm::cos(angle), -r * libm::sin(angle));
-    let (half, head) = (width / 2.0, HEAD_WIDTH * width / 2.0);
-    let end = start + sweep;
+    let (long, wide) = head_size(sweep.abs() * radius, width);
+    let head = wide / 2.0;
+    let half = (width / 2.0).min(head / HEAD_WIDTH);
+    let shaft = sweep - sweep.signum() * long / radius;
+    let (neck, end) = (start + shaft, start + sweep);
     let mut outline = Outline {
         segments: vec![Segment::Move(at(start, radius + half))],
     };
-    arc(&mut outline, centre, radius + half, start, sweep);
-    outline.segments.push(Segment::Line(at(end, radius + head)));
-    // The tip lies as far along the circle as a straight head is long, and a little outside it: a head that follows the
-    // circle looks bent, one along the tangent looks as if it flew off.
-    let beyond = sweep.signum() * HEAD_LENGTH * width / radius;
-    let tip = at(end + 0.8 * beyond, radius + 0.12 * HEAD_LENGTH * width);
+    if shaft != 0.0 {
+        arc(&mut outline, centre, radius + half, start, shaft);
+    }
+    outline
+        .segments
+        .push(Segment::Line(at(neck, radius + head)));
+    // A little outside the circle: a head that follows it looks bent, one along the tangent as if it flew off.
+    let tip = at(end, radius + 0.12 * long);
     outline.segments.push(Segment::Line(tip));
-    outline.segments.push(Segment::Line(at(end, radius - head)));
-    outline.segments.push(Segment::Line(at(end, radius - half)));
-    arc(&mut outline, centre, radius - half, end, -sweep);
+    outline
+        .segments
+        .push(Segment::Line(at(neck, radius - head)));
+    outline
+        .segments
+        .push(Segment::Line(at(neck, radius - half)));
+    if shaft != 0.0 {
+        arc(&mut outline, centre, radius - half, neck, -shaft);
+    }
     outline.segments.push(Segment::Close);
     outline
 }
@@ -92,13 +114,20 @@ fn arc(outline: &mut Outline, centre: PagePoint, radius: f64, start: f64, sweep:
 mod tests {
     use super::*;
 
+    /// Distance from the tail to the point farthest along the arrow.
+    fn reach(along: (f64, f64), width: f64) -> f64 {
+        let outline = straight(PagePoint::new(1.0, 2.0), along, width);
+        let length = libm::hypot(along.0, along.1);
+        let far = |p: PagePoint| ((p.x - 1.0) * along.0 + (p.y - 2.0) * along.1) / length;
+        outline.points().map(far).fold(0.0, f64::max)
+    }
+
     #[test]
-    fn the_shaft_is_the_vector_and_the_head_lies_beyond_it() {
-        let outline = straight(PagePoint::new(1.0, 2.0), (0.0, -10.0), 2.0);
-        let points: Vec<PagePoint> = outline.points().collect();
-        assert_eq!(points[3], PagePoint::new(1.0, 2.0 - 10.0 - 9.0));
-        assert_eq!((points[2].x - points[4].x).abs(), 6.0);
-        assert_eq!(points[1].y, -8.0);
+    fn from_tail_to_tip_an_arrow_is_as_long_as_it_is_told_to_be() {
+        for length in [0.01, 0.5, 3.0, 8.9, 9.0, 9.1, 40.0, 1e4] {
+            assert!((reach((0.0, -length), 2.0) - length).abs() < 1e-9 * length);
+            assert!((reach((0.6 * length, 0.8 * length), 2.0) - length).abs() < 1e-9 * length);
+        }
         assert!(
             straight(PagePoint::new(1.0, 2.0), (0.0, 0.0), 2.0)
                 .segments
@@ -107,15 +136,26 @@ mod tests {
     }
 
     #[test]
+    fn below_the_heads_own_length_the_head_shrinks_with_the_arrow() {
+        assert_eq!(head_size(100.0, 2.0), (9.0, 6.0));
+        assert_eq!(head_size(4.5, 2.0), (4.5, 3.0));
+        let wide = |length: f64| {
+            let points = straight(PagePoint::new(0.0, 0.0), (length, 0.0), 2.0);
+            points.points().map(|p| p.y).fold(0.0, f64::max)
+        };
+        assert!((wide(4.5) - 1.5).abs() < 1e-12 && (wide(0.9) - 0.3).abs() < 1e-12);
+    }
+
+    #[test]
     fn a_positive_sweep_turns_anticlockwise_on_the_page() {
         let centre = PagePoint::new(0.0, 0.0);
         let outline = turning(centre, 10.0, 0.0, PI / 2.0, 1.0);
-        // A quarter turn from the right ends above the centre, its tip further to the left.
+        // A quarter turn from the right ends above the centre.
         let tip = outline
             .points()
-            .fold(centre, |t, p| if p.x < t.x { p } else { t });
-        assert!(tip.x < -3.0 && tip.y < -8.0, "{tip:?}");
+            .fold(centre, |t, p| if p.y < t.y { p } else { t });
+        assert!(tip.x.abs() < 1.0 && tip.y < -9.0, "{tip:?}");
         let back = turning(centre, 10.0, 0.0, -PI / 2.0, 1.0);
-        assert!(back.points().all(|p| p.y > -2.0));
+        assert!(back.points().all(|p| p.y > -2.0) && back.points().any(|p| p.y > 9.0));
     }
 }

@@ -6,7 +6,7 @@
 
 use core::f64::consts::TAU;
 
-use super::arrow::{HEAD_LENGTH, HEAD_WIDTH};
+use super::arrow::head_size;
 use super::{PagePoint, PageRect};
 
 /// Rings tried about an anchor.
@@ -79,11 +79,13 @@ impl Ink {
             return;
         }
         let (ux, uy) = (along.0 / length, along.1 / length);
-        let (end, half) = (from.moved(along.0, along.1), HEAD_WIDTH * width / 2.0);
+        let (long, wide) = head_size(length, width);
+        let (neck, half) = (length - long, wide / 2.0);
+        let end = from.moved(ux * neck, uy * neck);
         self.line(from, end, width);
         self.convex([
             end.moved(-uy * half, ux * half),
-            end.moved(ux * HEAD_LENGTH * width, uy * HEAD_LENGTH * width),
+            end.moved(ux * long, uy * long),
             end.moved(uy * half, -ux * half),
         ]);
     }

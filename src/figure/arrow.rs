@@ -1,6 +1,10 @@
 //! [`Marks`]: every arrow of a frame in numbers, in metres and newtons, before anything is drawn.
+//!
+//! From tail to tip an arrow is proportional to its force. One too short to be seen is not drawn, and counted.
 
+use super::words::quantity;
 use crate::drawing::Colour;
+use crate::drawing::arrow::HEAD_LENGTH;
 use crate::geometry::{Point, Vector};
 use crate::scene::{BodyId, RobotId};
 
@@ -56,6 +60,18 @@ impl ArrowKind {
     }
 }
 
+/// An arrow shorter than this from tail to tip, pixels, is not seen.
+pub(crate) const LEAST_SEEN: f64 = 2.0;
+
+/// Where an arrow's head lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Head {
+    /// Within the vector: from tail to tip the arrow tells its force.
+    Within,
+    /// Beyond the vector, as in the source's printed figures: the shaft alone tells the force.
+    Beyond,
+}
+
 /// A straight arrow in the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ForceArrow {
@@ -63,7 +79,7 @@ pub struct ForceArrow {
     pub on: BodyId,
     /// Where it begins, metres.
     pub at: Point,
-    /// Its shaft, metres.
+    /// As long as its force asks for, metres: from tail to tip, or its shaft alone where its head lies beyond.
     pub vector: Vector,
     /// The force it tells, N; for half of a torque's pair, the torque in N·m per metre of distance of the two halves.
     pub force: Vector,
@@ -71,8 +87,21 @@ pub struct ForceArrow {
     pub colour: Colour,
     /// Width of its shaft, metres.
     pub width: f64,
+    /// Where its head lies.
+    pub head: Head,
     /// What it tells.
     pub kind: ArrowKind,
+}
+
+impl ForceArrow {
+    /// From its tail to the tip of its head, metres.
+    pub fn reach(&self) -> Vector {
+        let length = self.vector.norm();
+        match self.head {
+            Head::Beyond if length > 0.0 => self.vector * (1.0 + HEAD_LENGTH * self.width / length),
+            _ => self.vector,
+        }
+    }
 }
 
 /// What a turning arrow tells.
@@ -95,7 +124,7 @@ pub struct TurnArrow {
     pub at: Point,
     /// The torque, N·m, anticlockwise positive.
     pub torque: f64,
-    /// Length of its shaft along the circle, metres, with the torque's sign.
+    /// Its length along the circle from tail to tip, metres, with the torque's sign.
     pub arc: f64,
     /// Its colour.
     pub colour: Colour,
@@ -114,4 +143,35 @@ pub struct Marks {
     pub turns: Vec<TurnArrow>,
     /// The amount that is one unit edge long, N; 0 where there is no force.
     pub newtons_per_unit: f64,
+}
+
+impl Marks {
+    /// How many arrows are too short to be seen where a metre is so many pixels long, in words: `3 forces under 0.5 N
+    /// not drawn`. `unit` is the unit edge in metres. `None` where all are seen.
+    pub(crate) fn unseen(&self, unit: f64, scale: f64) -> Option<String> {
+        let least = LEAST_SEEN / scale;
+        let short = |arrow: &&ForceArrow| arrow.reach().norm() < least;
+        let forces = self.arrows.iter().filter(short).count();
+        let torques = self.turns.iter().filter(|t| t.arc.abs() < least).count();
+        let count = forces + torques;
+        let what = match (count, torques) {
+            (0, _) => return None,
+            (1, 0) => "force",
+            (1, _) => "torque",
+            (_, 0) => "forces",
+            _ => "forces and torques",
+        };
+        let amount = quantity(round_above(least / unit * self.newtons_per_unit), "N");
+        Some(format!("{count} {what} under {amount} not drawn"))
+    }
+}
+
+/// The next number of one digit that is not below this one.
+pub(crate) fn round_above(amount: f64) -> f64 {
+    if !(amount > 0.0 && amount.is_finite()) {
+        return amount;
+    }
+    let power = libm::pow(10.0, libm::floor(libm::log10(amount)));
+    let digit = (amount / power * (1.0 - 1e-12)).ceil();
+    digit * power
 }

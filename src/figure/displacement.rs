@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::analysis::{Analysis, Motion, Verdict};
-use crate::geometry::{Bounds, Point, Vector, quarter_turn};
+use crate::geometry::{Bounds, Pieces, Point, Polygon, Vector, overlap, quarter_turn};
 use crate::scene::{BlockId, BodyId};
 
 /// The fastest point goes at least so many unit edges …
@@ -13,6 +13,13 @@ const LEAST: f64 = 0.35;
 const SHARE: f64 = 0.045;
 /// … but no block turns farther than so many radians.
 const MOST: f64 = 0.35;
+/// Blocks that touch may lie in each other by this share of the smaller one; farther the motion is not followed …
+const SHARED: f64 = 0.01;
+/// … but so many times shortened by this factor it is drawn all the same: with a kernel, blocks turn about points within
+/// their interfaces and dip into each other however little they turn.
+const SHORTENED: (u32, f64) = (5, 0.75);
+/// Blocks of larger heaps are not asked whether they lie in each other.
+const MOST_ASKED: usize = 500;
 /// A block is still where its fastest point is slower than this, as a share of the fastest of all.
 const STILL: f64 = 1e-3;
 
@@ -69,16 +76,69 @@ impl Displacement {
 /// How each block of a frame that falls is displaced, by its number; `None` for a block that stays. Empty where the
 /// frame does not fall.
 ///
-/// Blocks that touch go equally far for their speed; a heap that falls apart from others has its own measure.
+/// Blocks that touch go equally far for their speed; a heap that falls apart from others has its own measure. `share` of
+/// the way is drawn, 0 … 1.
 pub(crate) fn displacements(
     analysis: &Analysis<'_>,
     frame: usize,
     unit: f64,
+    share: f64,
 ) -> Vec<Option<Displacement>> {
+    let way = |heap: &[Motion]| share * clear(analysis, frame, heap, unit);
     match analysis.frames[frame].verdict {
-        Verdict::Unstable => followed(analysis, frame, |heap| amplitude(analysis, heap, unit)),
+        Verdict::Unstable => followed(analysis, frame, way),
         _ => Vec::new(),
     }
+}
+
+/// How far the motion of a heap is followed so that no block lies in another.
+fn clear(analysis: &Analysis<'_>, frame: usize, heap: &[Motion], unit: f64) -> f64 {
+    let mut way = amplitude(analysis, heap, unit);
+    if heap.len() > MOST_ASKED {
+        return way;
+    }
+    let (times, factor) = SHORTENED;
+    for _ in 0..times {
+        if !dips(analysis, frame, heap, way) {
+            break;
+        }
+        way *= factor;
+    }
+    way
+}
+
+/// Whether two bodies that touch lie in each other where a heap has gone so far.
+fn dips(analysis: &Analysis<'_>, frame: usize, heap: &[Motion], way: f64) -> bool {
+    let scene = analysis.scene;
+    let moves = |body: BodyId| {
+        let BodyId::Block(id) = body else { return None };
+        heap.iter().find(|m| m.block == id)
+    };
+    let gone = |body: BodyId| -> Option<Polygon> {
+        let polygon = &scene.body(body).polygon;
+        let BodyId::Block(id) = body else {
+            return Some(polygon.clone());
+        };
+        let Some(motion) = moves(body) else {
+            return Some(polygon.clone());
+        };
+        let moved = Displacement::of(motion, scene.blocks[id.0].centroid, way);
+        let ring = |ring: &Vec<Point>| ring.iter().map(|p| moved.moved(*p)).collect();
+        let mut rings = polygon.rings().iter().map(ring);
+        Polygon::new(rings.next()?, rings.collect()).ok()
+    };
+    analysis.frames[frame].contacts.iter().any(|contact| {
+        let [a, b] = contact.interface.bodies;
+        if moves(a).is_none() && moves(b).is_none() {
+            return false;
+        }
+        let (Some(a), Some(b)) = (gone(a), gone(b)) else {
+            return false;
+        };
+        let smaller = a.area().min(b.area());
+        let shared = overlap(&Pieces::of(&a), &Pieces::of(&b), 0.0);
+        shared.is_some_and(|o| o.area > SHARED * smaller)
+    })
 }
 
 /// How far the motion of a heap is followed: the way in metres of a point of speed 1.
@@ -171,7 +231,6 @@ fn moving<'a>(analysis: &'a Analysis<'_>, frame: usize) -> impl Iterator<Item = 
 mod tests {
     use super::*;
     use crate::figure::stage::unit;
-    use crate::geometry::{Pieces, Polygon, overlap};
     use crate::scene::Scene;
 
     fn falling() -> Vec<Scene> {
@@ -194,7 +253,7 @@ mod tests {
     fn displaced_blocks_keep_their_areas_and_sides() {
         for scene in falling() {
             let analysis = Analysis::of(&scene);
-            let displaced = displacements(&analysis, 0, unit(&scene));
+            let displaced = displacements(&analysis, 0, unit(&scene), 1.0);
             let mut count = 0;
             for (block, displacement) in scene.blocks.iter().zip(&displaced) {
                 let Some(displacement) = displacement else {
@@ -305,7 +364,7 @@ mod tests {
             brick("small", 200.0, 0.3)
         );
         let scene = Scene::from_json(&text).unwrap_or_else(|problems| panic!("{problems}"));
-        let displaced = displacements(&Analysis::of(&scene), 0, unit(&scene));
+        let displaced = displacements(&Analysis::of(&scene), 0, unit(&scene), 1.0);
         for (block, displacement) in scene.blocks.iter().zip(displaced) {
             let displacement = displacement.expect("it tips");
             let turned = displacement.turned(Vector::new(1.0, 0.0));

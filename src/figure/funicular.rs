@@ -1,15 +1,25 @@
-//! [`stretches`]: the line of pressure through the blocks of a frame, in numbers.
+//! [`Stretch`]: the pieces of the line of thrust, block by block: where forces run, in numbers.
 //!
-//! Where a block bears two forces beside its loads, their lines and that of its loads meet in one point, for their
-//! moments balance: the line of pressure goes along the one force to that point and on along the other. Where that
-//! point is no way between the two, or outside the block, as where all forces are parallel, it goes straight from one to
-//! the other. A single force it follows to the block's centroid. Where more forces meet there is no such line: stretches
-//! then only tell which forces meet in the block, in the point about which their moments are least.
+//! A piece lies on a true line of action and on nothing else. Where two bodies press a block, the thrust follows the
+//! line of the first force until it meets the line of a load or of the weight, goes on along the line of their
+//! resultant, and so on until it arrives at the second body along the line of that body's force: the funicular polygon
+//! of the block. That is drawn only where each of these lines meets the next one inside the block. Elsewhere (three
+//! bodies press, or the forces are parallel and apart, or they do not balance) there is no single line: each joint
+//! shows a short piece of the line of its own resultant, and no more.
 
 use super::bearing::{self, bearings};
 use crate::analysis::FrameAnalysis;
-use crate::geometry::{Point, Vector, cross, quarter_turn};
-use crate::scene::{BlockId, BodyId, Frame, RobotId, Scene};
+use crate::geometry::{Point, Polygon, Vector, cross, quarter_turn};
+use crate::scene::{Block, BlockId, BodyId, Frame, RobotId, Scene};
+
+/// How far a line may pass by a point that it should meet, as a share of the block's size.
+const NEAR: f64 = 1e-6;
+/// Imbalance up to which the forces on a block are one system in equilibrium, as a share of their sum.
+const BALANCED: f64 = 1e-6;
+/// Least length of the piece at a joint where no line runs through, unit edges.
+const PIECE: f64 = 0.5;
+/// The loads of a block with more than so many are put together with its weight.
+const MOST_LOADS: usize = 3;
 
 /// Who gives a force.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,28 +28,66 @@ pub(crate) enum Giver {
     Contact(usize),
     /// A robot.
     Robot(RobotId),
+    /// The load of this number in the scene.
+    Load(usize),
+    /// The force of a joint and the loads that the line has met on its way from there.
+    Resultant,
 }
 
-/// A piece of the line, from where a force enters a block to where the forces on it meet.
+/// A straight piece of the line of thrust.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Stretch {
     /// The block it runs through.
     pub on: BlockId,
     /// Who gives the force.
     pub giver: Giver,
-    /// Where it enters the block.
+    /// One end.
     pub from: Point,
-    /// Where the forces on the block meet.
+    /// The other end.
     pub to: Point,
-    /// The force on the block, N.
+    /// The force that acts along it, N.
     pub force: Vector,
-    /// How many forces meet there beside the loads.
-    pub meeting: usize,
+    /// Whether the line runs on through the block; otherwise it stops here.
+    pub through: bool,
 }
 
-/// The pieces of the line of pressure, block by block in placing order.
-pub(crate) fn stretches(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> Vec<Stretch> {
-    let mut forces: Vec<Vec<Given>> = vec![Vec::new(); scene.blocks.len()];
+/// The pieces of the line of thrust, block by block in placing order; `unit` metres are one unit edge.
+pub(crate) fn stretches(
+    scene: &Scene,
+    frame: &Frame,
+    found: &FrameAnalysis,
+    unit: f64,
+) -> Vec<Stretch> {
+    let (pressing, loads) = (pressing(scene, found), loads(scene));
+    let mut stretches = Vec::new();
+    for id in &frame.placed {
+        let case = Case {
+            id: *id,
+            block: &scene.blocks[id.0],
+            pressing: &pressing[id.0],
+            loads: &loads[id.0],
+            unit,
+        };
+        match case.path() {
+            Some(path) => stretches.extend(path),
+            None => stretches.extend(case.pieces()),
+        }
+    }
+    stretches
+}
+
+/// A force with its line of action.
+#[derive(Clone, Copy, Debug)]
+struct Line {
+    giver: Giver,
+    /// A point of the line: where the force enters the block.
+    at: Point,
+    force: Vector,
+}
+
+/// What bodies and robots give to each block, by its number.
+fn pressing(scene: &Scene, found: &FrameAnalysis) -> Vec<Vec<Line>> {
+    let mut lines: Vec<Vec<Line>> = vec![Vec::new(); scene.blocks.len()];
     let bearings = bearings(scene, found);
     for (number, contact) in found.contacts.iter().enumerate() {
         if bearings[number].is_none() {
@@ -54,7 +102,7 @@ pub(crate) fn stretches(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> 
         };
         for (body, force) in [(first, force), (second, -force)] {
             if let BodyId::Block(block) = body {
-                forces[block.0].push(Given {
+                lines[block.0].push(Line {
                     giver: Giver::Contact(number),
                     at: contact.resultant.at,
                     force,
@@ -63,162 +111,302 @@ pub(crate) fn stretches(scene: &Scene, frame: &Frame, found: &FrameAnalysis) -> 
         }
     }
     for robot in &found.robots {
-        let squared = robot.force.norm_squared();
-        if squared.sqrt() > bearing::noise(f64::INFINITY, scene.blocks[robot.block.0].weight) {
-            // A torque moves the line along which the force acts aside, by torque per force.
-            let aside = quarter_turn(robot.force) * (-robot.torque / squared);
-            forces[robot.block.0].push(Given {
+        let noise = bearing::noise(f64::INFINITY, scene.blocks[robot.block.0].weight);
+        if robot.force.norm() > noise {
+            lines[robot.block.0].push(Line {
                 giver: Giver::Robot(robot.robot),
-                at: robot.at + aside,
+                at: aside(robot.at, robot.force, robot.torque),
                 force: robot.force,
             });
         }
     }
-    let mut stretches = Vec::new();
-    for block in &frame.placed {
-        let given = &forces[block.0];
-        let to = meeting(scene, *block, given);
-        stretches.extend(given.iter().map(|g| Stretch {
-            on: *block,
-            giver: g.giver,
-            from: g.at,
+    lines
+}
+
+/// The weight and the loads of each block, by its number. A torque without a force moves the weight's line aside.
+fn loads(scene: &Scene) -> Vec<Vec<Line>> {
+    let mut torques = vec![0.0; scene.blocks.len()];
+    for load in scene.loads.iter().filter(|l| l.force.norm() == 0.0) {
+        torques[load.block.0] += load.torque;
+    }
+    let weight = |(block, torque): (&Block, &f64)| {
+        let force = scene.down() * block.weight;
+        let line = Line {
+            giver: Giver::Resultant,
+            at: aside(block.centroid, force, *torque),
+            force,
+        };
+        if block.weight > 0.0 {
+            vec![line]
+        } else {
+            Vec::new()
+        }
+    };
+    let mut lines: Vec<Vec<Line>> = scene.blocks.iter().zip(&torques).map(weight).collect();
+    for (number, load) in scene.loads.iter().enumerate() {
+        if load.force.norm() > 0.0 {
+            lines[load.block.0].push(Line {
+                giver: Giver::Load(number),
+                at: aside(load.at, load.force, load.torque),
+                force: load.force,
+            });
+        }
+    }
+    lines
+}
+
+/// A point of the line along which a force at a point acts together with a torque: moved aside by torque per force.
+fn aside(at: Point, force: Vector, torque: f64) -> Point {
+    let squared = force.norm_squared();
+    if torque == 0.0 || squared <= 0.0 {
+        return at;
+    }
+    at + quarter_turn(force) * (-torque / squared)
+}
+
+/// One block and the forces on it.
+struct Case<'a> {
+    id: BlockId,
+    block: &'a Block,
+    pressing: &'a [Line],
+    loads: &'a [Line],
+    unit: f64,
+}
+
+impl Case<'_> {
+    fn polygon(&self) -> &Polygon {
+        &self.block.body.polygon
+    }
+
+    fn size(&self) -> f64 {
+        self.polygon().bounds().diagonal()
+    }
+
+    /// The funicular polygon of the block; `None` where there is none inside it.
+    fn path(&self) -> Option<Vec<Stretch>> {
+        let (first, last) = match self.pressing {
+            [one] => (one, None),
+            [one, other] => (one, Some(other)),
+            _ => return None,
+        };
+        if !self.balances() {
+            return None;
+        }
+        let orders = if self.loads.len() <= MOST_LOADS + 1 {
+            orders(self.loads)
+        } else {
+            Vec::new()
+        };
+        let together = self.together().map(|sum| vec![sum]);
+        orders
+            .into_iter()
+            .chain(together)
+            .find_map(|loads| self.funicular(first, &loads, last))
+    }
+
+    /// Whether the forces known of the block balance; where it falls they do not.
+    fn balances(&self) -> bool {
+        let (mut sum, mut moment, mut all) = (Vector::zeros(), 0.0, 0.0);
+        for line in self.pressing.iter().chain(self.loads) {
+            sum += line.force;
+            moment += cross(line.at - self.block.centroid, line.force);
+            all += line.force.norm();
+        }
+        sum.norm() <= BALANCED * all && moment.abs() <= BALANCED * all * self.size()
+    }
+
+    /// The weight and all loads as one force.
+    fn together(&self) -> Option<Line> {
+        let centroid = self.block.centroid;
+        let force: Vector = self.loads.iter().map(|l| l.force).sum();
+        let moments = self.loads.iter().map(|l| cross(l.at - centroid, l.force));
+        let line = Line {
+            giver: Giver::Resultant,
+            at: aside(centroid, force, moments.sum()),
+            force,
+        };
+        (self.loads.len() > 1 && force.norm() > 0.0).then_some(line)
+    }
+
+    /// The line from one joint over the lines of these loads, in this order, to the other joint or to where it ends.
+    fn funicular(&self, first: &Line, loads: &[Line], last: Option<&Line>) -> Option<Vec<Stretch>> {
+        let near = NEAR * self.size();
+        let most: f64 = self.pressing.iter().map(|l| l.force.norm()).sum();
+        let (mut at, mut force, mut giver) = (first.at, first.force, first.giver);
+        let mut path = Vec::new();
+        for (number, load) in loads.iter().enumerate() {
+            let corner = met(at, force, load, near)?;
+            let ends = last.is_none() && number + 1 == loads.len();
+            if ends && matches!(load.giver, Giver::Load(_)) {
+                // What is left is this load alone: the line ends where it acts.
+                path.extend(self.piece(load.giver, (load.at, at), load.force));
+                continue;
+            }
+            path.extend(self.piece(giver, (at, corner), force));
+            if let Giver::Load(_) = load.giver {
+                path.extend(self.piece(load.giver, (load.at, corner), load.force));
+            }
+            at = corner;
+            force += load.force;
+            // Once the other joint's force alone is left, the line is that force's.
+            giver = match last {
+                Some(last) if number + 1 == loads.len() => last.giver,
+                _ => Giver::Resultant,
+            };
+            if !ends && force.norm() <= BALANCED * most {
+                return None;
+            }
+        }
+        if let Some(last) = last {
+            let off = cross(last.at - at, force).abs() / force.norm().max(f64::MIN_POSITIVE);
+            if off > 10.0 * near {
+                return None;
+            }
+            let force = if giver == last.giver {
+                last.force
+            } else {
+                force
+            };
+            path.extend(self.piece(giver, (at, last.at), force));
+        }
+        let inside = path.iter().all(|s| self.within(s.from, s.to));
+        let main = path.iter().filter(|s| !matches!(s.giver, Giver::Load(_)));
+        let ends = main
+            .clone()
+            .next()
+            .map(|s| s.from)
+            .zip(main.clone().next_back().map(|s| s.to));
+        // A line that turns back lies on itself and cannot be read.
+        let onward = ends.is_none_or(|(a, b)| {
+            let chord = b - a;
+            let mut main = main;
+            main.all(|s| (s.to - s.from).dot(&chord) >= -near * chord.norm())
+        });
+        (inside && onward).then_some(path)
+    }
+
+    /// A piece that runs through, where it has a length.
+    fn piece(&self, giver: Giver, (from, to): (Point, Point), force: Vector) -> Option<Stretch> {
+        let stretch = Stretch {
+            on: self.id,
+            giver,
+            from,
             to,
-            force: g.force,
-            meeting: given.len(),
-        }));
+            force,
+            through: true,
+        };
+        ((to - from).norm() > NEAR * self.size()).then_some(stretch)
     }
-    stretches
-}
 
-/// A force on a block.
-#[derive(Clone, Copy, Debug)]
-struct Given {
-    giver: Giver,
-    at: Point,
-    force: Vector,
-}
+    /// Whether the way between two points stays in the block, the outline included.
+    fn within(&self, from: Point, to: Point) -> bool {
+        let near = 10.0 * NEAR * self.size();
+        (0..=8).all(|i| {
+            let p = from + (to - from) * (f64::from(i) / 8.0);
+            self.polygon().contains(p)
+                || self
+                    .polygon()
+                    .edges()
+                    .any(|e| from_edge(e.from, e.to, p) <= near)
+        })
+    }
 
-/// Where the forces on a block meet.
-fn meeting(scene: &Scene, id: BlockId, given: &[Given]) -> Point {
-    let block = &scene.blocks[id.0];
-    let crossing = crossing(scene, id, given);
-    match (given, crossing) {
-        ([a, b], crossing) => match crossing {
-            Crossing::One(at) if block.body.polygon.contains(at) && between(a.at, b.at, at) => at,
-            _ => a.at + (b.at - a.at) * 0.5,
-        },
-        (_, Crossing::One(at) | Crossing::Parallel(at)) if block.body.polygon.contains(at) => at,
-        _ => block.centroid,
+    /// A piece of each force's own line of action, from where it enters the block; between two joints half-way at most.
+    fn pieces(&self) -> Vec<Stretch> {
+        let between = match self.pressing {
+            [one, other] => other.at - one.at,
+            _ => Vector::zeros(),
+        };
+        let all = self.pressing.iter().chain(self.loads);
+        let given = all.filter(|l| l.giver != Giver::Resultant && l.force.norm() > 0.0);
+        let long = |line: &Line| {
+            let half = 0.5 * between.dot(&line.force.normalize()).abs();
+            let half = match line.giver {
+                Giver::Load(_) => 0.0,
+                _ => half,
+            };
+            half.max(PIECE * self.unit)
+        };
+        let piece = |line: &Line| {
+            let along = line.force.normalize();
+            // A push enters the block along the force; a pull, or a load within, leaves it that way.
+            let ways = [along, -along].map(|way| (way, self.room(line.at, way)));
+            let (way, room) = if ways[0].1 > NEAR * self.size() {
+                ways[0]
+            } else {
+                ways[1]
+            };
+            Stretch {
+                on: self.id,
+                giver: line.giver,
+                from: line.at,
+                to: line.at + way * room.min(long(line)),
+                force: line.force,
+                through: false,
+            }
+        };
+        given.map(piece).filter(|s| s.from != s.to).collect()
+    }
+
+    /// How far one can go from a point of the block in a direction without leaving it, metres.
+    fn room(&self, at: Point, way: Vector) -> f64 {
+        let near = 10.0 * NEAR * self.size();
+        if !self.polygon().contains(at + way * (2.0 * near)) {
+            return 0.0;
+        }
+        let beyond = |edge: crate::geometry::Edge| {
+            let along = edge.to - edge.from;
+            let across = cross(way, along);
+            let (far, share) = (
+                cross(edge.from - at, along) / across,
+                cross(edge.from - at, way) / across,
+            );
+            (across != 0.0 && far > near && (0.0..=1.0).contains(&share)).then_some(far)
+        };
+        let crossings = self.polygon().edges().filter_map(beyond);
+        crossings.fold(f64::INFINITY, f64::min).min(self.size())
     }
 }
 
-/// Where lines cross.
-enum Crossing {
-    /// In one point, or about it.
-    One(Point),
-    /// They are parallel; the nearest point of the middle one among them.
-    Parallel(Point),
-}
-
-/// The point about which the squares of the moments of all forces on a block, its loads together, have the least sum;
-/// of several the one nearest to its centroid. It lies on every force's line where those lines meet.
-fn crossing(scene: &Scene, id: BlockId, given: &[Given]) -> Crossing {
-    let block = &scene.blocks[id.0];
-    let mut load = scene.down() * block.weight;
-    let mut moment = 0.0;
-    for extra in scene.loads.iter().filter(|l| l.block == id) {
-        load += extra.force;
-        moment += cross(extra.at - block.centroid, extra.force) + extra.torque;
+/// Where the line of a force through a point meets the line of a load; on one line with it, beside the load's point.
+fn met(at: Point, force: Vector, load: &Line, near: f64) -> Option<Point> {
+    let (a, b) = (force.normalize(), load.force.normalize());
+    let sine = cross(a, b);
+    let between = load.at - at;
+    // Lines this near to each other throughout a block are one; where they cross, rounding alone would say.
+    if sine.abs() < NEAR {
+        let off = cross(between, a).abs();
+        return (off <= near).then(|| at + a * between.dot(&a));
     }
-    let lines = given
+    let corner = at + a * (cross(between, b) / sine);
+    corner
+        .coords
         .iter()
-        .map(|g| (g.force, cross(g.at - block.centroid, g.force)))
-        .chain([(load, moment)]);
-    // A force F of moment m about the centroid has the moment m − h×F about the centroid moved by h.
-    let (mut xx, mut xy, mut yy, mut x, mut y) = (0.0, 0.0, 0.0, 0.0, 0.0);
-    for (force, moment) in lines {
-        let row = Vector::new(force.y, -force.x);
-        xx += row.x * row.x;
-        xy += row.x * row.y;
-        yy += row.y * row.y;
-        x += row.x * moment;
-        y += row.y * moment;
-    }
-    let (trace, determinant) = (xx + yy, xx * yy - xy * xy);
-    if trace <= 0.0 {
-        return Crossing::Parallel(block.centroid);
-    }
-    if determinant > 1e-10 * trace * trace {
-        let h = Vector::new(yy * x - xy * y, xx * y - xy * x) / determinant;
-        return Crossing::One(block.centroid + h);
-    }
-    Crossing::Parallel(block.centroid + Vector::new(x, y) / trace)
+        .all(|c| c.is_finite())
+        .then_some(corner)
 }
 
-/// Whether a way from one point to another over a third turns back nowhere.
-fn between(from: Point, to: Point, over: Point) -> bool {
-    let along = to - from;
-    (0.0..=along.norm_squared()).contains(&(over - from).dot(&along))
+/// All orders of a few loads, that of the list first.
+fn orders(loads: &[Line]) -> Vec<Vec<Line>> {
+    let Some((first, rest)) = loads.split_first() else {
+        return vec![Vec::new()];
+    };
+    let mut all = Vec::new();
+    for order in orders(rest) {
+        for place in 0..=order.len() {
+            let mut longer = order.clone();
+            longer.insert(place, *first);
+            all.push(longer);
+        }
+    }
+    all
+}
+
+fn from_edge(a: Point, b: Point, p: Point) -> f64 {
+    let along = b - a;
+    let share = (p - a).dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE);
+    (p - (a + along * share.clamp(0.0, 1.0))).norm()
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::analysis::Analysis;
-
-    fn scene(text: &str) -> Scene {
-        Scene::from_json(text).unwrap_or_else(|problems| panic!("{problems}"))
-    }
-
-    #[test]
-    fn the_line_passes_through_every_resultant_and_where_forces_meet_none_has_a_moment() {
-        for text in [
-            include_str!("../../assets/study/arch-27.json"),
-            include_str!("../../assets/thesis/figure-3b.json"),
-            include_str!("../../assets/thesis/figure-5.json"),
-        ] {
-            let scene = scene(text);
-            let found = &Analysis::of(&scene).frames[0];
-            let stretches = stretches(&scene, &scene.frames[0], found);
-            for (number, contact) in found.contacts.iter().enumerate() {
-                let here = |s: &&Stretch| s.giver == Giver::Contact(number);
-                let ends: Vec<&Stretch> = stretches.iter().filter(here).collect();
-                let blocks = contact.interface.bodies.iter();
-                let blocks = blocks.filter(|b| matches!(b, BodyId::Block(_))).count();
-                assert_eq!(ends.len(), blocks);
-                assert!(ends.iter().all(|s| s.from == contact.resultant.at));
-            }
-            let mut meeting = 0;
-            for pair in stretches.chunk_by(|a, b| a.on == b.on) {
-                let [a, b] = pair else { continue };
-                assert_eq!(a.to, b.to);
-                let straight = (a.to - (a.from + (b.from - a.from) * 0.5)).norm() < 1e-12;
-                let moment = |s: &Stretch| cross(s.to - s.from, s.force).abs() / s.force.norm();
-                let centroid = scene.blocks[a.on.0].centroid;
-                if straight {
-                    continue;
-                }
-                assert!(moment(a) < 1e-6 && moment(b) < 1e-6, "{a:?} {b:?}");
-                assert!((a.to.x - centroid.x).abs() < 1e-6, "the weight meets them");
-                meeting += 1;
-            }
-            assert!(meeting > 0);
-        }
-    }
-
-    #[test]
-    fn a_torque_moves_a_robots_line_aside_and_parallel_forces_go_straight() {
-        let scene = scene(
-            r#"{ "drystone": 1, "blocks": [ { "id": "a", "polygon": [[0,0],[4,0],[4,2],[0,2]], "weight": 8 } ],
-                 "robots": [ { "id": "r", "limits": { "torque": 100 } } ],
-                 "steps": [ { "place": ["a"], "hold": { "r": { "block": "a", "at": [3, 1] } } } ] }"#,
-        );
-        let found = &Analysis::of(&scene).frames[0];
-        let [one] = stretches(&scene, &scene.frames[0], found)[..] else {
-            panic!("one force holds the block")
-        };
-        // 8 N at the grip with −8 N·m about it act along the line through the centroid, a metre beside it.
-        assert!((one.from - Point::new(2.0, 1.0)).norm() < 1e-6, "{one:?}");
-        assert!((one.to - Point::new(2.0, 1.0)).norm() < 1e-6, "{one:?}");
-    }
-}
+mod tests;

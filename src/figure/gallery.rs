@@ -2,7 +2,7 @@
 
 use super::caption::caption;
 use super::freebody::freebody;
-use super::option::{ForceStyle, Normalisation, Options};
+use super::option::{Corners, ForceStyle, Normalisation, Options};
 use super::ring::ring;
 use super::shapes::shapes;
 use super::{Kind, draw};
@@ -112,6 +112,11 @@ fn plate(name: &'static str, subject: &Subject, theme: &Theme) -> Plate {
             let scene = read(text);
             let id = scene.blocks.iter().position(|b| b.id == *block);
             let id = crate::scene::BlockId(id.expect("the block is in our own scene"));
+            // The source's figures name every unknown.
+            let options = Options {
+                corners: Corners::All,
+                ..options
+            };
             let drawing = freebody(&Analysis::of(&scene), 0, id, &options);
             let drawing = drawing.expect("the block is placed in our own scene");
             let caption = format!("{}. Block {block} cut free.", scene.title);

@@ -19,6 +19,8 @@ pub(crate) struct Joint {
     pub hinge: Option<Point>,
     /// Speed of the first body past the second along (−n_y, n_x), 0 where it does not slide or no longer touches.
     pub slip: f64,
+    /// Speed at which a joint that slides opens, 0 where it goes along the joint.
+    pub lift: f64,
 }
 
 /// Every interface of a frame whose bodies move against each other.
@@ -63,9 +65,12 @@ pub(crate) fn joints(analysis: &Analysis<'_>, frame: usize) -> Vec<Joint> {
 fn joint(contact: &Contact, relative: [Vector; 2], turning: f64, noise: f64) -> Option<Joint> {
     let interface = &contact.interface;
     let along = relative.map(|v| v.dot(&interface.tangent()));
-    let free =
-        [0, 1].map(|k| relative[k].dot(&interface.normal) - interface.friction * along[k].abs());
-    let touches = free.map(|speed| speed <= noise);
+    let opening = relative.map(|v| v.dot(&interface.normal));
+    // In touch is what opens by just the friction coefficient, or goes along the joint.
+    let touches = [0, 1].map(|k| {
+        let free = opening[k] - interface.friction * along[k].abs();
+        opening[k] <= noise || free.abs() <= noise
+    });
     let points = contact.application_points;
     let hinge = match touches {
         [true, false] => Some(points[0]),
@@ -80,11 +85,21 @@ fn joint(contact: &Contact, relative: [Vector; 2], turning: f64, noise: f64) -> 
         _ => 0.0,
     };
     let slip = if slide.abs() > noise { slide } else { 0.0 };
+    let lift = match touches {
+        [true, _] => opening[0],
+        _ => opening[1],
+    };
+    let lift = if slip != 0.0 && lift > noise {
+        lift
+    } else {
+        0.0
+    };
     let parted = touches == [false, false];
     (hinge.is_some() || slip != 0.0 || parted).then_some(Joint {
         contact: 0,
         hinge,
         slip,
+        lift,
     })
 }
 

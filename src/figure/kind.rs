@@ -9,14 +9,18 @@ use super::mark;
 use super::mechanism;
 use super::option::{ArrowScale, Options};
 use super::panel;
+use super::polygon;
 use super::stage::Stage;
 use super::strip::{self, strip};
 use super::thrust;
 use super::utilisation;
 use super::verdict;
-use crate::analysis::Analysis;
+use crate::analysis::{Analysis, Verdict};
 use crate::drawing::{Camera, Drawing, Group};
 use crate::geometry::Bounds;
+
+/// Pictures of a mechanism in motion beside the first.
+const WAY: u32 = 12;
 
 /// What the panels of a figure show.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -35,29 +39,58 @@ pub enum Kind {
     Utilisation,
     /// The forces of every step of a construction, arrows to one scale in all of them.
     Build,
+    /// The forces on the structure from outside, and beside it their polygon, tip to tail.
+    Polygon,
 }
 
 /// A figure of this kind, one panel per frame.
 ///
 /// Units: the page is in pixels at natural size.
 pub fn draw(analysis: &Analysis<'_>, kind: Kind, options: &Options) -> Drawing {
+    if kind == Kind::Mechanism {
+        return strip(&analysis.elementary(), kind, &kind.options(options));
+    }
     strip(analysis, kind, &kind.options(options))
 }
 
-/// The panels of [`draw`] a page each, all alike in size and scale: the pictures of an animation.
+/// The panels of [`draw`] a page each, all alike in size and scale: the pictures of an animation. A frame that falls by a
+/// mechanism has several, along its way.
 pub fn pages(analysis: &Analysis<'_>, kind: Kind, options: &Options) -> Vec<Drawing> {
+    if kind == Kind::Mechanism {
+        return moving(&analysis.elementary(), &kind.options(options));
+    }
     strip::pages(analysis, kind, &kind.options(options))
+}
+
+/// The pages of a mechanism: each frame that falls in steps along its way, each other frame once.
+fn moving(analysis: &Analysis<'_>, options: &Options) -> Vec<Drawing> {
+    let at = |step: u32| {
+        let options = Options {
+            way: f64::from(step) / f64::from(WAY),
+            ..options.clone()
+        };
+        strip::pages(analysis, Kind::Mechanism, &options)
+    };
+    let steps: Vec<Vec<Drawing>> = (0..=WAY).map(at).collect();
+    let mut pages = Vec::new();
+    for (frame, found) in analysis.frames.iter().enumerate() {
+        let falls = found.verdict == Verdict::Unstable;
+        let shown = if falls { steps.len() } else { 1 };
+        pages.extend(steps[..shown].iter().filter_map(|s| s.get(frame).cloned()));
+    }
+    pages
 }
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Kind; 6] = [
+    pub const ALL: [Kind; 7] = [
         Kind::Forces,
         Kind::Mechanism,
         Kind::Thrust,
         Kind::Kernel,
         Kind::Utilisation,
         Kind::Build,
+        Kind::Polygon,
     ];
 
     /// Its name, in small letters.
@@ -69,6 +102,7 @@ impl Kind {
             Kind::Kernel => "kernel",
             Kind::Utilisation => "utilisation",
             Kind::Build => "build",
+            Kind::Polygon => "polygon",
         }
     }
 
@@ -94,12 +128,26 @@ impl Kind {
             Kind::Thrust => "The line of thrust in a dry-laid structure",
             Kind::Kernel => "Resultants in the safe stretches of interfaces",
             Kind::Utilisation => "Friction used in a dry-laid structure",
+            Kind::Polygon => "The force polygon of a dry-laid structure",
         }
     }
 
     /// Whether blocks tell amplitudes by their colour; otherwise they are plain.
     pub(crate) fn tells_amplitudes(self) -> bool {
         matches!(self, Kind::Forces | Kind::Build)
+    }
+
+    /// The amount that a frame's own scale takes as one unit edge, N; 0 where the kind draws no arrows.
+    pub(crate) fn largest(self, analysis: &Analysis<'_>, frame: usize, options: &Options) -> f64 {
+        let scene = analysis.scene;
+        let (placed, found) = (&scene.frames[frame], &analysis.frames[frame]);
+        match self {
+            Kind::Forces | Kind::Build | Kind::Polygon => {
+                mark::largest(scene, placed, found, options)
+            }
+            Kind::Thrust => thrust::largest_load(scene, placed),
+            _ => 0.0,
+        }
     }
 
     /// The arrows of a frame, `newtons_per_unit` N being one unit edge long.
@@ -112,24 +160,37 @@ impl Kind {
     ) -> Marks {
         match self {
             Kind::Forces | Kind::Build => mark::marks(analysis, frame, options, newtons_per_unit),
+            Kind::Thrust => thrust::marks(analysis, frame, options, newtons_per_unit),
+            Kind::Polygon => polygon::marks(analysis, frame, options, newtons_per_unit),
             _ => Marks::default(),
         }
     }
 
     /// A box around what a frame's picture shows beside blocks, ground, robots and arrows.
-    pub(crate) fn reach(self, analysis: &Analysis<'_>, frame: usize, unit: f64) -> Option<Bounds> {
-        mechanism::reach(analysis, &self.displacements(analysis, frame, unit))
+    pub(crate) fn reach(
+        self,
+        analysis: &Analysis<'_>,
+        frame: usize,
+        unit: f64,
+        marks: &Marks,
+    ) -> Option<Bounds> {
+        match self {
+            Kind::Polygon => polygon::reach(analysis, frame, marks),
+            _ => mechanism::reach(analysis, &self.displacements(analysis, frame, unit, 1.0)),
+        }
     }
 
-    /// How each block of a frame is displaced, by its number; empty where all are drawn in their places.
+    /// How each block of a frame is displaced along this share of its way, by its number; empty where all are drawn in
+    /// their places.
     pub(crate) fn displacements(
         self,
         analysis: &Analysis<'_>,
         frame: usize,
         unit: f64,
+        share: f64,
     ) -> Vec<Option<Displacement>> {
         match self {
-            Kind::Mechanism => displacement::displacements(analysis, frame, unit),
+            Kind::Mechanism => displacement::displacements(analysis, frame, unit, share),
             _ => Vec::new(),
         }
     }
@@ -148,6 +209,7 @@ impl Kind {
             Kind::Thrust => thrust::picture(stage, frame, view, camera),
             Kind::Kernel => kernel::picture(stage, frame, view, camera),
             Kind::Utilisation => utilisation::picture(stage, frame, view, camera),
+            Kind::Polygon => polygon::picture(stage, frame, view, camera),
         }
     }
 
@@ -159,6 +221,7 @@ impl Kind {
             Kind::Thrust => thrust::entries(stage, unit),
             Kind::Kernel => kernel::entries(stage),
             Kind::Utilisation => utilisation::entries(stage),
+            Kind::Polygon => polygon::entries(stage, unit),
         }
     }
 
@@ -171,6 +234,7 @@ impl Kind {
             Kind::Thrust => thrust::reason(scene, found),
             Kind::Kernel => kernel::reason(scene, found),
             Kind::Utilisation => utilisation::reason(scene, found),
+            Kind::Polygon => polygon::reason(stage, frame),
         }
     }
 }

@@ -7,6 +7,7 @@ use super::arrow::{ForceArrow, TurnArrow};
 use super::panel::Pen;
 use super::stage::Stage;
 use super::words::quantity;
+use crate::drawing::arrow::head_size;
 use crate::drawing::placement::{Ink, Placed, Wish, place};
 use crate::drawing::{
     Anchor, Colour, Face, Group, Outline, PagePoint, PageRect, Path, Stroke, Text, text,
@@ -161,9 +162,10 @@ fn amounts(pen: &Pen<'_>) -> Vec<Label> {
         (Some(BodyId::Block(partner)), BodyId::Block(on)) => on.0 < partner.0,
         _ => true,
     };
-    let straight = marks.arrows.iter().filter(said).map(|arrow| {
+    let seen = marks.arrows.iter().filter(|a| pen.seen(a));
+    let straight = seen.filter(said).map(|arrow| {
         let words = quantity(arrow.force.norm(), "N");
-        let (from, along) = (pen.camera.place(arrow.at), pen.camera.turn(arrow.vector));
+        let (from, along) = (pen.camera.place(arrow.at), pen.camera.turn(arrow.reach()));
         let wide = text::width(&words, Face::Sans, size);
         let wish = Wish {
             anchor: from.moved(0.5 * along.0, 0.5 * along.1),
@@ -178,7 +180,8 @@ fn amounts(pen: &Pen<'_>) -> Vec<Label> {
             ..label(words, Face::Sans, size, "amount", wish)
         }
     });
-    let turning = marks.turns.iter().map(|turn| {
+    let turns = marks.turns.iter().filter(|t| pen.turn_seen(t));
+    let turning = turns.map(|turn| {
         let wish = Wish {
             anchor: pen.camera.place(turn.at),
             from: pen.camera.length(0.7 * pen.stage.unit),
@@ -218,7 +221,7 @@ fn beside(
             middles.push(from.moved(along.0 * share + nx * off, along.1 * share + ny * off));
         }
     }
-    let beyond = length + 4.5 * width + 3.0 + reach(ux, uy);
+    let beyond = length + 3.0 + reach(ux, uy);
     middles.push(from.moved(ux * beyond, uy * beyond));
     middles
 }
@@ -257,11 +260,11 @@ pub(crate) fn ink(pen: &Pen<'_>) -> Ink {
         ink.disc(pen.camera.place(pen.moved(hold.block, hold.at)), pen.disc());
     }
     let marks = &pen.stage.marks[pen.number];
-    for arrow in &marks.arrows {
-        let (from, along) = (pen.camera.place(arrow.at), pen.camera.turn(arrow.vector));
+    for arrow in marks.arrows.iter().filter(|a| pen.seen(a)) {
+        let (from, along) = (pen.camera.place(arrow.at), pen.camera.turn(arrow.reach()));
         ink.arrow(from, along, pen.width(arrow));
     }
-    for turn in &marks.turns {
+    for turn in marks.turns.iter().filter(|t| pen.turn_seen(t)) {
         turning(&mut ink, pen, turn);
     }
     ink
@@ -301,12 +304,17 @@ fn middle(rect: PageRect) -> PagePoint {
 
 /// How far a point is from an arrow's ink, metres; below 0 inside it.
 pub(crate) fn from_arrow(arrow: &ForceArrow, p: Point) -> f64 {
-    use crate::drawing::arrow::{HEAD_LENGTH, HEAD_WIDTH};
-    let end = arrow.at + arrow.vector;
-    let tip = end + arrow.vector.normalize() * (HEAD_LENGTH * arrow.width);
-    let shaft = from_segment(arrow.at, end, p) - arrow.width / 2.0;
-    // The head is a wedge; half its width around its axis covers it.
-    let head = from_segment(end, tip, p) - HEAD_WIDTH * arrow.width / 3.0;
+    let reach = arrow.reach();
+    let length = reach.norm();
+    if length <= 0.0 {
+        return f64::INFINITY;
+    }
+    let (long, wide) = head_size(length, arrow.width);
+    let tip = arrow.at + reach;
+    let neck = tip - reach * (long / length);
+    let shaft = from_segment(arrow.at, neck, p) - arrow.width / 2.0;
+    // The head is a wedge; two thirds of half its width around its axis cover it.
+    let head = from_segment(neck, tip, p) - wide / 3.0;
     shaft.min(head)
 }
 

@@ -2,7 +2,7 @@
 
 use super::arrow::TurnKind;
 use super::fill::FillScale;
-use super::option::ArrowScale;
+use super::option::{ArrowScale, Options};
 use super::panel::TEXTURE;
 use super::stage::Stage;
 use super::words::{quantity, round_below};
@@ -15,6 +15,8 @@ use crate::drawing::{
 pub(crate) const LINE: f64 = 2.08;
 const BETWEEN: f64 = 28.0;
 const SIGN: f64 = 9.0;
+/// Length of a line in the key, pixels.
+const STROKE: f64 = 26.0;
 
 /// One thing the key explains.
 pub(crate) enum Entry {
@@ -30,7 +32,7 @@ pub(crate) enum Entry {
     Missing,
     /// A bar of amplitude colours: what its ends say, and what it tells.
     Amplitudes([String; 2], String),
-    /// An arrow so many pixels long, so wide, of an amount.
+    /// An arrow so many pixels long from tail to tip, its shaft so wide, of an amount.
     Scale(f64, f64, String),
     /// A line of a colour, so many pixels wide, and what it means.
     Line(Colour, f64, String),
@@ -83,10 +85,8 @@ impl Entry {
             Entry::Amplitudes([low, high], what) => {
                 wide(low) + 7.0 + BAR + 7.0 + wide(high) + 8.0 + wide(what)
             }
-            Entry::Scale(length, width, amount) => {
-                length + HEAD_LENGTH * width + 7.0 + wide(amount)
-            }
-            Entry::Line(_, _, meaning) => LINE + 7.0 + wide(meaning),
+            Entry::Scale(length, _, amount) => length + 7.0 + wide(amount),
+            Entry::Line(_, _, meaning) => STROKE + 7.0 + wide(meaning),
             Entry::Note(words) => wide(words),
             Entry::Sign(_, width, meaning) => width + 7.0 + wide(meaning),
         }
@@ -112,7 +112,7 @@ impl Entry {
                 for (colour, id) in blocks {
                     x += 8.0;
                     items.push(
-                        Path::filled(straight(at.moved(x, 0.0), (10.0, 0.0), 2.6), *colour).into(),
+                        Path::filled(straight(at.moved(x, 0.0), (22.0, 0.0), 2.6), *colour).into(),
                     );
                     x += 22.0 + 5.0;
                     items.push(words(x, id));
@@ -122,7 +122,7 @@ impl Entry {
             }
             Entry::Colours(colours) => {
                 let arrow = |(i, colour): (usize, &Colour)| -> Item {
-                    let shaft = straight(at.moved(30.0 * i as f64, 0.0), (10.0, 0.0), 2.6);
+                    let shaft = straight(at.moved(30.0 * i as f64, 0.0), (22.0, 0.0), 2.6);
                     Path::filled(shaft, *colour).into()
                 };
                 let mut items: Vec<Item> = colours.iter().enumerate().map(arrow).collect();
@@ -155,7 +155,7 @@ impl Entry {
             }
             Entry::Missing => {
                 let width = 4.0;
-                let arrow = straight(at, (34.0 - HEAD_LENGTH * width, 0.0), width);
+                let arrow = straight(at, (34.0, 0.0), width);
                 vec![
                     Path::filled(arrow, theme.failure).into(),
                     words(34.0 + 7.0, MISSING),
@@ -182,9 +182,9 @@ impl Entry {
                 items
             }
             Entry::Line(colour, width, meaning) => {
-                let line = Outline::line([at, at.moved(LINE, 0.0)]);
+                let line = Outline::line([at, at.moved(STROKE, 0.0)]);
                 let path = Path::stroked(line, Stroke::new(*colour, *width));
-                vec![path.into(), words(LINE + 7.0, meaning)]
+                vec![path.into(), words(STROKE + 7.0, meaning)]
             }
             Entry::Note(note) => vec![words(0.0, note)],
             Entry::Sign(sign, width, meaning) => {
@@ -194,10 +194,7 @@ impl Entry {
             }
             Entry::Scale(length, width, amount) => {
                 let arrow = Path::filled(straight(at, (*length, 0.0), *width), theme.faint);
-                vec![
-                    arrow.into(),
-                    words(length + HEAD_LENGTH * width + 7.0, amount),
-                ]
+                vec![arrow.into(), words(length + 7.0, amount)]
             }
         }
     }
@@ -213,14 +210,18 @@ fn robot(id: &str) -> String {
 }
 
 /// An arrow that tells the scale of a panel of which one unit edge, `unit` pixels, is `newtons` N; `None` for no force.
-pub(crate) fn scale(newtons: f64, unit: f64, theme: &Theme) -> Option<Entry> {
+pub(crate) fn scale(newtons: f64, unit: f64, options: &Options) -> Option<Entry> {
     let amount = round_below(newtons);
+    let width = options.theme.widths.force * unit;
+    // The scale is drawn as the arrows are.
+    let beyond = if options.printed() {
+        HEAD_LENGTH * width
+    } else {
+        0.0
+    };
     (amount > 0.0).then(|| {
-        Entry::Scale(
-            amount / newtons * unit,
-            theme.widths.force * unit,
-            quantity(amount, "N"),
-        )
+        let length = amount / newtons * unit + beyond;
+        Entry::Scale(length, width, quantity(amount, "N"))
     })
 }
 
@@ -234,7 +235,7 @@ pub(crate) fn entries(stage: &Stage<'_>, unit: f64) -> Vec<Entry> {
             .iter()
             .map(|m| m.newtons_per_unit)
             .fold(0.0, f64::max);
-        entries.extend(scale(newtons, unit, theme));
+        entries.extend(scale(newtons, unit, stage.options));
     }
     let mut seen: Vec<(Colour, String)> = Vec::new();
     let mut clash = false;

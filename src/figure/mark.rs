@@ -5,7 +5,7 @@
 //! interface ([Vallat23](crate::doc::references) §2.0.9). Robots' arrows are wider, what fails is widest, red, and
 //! apart from what is carried.
 
-use super::arrow::{ArrowKind, ForceArrow, Marks, TurnArrow, TurnKind};
+use super::arrow::{ArrowKind, ForceArrow, Head, Marks, TurnArrow, TurnKind};
 use super::option::{ForceStyle, Normalisation, Options};
 use super::stage::unit;
 use crate::analysis::{Analysis, Contact, Failure, FrameAnalysis};
@@ -15,9 +15,7 @@ use crate::scene::{BlockId, BodyId, Frame, Scene};
 
 /// Amounts below this share of the largest are noise of the solution, not forces.
 const NOISE: f64 = 1e-6;
-/// In [`Normalisation::Drawn`] a failure's shaft is at least so many unit edges long: it must not be overlooked.
-const LEAST_FAILURE: f64 = 0.08;
-/// In [`Normalisation::Drawn`] shafts shorter than this, in unit edges, grow thinner with their head …
+/// In [`Normalisation::Drawn`] arrows shorter than this, in unit edges, grow thinner with their head …
 const THINNER_BELOW: f64 = 0.35;
 /// … down to this share of the width: else many small forces are nothing but heads.
 const THINNEST: f64 = 0.65;
@@ -37,7 +35,7 @@ pub fn arrows(analysis: &Analysis<'_>, frame: usize, options: &Options) -> Vec<F
 /// The amount that a frame's own scale takes as one unit edge, N.
 ///
 /// [`Normalisation::Drawn`]: the largest force drawn, a torque counting as torque per unit edge.
-/// [`Normalisation::Source`]: the largest single unknown.
+/// [`Normalisation::Source`]: the largest single unknown, weight or load.
 pub(crate) fn largest(
     scene: &Scene,
     frame: &Frame,
@@ -81,14 +79,11 @@ pub(crate) fn largest(
                     Failure::RobotTorque { torque, .. } => torque.abs() / edge,
                 });
             }
-            for load in scene
-                .loads
-                .iter()
-                .filter(|l| frame.placed.contains(&l.block))
-            {
-                most = most.max(load.force.norm()).max(load.torque.abs() / edge);
-            }
         }
+    }
+    let loads = scene.loads.iter();
+    for load in loads.filter(|l| frame.placed.contains(&l.block)) {
+        most = most.max(load.force.norm()).max(load.torque.abs() / edge);
     }
     most
 }
@@ -190,8 +185,17 @@ impl Pen<'_> {
                 force,
                 colour: look.0,
                 width: self.width(look.1, vector),
+                head: self.head(),
                 kind,
             });
+        }
+    }
+
+    fn head(&self) -> Head {
+        if self.options.printed() {
+            Head::Beyond
+        } else {
+            Head::Within
         }
     }
 
@@ -220,8 +224,7 @@ impl Pen<'_> {
         if torque.abs() <= NOISE * marks.newtons_per_unit * self.edge {
             return;
         }
-        let source = self.options.normalisation == Normalisation::Source
-            && self.options.style == ForceStyle::Components;
+        let source = self.options.printed();
         let half = match kind {
             TurnKind::Robot(robot) => Some(ArrowKind::RobotTorque(robot)),
             TurnKind::Missing(robot) => Some(ArrowKind::MissingTorque(robot)),
@@ -393,12 +396,7 @@ impl Pen<'_> {
                     Some(acting) if acting[block.0] > 0.0 => {
                         force * (SOURCE_FAILURE * self.edge / acting[block.0])
                     }
-                    Some(_) => force * self.metres_per_newton,
-                    None => {
-                        let length =
-                            (force.norm() * self.metres_per_newton).max(LEAST_FAILURE * self.edge);
-                        force.normalize() * length
-                    }
+                    _ => force * self.metres_per_newton,
                 };
                 marks.arrows.push(ForceArrow {
                     on,
@@ -407,6 +405,7 @@ impl Pen<'_> {
                     force,
                     colour: look.0,
                     width: self.width(look.1, vector),
+                    head: self.head(),
                     kind,
                 });
             }

@@ -1,7 +1,10 @@
 //! The mechanism: where a structure falls, every block where its motion leads, above its own outline; hinges and slips.
 //!
-//! Blocks go along their velocities as finite rigid motions, so they keep their shapes; how far is for the eye. Where
-//! one slides, the motion that proves the fall also lifts it, by μ per metre of way: only so can nothing object to it.
+//! Blocks go along their velocities as finite rigid motions, so they keep their shapes; how far is for the eye, and never
+//! so far that they lie in each other. Of each part that falls one elementary mechanism is drawn
+//! ([`Analysis::elementary`](crate::analysis::Analysis::elementary)). Where one slides, the motion that proves the fall
+//! also lifts it, by μ per metre of way: only so can nothing object to it. It is drawn along its joint where that is
+//! possible; where it is not, the key says that it lifts.
 //! With a kernel a block turns about the end of the safe stretch, and what lies beyond dips into its neighbour: the figure
 //! shows the mechanism of the structure that was examined.
 
@@ -111,8 +114,12 @@ pub(crate) fn entries(stage: &Stage<'_>) -> Vec<Entry> {
         entries.push(Entry::Sign(ring_sign, 10.0, "hinge".into()));
     }
     if joints.iter().any(|j| j.slip != 0.0) {
-        let slides = "slides, and lifts by its friction coefficient".to_owned();
-        entries.push(Entry::Sign(slip_sign, 26.0, slides));
+        let slides = if joints.iter().any(|j| j.lift != 0.0) {
+            "slides, and lifts by its friction coefficient"
+        } else {
+            "slides along its joint"
+        };
+        entries.push(Entry::Sign(slip_sign, 26.0, slides.to_owned()));
     }
     entries.extend(legend::robots(stage));
     entries

@@ -34,6 +34,17 @@ pub enum ArrowScale {
     Strip,
 }
 
+/// Which forces of its interfaces a free-body diagram shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Corners {
+    /// Those at both ends of every interface where there are at most three, one for each interface where there are more;
+    /// what is zero is left out.
+    #[default]
+    Few,
+    /// Every unknown of the program at every end, by name, also those that are zero; arrows then only name forces.
+    All,
+}
+
 /// The choices about a figure of forces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
@@ -43,6 +54,10 @@ pub struct Options {
     pub normalisation: Normalisation,
     /// Over what the scale of arrows is shared.
     pub scale: ArrowScale,
+    /// Which forces of its interfaces a free-body diagram shows.
+    pub corners: Corners,
+    /// How much of the way a mechanism is drawn along, 0 … 1.
+    pub way: f64,
     /// Panels beside each other; chosen by their shape where `None`.
     pub columns: Option<usize>,
     /// Colours.
@@ -65,6 +80,8 @@ impl Default for Options {
             style: ForceStyle::default(),
             normalisation: Normalisation::default(),
             scale: ArrowScale::default(),
+            corners: Corners::default(),
+            way: 1.0,
             columns: None,
             theme: Theme::default(),
             captions: true,
@@ -73,5 +90,12 @@ impl Default for Options {
             amounts: false,
             width: None,
         }
+    }
+}
+
+impl Options {
+    /// Whether arrows look as in the source's printed figures: components to the source's scale.
+    pub(crate) fn printed(&self) -> bool {
+        self.normalisation == Normalisation::Source && self.style == ForceStyle::Components
     }
 }

@@ -2,7 +2,7 @@
 
 use core::f64::consts::FRAC_PI_2;
 
-use super::arrow::{ForceArrow, TurnArrow, TurnKind};
+use super::arrow::{ForceArrow, LEAST_SEEN, TurnArrow, TurnKind};
 use super::displacement::Displacement;
 use super::label;
 use super::stage::{MANY, Stage};
@@ -141,7 +141,12 @@ impl<'a> Pen<'a> {
         }
         Pen {
             places,
-            displaced: stage.kind.displacements(stage.analysis, number, stage.unit),
+            displaced: stage.kind.displacements(
+                stage.analysis,
+                number,
+                stage.unit,
+                stage.options.way,
+            ),
             stage,
             number,
             camera,
@@ -202,7 +207,10 @@ impl<'a> Pen<'a> {
         marks: Vec<Group>,
         ink: Ink,
     ) -> Group {
-        let mut group = Group::of_class("picture");
+        let mut group = Group {
+            camera: Some(*self.camera),
+            ..Group::of_class("picture")
+        };
         let parts = [self.ground(view), blocks, self.plans(), self.discs()];
         let parts = parts.into_iter().chain(marks);
         group.items.extend(parts.map(Item::from));
@@ -356,10 +364,20 @@ impl<'a> Pen<'a> {
         group
     }
 
+    /// Whether an arrow is long enough to be seen.
+    pub(crate) fn seen(&self, arrow: &ForceArrow) -> bool {
+        self.camera.length(arrow.reach().norm()) >= LEAST_SEEN
+    }
+
+    /// Whether a turning arrow is long enough to be seen.
+    pub(crate) fn turn_seen(&self, turn: &TurnArrow) -> bool {
+        self.camera.length(turn.arc.abs()) >= LEAST_SEEN
+    }
+
     fn arrow(&self, arrow: &ForceArrow) -> Path {
         let outline = straight(
             self.camera.place(arrow.at),
-            self.camera.turn(arrow.vector),
+            self.camera.turn(arrow.reach()),
             self.width(arrow),
         );
         Path::filled(outline, arrow.colour).cased(self.seam_around(arrow), self.casing)
@@ -386,9 +404,10 @@ impl<'a> Pen<'a> {
             ..Group::of_class("heads")
         };
         let marks = &self.stage.marks[self.number];
-        for arrow in marks.arrows.iter().filter(|a| !a.kind.is_failure()) {
+        let there = marks.arrows.iter().filter(|a| !a.kind.is_failure());
+        for arrow in there.filter(|a| self.seen(a)) {
             let width = self.width(arrow);
-            let (from, along) = (self.camera.place(arrow.at), self.camera.turn(arrow.vector));
+            let (from, along) = (self.camera.place(arrow.at), self.camera.turn(arrow.reach()));
             let head = Path::filled(head(from, along, width), arrow.colour);
             group
                 .items
@@ -399,7 +418,7 @@ impl<'a> Pen<'a> {
 
     pub(crate) fn turn(&self, turn: &TurnArrow) -> Path {
         let radius = TURN * self.stage.unit;
-        let sweep = (turn.arc.abs() / radius).clamp(0.7, 5.0) * turn.arc.signum();
+        let sweep = turn.arc / radius;
         let outline = turning(
             self.camera.place(turn.at),
             self.camera.length(radius),
@@ -414,11 +433,7 @@ impl<'a> Pen<'a> {
     /// top where that is as good as any.
     fn clearest(&self, turn: &TurnArrow, radius: f64, sweep: f64) -> f64 {
         let arrows = &self.stage.marks[self.number].arrows;
-        // The head lies beyond the sweep.
-        let ends = [
-            -0.5 * sweep,
-            0.5 * sweep + sweep.signum() * 4.5 * turn.width / radius,
-        ];
+        let ends = [-0.5 * sweep, 0.5 * sweep];
         let clear = |middle: f64| {
             let from_arrows = |share: f64| {
                 let angle = middle + ends[0] + (ends[1] - ends[0]) * share;
@@ -450,7 +465,7 @@ impl<'a> Pen<'a> {
         for arrow in marks
             .arrows
             .iter()
-            .filter(|a| a.kind.is_failure() == missing)
+            .filter(|a| a.kind.is_failure() == missing && self.seen(a))
         {
             let title = told::arrow(self.stage, arrow);
             group.items.push(
@@ -463,7 +478,7 @@ impl<'a> Pen<'a> {
         for turn in marks
             .turns
             .iter()
-            .filter(|t| matches!(t.kind, TurnKind::Missing(_)) == missing)
+            .filter(|t| matches!(t.kind, TurnKind::Missing(_)) == missing && self.turn_seen(t))
         {
             let title = told::turn(self.stage, turn);
             group.items.push(
@@ -483,7 +498,7 @@ impl<'a> Pen<'a> {
         for arrow in self.stage.marks[self.number]
             .arrows
             .iter()
-            .filter(|a| !a.kind.is_failure())
+            .filter(|a| !a.kind.is_failure() && self.seen(a))
         {
             colours.add(arrow.colour, self.arrow(arrow).outline);
         }

@@ -74,7 +74,7 @@ pub fn ring(theme: &Theme) -> Drawing {
     y += 32.0;
     items.push(line(y, "robots, over and over"));
     y += 30.0;
-    let arrow = straight(PagePoint::new(centre.x - 34.0, y), (42.0, 0.0), 5.6);
+    let arrow = straight(PagePoint::new(centre.x - 34.0, y), (67.0, 0.0), 5.6);
     let failure =
         Group::of_class("failure").titled(format!("What fails wears {}", theme.failure.css()));
     items.push(failure.with(Path::filled(arrow, theme.failure)).into());

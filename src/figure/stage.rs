@@ -3,7 +3,6 @@
 use super::arrow::Marks;
 use super::fill::Fills;
 use super::kind::Kind;
-use super::mark;
 use super::option::{ArrowScale, Options};
 use super::view;
 use crate::analysis::Analysis;
@@ -32,11 +31,8 @@ pub(crate) struct Stage<'a> {
 impl<'a> Stage<'a> {
     pub fn of(analysis: &'a Analysis<'a>, kind: Kind, options: &'a Options) -> Stage<'a> {
         let scene = analysis.scene;
-        let own: Vec<f64> = scene
-            .frames
-            .iter()
-            .zip(&analysis.frames)
-            .map(|(frame, found)| mark::largest(scene, frame, found, options))
+        let own: Vec<f64> = (0..analysis.frames.len())
+            .map(|frame| kind.largest(analysis, frame, options))
             .collect();
         let shared = own.iter().copied().fold(0.0, f64::max);
         let reference = |own: f64| match options.scale {
@@ -50,7 +46,7 @@ impl<'a> Stage<'a> {
             .collect();
         let unit = unit(scene);
         let reach: Vec<Option<Bounds>> = (0..marks.len())
-            .map(|frame| kind.reach(analysis, frame, unit))
+            .map(|frame| kind.reach(analysis, frame, unit, &marks[frame]))
             .collect();
         let shown = view::shown(scene, &marks, &reach, options.theme.widths.disc, unit);
         let nothing = Bounds {

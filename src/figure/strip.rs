@@ -197,7 +197,10 @@ impl Strip<'_> {
                 .extend(self.verdict(frame, PagePoint::new(middle, y + half)));
             y += 2.2 * half;
             let (reason, size) = (stage.kind.reason(stage, frame), theme.sizes.reason);
-            for line in balanced(&reason, Face::Sans, size, layout.panel, MOST_REASON_LINES) {
+            let unseen = stage.marks[frame].unseen(stage.unit, layout.scale);
+            let lines = balanced(&reason, Face::Sans, size, layout.panel, MOST_REASON_LINES);
+            let unseen = unseen.map(|u| balanced(&u, Face::Sans, size, layout.panel, 2));
+            for line in lines.into_iter().chain(unseen.into_iter().flatten()) {
                 y += REASON_LINE * size;
                 let at = PagePoint::new(middle, y - 0.32 * size);
                 group = group.with(
@@ -243,9 +246,11 @@ impl Strip<'_> {
         let lead = 2.0 * radius + 6.0 + wide;
         let unit = self.layout.scale * self.stage.unit;
         let scale = match self.stage.options.scale {
-            ArrowScale::Panel => {
-                legend::scale(self.stage.marks[frame].newtons_per_unit, unit, theme)
-            }
+            ArrowScale::Panel => legend::scale(
+                self.stage.marks[frame].newtons_per_unit,
+                unit,
+                self.stage.options,
+            ),
             ArrowScale::Strip => None,
         };
         let total = lead

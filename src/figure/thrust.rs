@@ -1,20 +1,24 @@
 //! The line of thrust: how pressure runs through the blocks, from interface to interface.
 //!
-//! What the line is in each block, [`stretches`] says.
+//! What the line is in each block, [`stretches`] says: it runs along true lines of action only, and where there is no
+//! single line it stops at the joints. Loads are arrows that end where they act; between them lengths compare.
 
+use super::arrow::{ArrowKind, ForceArrow, Marks, TurnKind};
 use super::bearing::bearings;
 use super::funicular::{Giver, Stretch, stretches};
 use super::label;
 use super::legend::{self, Entry};
+use super::mark;
+use super::option::{ArrowScale, Options};
 use super::panel::{ByColour, Pen};
 use super::stage::Stage;
 use super::told;
 use super::verdict;
 use super::words::{force, quantity};
-use crate::analysis::{FrameAnalysis, Verdict};
+use crate::analysis::{Analysis, FrameAnalysis, Verdict};
 use crate::drawing::{Camera, Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
 use crate::geometry::Bounds;
-use crate::scene::{BodyId, Scene};
+use crate::scene::{BodyId, Frame, Scene};
 
 /// Width of the line of the largest force, in unit edges; and between which widths it stays, pixels.
 const WIDEST: (f64, f64, f64) = (0.13, 1.8, 6.5);
@@ -30,7 +34,7 @@ pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Ca
     let pen = Pen::of(stage, frame, camera);
     let scene = stage.analysis.scene;
     let found = &stage.analysis.frames[frame];
-    let stretches = stretches(scene, &scene.frames[frame], found);
+    let stretches = stretches(scene, &scene.frames[frame], found, stage.unit);
     let mut ink = label::ink(&pen);
     for stretch in &stretches {
         let [from, to] = [stretch.from, stretch.to].map(|p| camera.place(p));
@@ -39,7 +43,46 @@ pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Ca
     let seams = seams(&pen, found);
     let dots = dots(&pen, found, &mut |at, radius| ink.disc(at, radius + 1.0));
     let lines = lines(&pen, scene, found, &stretches);
-    pen.picture(view, pen.blocks(), vec![seams, lines, dots], ink)
+    let loads = pen.arrows(false);
+    pen.picture(view, pen.blocks(), vec![seams, lines, dots, loads], ink)
+}
+
+/// The loads of a frame as arrows that end where they act; `newtons_per_unit` N are one unit edge long.
+pub(crate) fn marks(
+    analysis: &Analysis<'_>,
+    frame: usize,
+    options: &Options,
+    newtons_per_unit: f64,
+) -> Marks {
+    let marks = mark::marks(analysis, frame, options, newtons_per_unit);
+    let loads = marks.arrows.into_iter();
+    let loads = loads.filter(|arrow| arrow.kind == ArrowKind::Load);
+    let ended = loads.map(|arrow| ForceArrow {
+        at: arrow.at - arrow.vector,
+        ..arrow
+    });
+    let turns = marks.turns.into_iter();
+    let turns = turns.filter(|turn| turn.kind == TurnKind::Load);
+    let loads = Marks {
+        arrows: ended.collect(),
+        turns: turns.collect(),
+        newtons_per_unit,
+    };
+    // Without loads there are no arrows, and nothing to give a scale for.
+    if loads.arrows.is_empty() && loads.turns.is_empty() {
+        Marks::default()
+    } else {
+        loads
+    }
+}
+
+/// The largest load on the blocks of a frame, N.
+pub(crate) fn largest_load(scene: &Scene, frame: &Frame) -> f64 {
+    let loads = scene
+        .loads
+        .iter()
+        .filter(|l| frame.placed.contains(&l.block));
+    loads.map(|l| l.force.norm()).fold(0.0, f64::max)
 }
 
 /// What is said below a frame's verdict.
@@ -56,22 +99,28 @@ pub(crate) fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
 pub(crate) fn entries(stage: &Stage<'_>, unit: f64) -> Vec<Entry> {
     let (scene, theme) = (stage.analysis.scene, &stage.options.theme);
     let frames = scene.frames.iter().zip(&stage.analysis.frames);
-    let (mut several, mut carried) = (false, false);
+    let (mut through, mut stopped) = (false, false);
     for (frame, found) in frames {
-        let stretches = stretches(scene, frame, found);
-        several |= stretches.iter().any(|s| s.meeting > 2);
-        carried |= !stretches.is_empty();
+        let stretches = stretches(scene, frame, found, stage.unit);
+        through |= stretches.iter().any(|s| s.through);
+        stopped |= stretches.iter().any(|s| !s.through);
     }
     let mut entries = Vec::new();
-    if carried {
+    if stage.options.scale == ArrowScale::Strip {
+        let newtons = stage.marks.iter().map(|m| m.newtons_per_unit);
+        let newtons = newtons.fold(0.0, f64::max);
+        entries.extend(legend::scale(newtons, unit, stage.options));
+    }
+    if through || stopped {
         let largest = quantity(largest(stage), "N");
         let line = format!("line of thrust, this thick for {largest}");
         entries.push(Entry::Line(colour(theme), widest(unit), line));
-        entries.push(Entry::Sign(dot_sign, 8.0, "resultant".into()));
+        let dot = "where a joint's resultant acts".to_owned();
+        entries.push(Entry::Sign(dot_sign, 8.0, dot));
     }
-    if several {
-        let what = "where three or more forces meet".to_owned();
-        entries.push(Entry::Sign(meeting_sign, 26.0, what));
+    if stopped {
+        let what = "ends where no single line runs through a block".to_owned();
+        entries.push(Entry::Sign(end_sign, 26.0, what));
     }
     entries.extend(legend::robots(stage));
     entries
@@ -100,6 +149,7 @@ fn widest(unit: f64) -> f64 {
 /// Width of a stretch, pixels.
 fn width(pen: &Pen<'_>, stretch: &Stretch) -> f64 {
     let share = stretch.force.norm() / largest(pen.stage).max(f64::MIN_POSITIVE);
+    let share = share.min(1.0);
     widest(pen.unit()) * (THINNEST + (1.0 - THINNEST) * share)
 }
 
@@ -156,6 +206,8 @@ fn lines(pen: &Pen<'_>, scene: &Scene, found: &FrameAnalysis, stretches: &[Stret
                 told::named(scene, other)
             }
             Giver::Robot(robot) => format!("robot {}", scene.robots[robot.0].id),
+            Giver::Load(_) => "a load".to_owned(),
+            Giver::Resultant => "a joint and its loads together".to_owned(),
         };
         let title = format!("Force on block {on} from {by}: {}", force(stretch.force));
         let drawn = Group::of_class("force").titled(title);
@@ -198,15 +250,12 @@ fn dot_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
     vec![dot_at(at.moved(4.0, 0.0), 3.2, theme).into()]
 }
 
-fn meeting_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    let hub = at.moved(13.0, 0.0);
-    let mut star = Outline::default();
-    for end in [
-        at.moved(2.0, 6.0),
-        at.moved(24.0, 6.0),
-        at.moved(13.0, -8.0),
-    ] {
-        star.extend(Outline::line([end, hub]));
-    }
-    vec![Path::stroked(star, Stroke::new(colour(theme), 2.0)).into()]
+/// A joint with a short piece on either side.
+fn end_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    let dot = at.moved(13.0, 0.0);
+    let piece = Outline::line([at.moved(3.0, 0.0), at.moved(23.0, 0.0)]);
+    vec![
+        Path::stroked(piece, Stroke::new(colour(theme), 2.6)).into(),
+        dot_at(dot, 3.2, theme).into(),
+    ]
 }

@@ -1,7 +1,7 @@
 //! [`shown`]: what each frame shows of the scene. Ground that reaches far beyond the blocks is cut.
 
 use super::arrow::Marks;
-use crate::drawing::arrow::{HEAD_LENGTH, HEAD_WIDTH};
+use crate::drawing::arrow::HEAD_WIDTH;
 use crate::geometry::{Bounds, Point, Vector};
 use crate::scene::{BlockId, Frame, Scene};
 
@@ -25,9 +25,7 @@ pub(crate) fn shown(
     let frame = |((frame, marks), reach): ((&Frame, &Marks), &Option<Bounds>)| {
         let blocks = blocks(scene, frame).map(|id| scene.blocks[id.0].body.polygon.bounds());
         let arrows = marks.arrows.iter().filter_map(|arrow| {
-            let length = arrow.vector.norm();
-            let tip = arrow.at + arrow.vector * (1.0 + HEAD_LENGTH * arrow.width / length);
-            let ends = Bounds::of([arrow.at, tip]).filter(|_| length > 0.0);
+            let ends = Bounds::of([arrow.at, arrow.at + arrow.reach()]);
             ends.map(|b| b.grown(HEAD_WIDTH * arrow.width / 2.0))
         });
         let turns = marks.turns.iter().map(|turn| around(turn.at, 0.7 * unit));

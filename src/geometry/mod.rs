@@ -8,6 +8,7 @@ mod lattice;
 mod overlap;
 mod polygon;
 mod sum;
+pub(crate) mod snap;
 mod tolerance;
 mod zonotope;
 

@@ -76,11 +76,24 @@ pub fn application_points(ends: [Point; 2], kernel: f64) -> [Point; 2] {
     [ends[0] + inward, ends[1] - inward]
 }
 
+/// Two edges that face each other with less than a hundredth of the smaller block's size between them, and do not touch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Near {
+    /// The two bodies, as an interface would name them.
+    pub bodies: [BodyId; 2],
+    /// Around where.
+    pub at: Point,
+    /// The widest gap along the stretch, metres.
+    pub distance: f64,
+}
+
 /// Everything that touches in a scene.
 #[derive(Clone, Debug)]
 pub struct Interfaces {
     /// In the order of the bodies' numbers, then of the place along them.
     pub all: Vec<Interface>,
+    /// What nearly touches; a verdict may hinge on it.
+    pub near: Vec<Near>,
     /// What was too short or too far apart to count, in words.
     pub notices: Vec<String>,
 }
@@ -94,6 +107,7 @@ impl Interfaces {
         let mut found = match (&scene.lattice, scene.exact) {
             (Some(lattice), true) => Interfaces {
                 all: lattice::find(scene, lattice),
+                near: Vec::new(),
                 notices: Vec::new(),
             },
             _ => edge::find(scene),

@@ -13,7 +13,7 @@ pub use column::{Column, Count, Force, columns, sticking_columns};
 pub(crate) use pose::product;
 pub use pose::{
     Cap, Conic, Correction, elastic, force_form, kinematic, least_left, least_squares, most_of,
-    shortest, source,
+    shortest, smallest, source,
 };
 pub use scale::Scale;
 

@@ -105,7 +105,10 @@ fn what_stands_has_no_mechanism_and_what_falls_shows_every_block_that_moves() {
     }
     let svg = svg::write(&drawing);
     assert!(svg.contains("there is no mechanism"));
-    assert!(svg.contains("turns about the grip of robot"), "{svg}");
+    assert!(svg.contains("turns about a hinge on block"), "{svg}");
+    let held = self::scene("thesis/figure-9b.json");
+    let svg = svg::write(&draw(&Analysis::of(&held), Kind::Mechanism));
+    assert!(svg.contains("about the grip of robot"), "{svg}");
 }
 
 #[test]

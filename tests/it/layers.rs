@@ -9,8 +9,9 @@ use std::path::{Path, PathBuf};
 
 /// What each room may use, itself apart. A room that is not listed here has no place in the house.
 const ROOMS: &[(&str, &[&str])] = &[
+    ("text", &[]),
     ("geometry", &[]),
-    ("scene", &["geometry"]),
+    ("scene", &["text", "geometry"]),
     ("interface", &["geometry", "scene"]),
     ("assembly", &["geometry", "scene", "interface"]),
     ("effect", &["geometry", "scene", "interface", "assembly"]),
@@ -32,14 +33,14 @@ const ROOMS: &[(&str, &[&str])] = &[
             "resultant",
         ],
     ),
-    ("import", &["geometry", "scene"]),
+    ("import", &["text", "geometry", "scene"]),
     ("drawing", &["geometry"]),
     (
         "figure",
         &["geometry", "scene", "interface", "analysis", "drawing"],
     ),
-    ("output", &["drawing"]),
-    ("chart", &["drawing"]),
+    ("output", &["text", "drawing"]),
+    ("chart", &["text", "drawing"]),
     (
         "study",
         &[
@@ -57,6 +58,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     (
         "report",
         &[
+            "text",
             "geometry",
             "scene",
             "interface",
@@ -72,6 +74,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     (
         "cli",
         &[
+            "text",
             "geometry",
             "scene",
             "interface",

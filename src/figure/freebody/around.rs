@@ -1,8 +1,13 @@
 //! What lies around a block: the bodies it touches, the points at which forces act, and how much of it all is shown.
 
+use super::force::{Arrow, LONG};
 use crate::analysis::{Analysis, Contact};
-use crate::geometry::{Bounds, Point};
-use crate::scene::{BlockId, BodyId};
+use crate::drawing::{Camera, PageRect};
+use crate::geometry::{Bounds, Point, Vector, quarter_turn};
+use crate::scene::{BlockId, BodyId, Scene};
+
+/// Room beyond the tip of an arrow for its name, pixels.
+const NAMED: (f64, f64) = (38.0, 24.0);
 
 /// The bodies that touch a block, each once.
 pub(super) fn neighbours(contacts: &[&Contact], block: BlockId) -> Vec<BodyId> {
@@ -41,4 +46,137 @@ pub(super) fn view(analysis: &Analysis<'_>, block: BlockId, contacts: &[&Contact
         });
     }
     view
+}
+
+/// What an interface gives to the block at one of its ends.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Corner {
+    /// The application point, metres.
+    pub at: Point,
+    /// Normal force into the block, N.
+    pub normal: f64,
+    /// Friction force on the block to the left of ŝ, N.
+    pub friction: f64,
+}
+
+/// Both ends of an interface, the one to the left of ŝ first, as in the source's figures 1 and 2.
+///
+/// Of friction only the sum is known, and both ends' acts along one line: each gets a share like that of the pressure,
+/// so that the two together act where the interface's resultant does. An end that is alone bears all.
+pub(super) fn corners(contact: &Contact, block: BlockId) -> [Corner; 2] {
+    let own = contact.interface.bodies[0] == BodyId::Block(block);
+    // Friction is told along (−n_y, n_x) on the first body; for the second both that direction and the force turn over.
+    let friction = contact.friction_force;
+    let pressed: f64 = contact.normal_forces.iter().sum();
+    let share = |k: usize| {
+        if pressed > 0.0 {
+            contact.normal_forces[k] / pressed
+        } else {
+            0.5
+        }
+    };
+    let corner = |k: usize| Corner {
+        at: contact.application_points[k],
+        normal: contact.normal_forces[k],
+        friction: friction * share(k),
+    };
+    let [mut first, second] = [corner(0), corner(1)];
+    if distinct(contact).len() == 1 {
+        first.normal = pressed;
+        first.friction = friction;
+        return [first, second];
+    }
+    let normal = if own {
+        contact.interface.normal
+    } else {
+        -contact.interface.normal
+    };
+    let left = quarter_turn(normal);
+    if (first.at - second.at).dot(&left) >= 0.0 {
+        [first, second]
+    } else {
+        [second, first]
+    }
+}
+
+/// The unit normal into a block at one of its contacts.
+pub(super) fn inward(contact: &Contact, block: BlockId) -> Vector {
+    if contact.interface.bodies[0] == BodyId::Block(block) {
+        contact.interface.normal
+    } else {
+        -contact.interface.normal
+    }
+}
+
+/// The body on the other side of a block's contact.
+pub(super) fn other(contact: &Contact, block: BlockId) -> BodyId {
+    let [first, second] = contact.interface.bodies;
+    if first == BodyId::Block(block) {
+        second
+    } else {
+        first
+    }
+}
+
+/// Where ŝ stands: on its own interface in the middle; of a block's `single` one `clear` metres beside it, where the
+/// neighbour's edge goes on and nothing else is in the way.
+pub(super) fn aside(
+    scene: &Scene,
+    contact: &Contact,
+    block: BlockId,
+    clear: f64,
+    single: bool,
+) -> Point {
+    let interface = &contact.interface;
+    let (inward, along) = (inward(contact, block), interface.tangent());
+    if !single {
+        return interface.middle();
+    }
+    let neighbour = other(contact, block);
+    let tries = [
+        interface.ends[1] + along * clear,
+        interface.ends[0] - along * clear,
+    ];
+    let goes_on = |p: &Point| {
+        let inside = |beyond: f64| *p + along * beyond - inward * (0.05 * clear);
+        let polygon = &scene.body(neighbour).polygon;
+        let own = &scene.blocks[block.0].body.polygon;
+        [-0.2, 0.0, 0.2]
+            .iter()
+            .all(|b| polygon.contains(inside(b * clear)))
+            && !polygon.contains(*p + inward * (0.05 * clear))
+            && !own.contains(*p + inward * (0.05 * clear))
+    };
+    tries
+        .into_iter()
+        .find(goes_on)
+        .unwrap_or(interface.middle())
+}
+
+/// How far arrows and their names reach beyond what is shown: to the left, up, to the right, down; pixels.
+pub(super) fn around_arrows(shown: &PageRect, arrows: &[Arrow], camera: &Camera) -> [f64; 4] {
+    let mut pads: [f64; 4] = [12.0; 4];
+    for arrow in arrows {
+        let from = camera.place(arrow.at);
+        let ends = match arrow.turn {
+            Some(_) => vec![
+                from.moved(-LONG / 2.0, -LONG / 2.0),
+                from.moved(LONG / 2.0, LONG / 2.0),
+            ],
+            None => vec![from, from.moved(arrow.along.0, arrow.along.1)],
+        };
+        let (right, floor) = (shown.at.x + shown.width, shown.at.y + shown.height);
+        for end in ends {
+            let beyond = [
+                shown.at.x - end.x + NAMED.0,
+                shown.at.y - end.y + NAMED.1,
+                end.x - right + NAMED.0,
+                end.y - floor + NAMED.1,
+            ];
+            for (pad, more) in pads.iter_mut().zip(beyond) {
+                *pad = pad.max(more);
+            }
+        }
+    }
+    pads
 }

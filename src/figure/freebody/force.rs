@@ -1,33 +1,82 @@
-//! [`Force`]: a force that may act on the block, with its name and its arrow on the page.
+//! [`Force`]: a force on the block as it is listed, with its name, and [`Arrow`]: how it is drawn.
 
-use super::super::option::Options;
+use super::super::option::{Corners, Options};
+use super::super::stage::unit;
 use super::super::words::{force as amount, quantity};
-use super::around::distinct;
-use crate::analysis::{Analysis, Contact};
+use super::around::{corners, distinct, inward, other};
+use crate::analysis::{Analysis, Contact, Failure};
 use crate::drawing::symbol::{Accent, Symbol};
 use crate::drawing::{Camera, Colour, PagePoint};
-use crate::geometry::{Point, Vector, quarter_turn};
-use crate::scene::{BlockId, BodyId, Scene};
+use crate::geometry::{Point, Vector, cross, quarter_turn};
+use crate::scene::{BlockId, BodyId};
 
-/// Lengths of arrows, pixels: normal and weight, friction at most, ŝ.
-const LONG: f64 = 52.0;
+/// Length of the longest arrow, pixels; of one that names a force whatever its amount; of friction's and of ŝ.
+pub(super) const LONG: f64 = 64.0;
+const NAMING: f64 = 52.0;
 const FRICTION: f64 = 42.0;
 const THIN: f64 = 30.0;
 /// Widths of shafts, pixels.
-const WIDTH: f64 = 2.4;
+pub(super) const WIDTH: f64 = 2.4;
 const THIN_WIDTH: f64 = 1.2;
 /// Friction arrows of one interface reach at most so far towards each other, as a share of its length.
 const APART: f64 = 0.30;
+/// Radius of a turning arrow, pixels.
+const TURN: f64 = 24.0;
+/// Most interfaces whose corners are drawn one by one where nothing else is asked for.
+const MOST: usize = 3;
+/// Forces below this share of the largest are noise of the solution.
+const NOISE: f64 = 1e-9;
 
-/// A force that may act on the block.
+/// A force on the block.
+#[derive(Clone, Debug)]
 pub(super) struct Force {
     /// Its name.
     pub symbol: Symbol,
     /// What it is, in words.
-    pub told: String,
-    /// Where its arrow begins.
-    pub from: PagePoint,
-    /// Where it goes from there; of a turning arrow the radius.
+    pub what: &'static str,
+    /// Who gives it.
+    pub from: String,
+    /// Where it acts, metres.
+    pub at: Point,
+    /// What acts, N.
+    pub force: Vector,
+    /// The torque that acts beside it, N·m.
+    pub torque: f64,
+    /// Its colour.
+    pub colour: Colour,
+}
+
+impl Force {
+    /// Its moment about a point, N·m.
+    pub(super) fn moment(&self, about: Point) -> f64 {
+        cross(self.at - about, self.force) + self.torque
+    }
+
+    /// It and its amount in words.
+    pub(super) fn title(&self, on: &str) -> String {
+        let amount = if self.force.norm() > 0.0 || self.torque == 0.0 {
+            amount(self.force)
+        } else {
+            quantity(self.torque, "N·m")
+        };
+        format!(
+            "{} {} on block {on}: {amount}",
+            self.what,
+            self.symbol.said()
+        )
+    }
+}
+
+/// An arrow on the page.
+#[derive(Clone, Debug)]
+pub(super) struct Arrow {
+    /// Its name; `None` where another arrow bears it.
+    pub symbol: Option<Symbol>,
+    /// What it is, in words.
+    pub title: String,
+    /// Where it begins, metres.
+    pub at: Point,
+    /// Where it goes from there, pixels; of a turning arrow the radius.
     pub along: (f64, f64),
     /// The angle of a turning arrow, radians.
     pub turn: Option<f64>,
@@ -37,9 +86,9 @@ pub(super) struct Force {
     pub colour: Colour,
 }
 
-impl Force {
-    /// Middles of a name of this size beside the arrow's tip and shaft.
-    pub(super) fn beside(&self, wide: f64, high: f64) -> Vec<PagePoint> {
+impl Arrow {
+    /// Middles of a name of this size beside the arrow's tip and shaft; `from` is where it begins on the page.
+    pub(super) fn beside(&self, from: PagePoint, wide: f64, high: f64) -> Vec<PagePoint> {
         let (x, y) = self.along;
         let length = libm::hypot(x, y).max(1e-9);
         let (ux, uy) = (x / length, y / length);
@@ -47,205 +96,395 @@ impl Force {
         if self.turn.is_some() {
             let off = |x: f64, y: f64| {
                 let far = length + 3.0 * self.width + 2.0 + reach(x, y);
-                self.from.moved(x * far, y * far)
+                from.moved(x * far, y * far)
             };
             return vec![off(1.0, 0.0), off(0.0, -1.0), off(-1.0, 0.0), off(0.0, 1.0)];
         }
         let mut middles = Vec::new();
-        for share in [0.85, 1.1, 0.55, 0.3] {
+        for share in [0.8, 1.0, 0.55, 0.3] {
             // Above the shaft first: that is where a reader looks.
             let up = if -ux > 0.0 { 1.0 } else { -1.0 };
             for side in [up, -up] {
                 let (nx, ny) = (-uy * side, ux * side);
                 let off = 1.5 * self.width + 3.0 + reach(nx, ny);
-                middles.push(self.from.moved(x * share + nx * off, y * share + ny * off));
+                middles.push(from.moved(x * share + nx * off, y * share + ny * off));
             }
         }
-        let beyond = length + 4.5 * self.width + 3.0 + reach(ux, uy);
-        middles.push(self.from.moved(ux * beyond, uy * beyond));
+        let beyond = length + 3.0 + reach(ux, uy);
+        middles.push(from.moved(ux * beyond, uy * beyond));
         middles
     }
 }
 
-/// The unit normal into a block at one of its contacts.
-pub(super) fn inward(contact: &Contact, block: BlockId) -> Vector {
-    if contact.interface.bodies[0] == BodyId::Block(block) {
-        contact.interface.normal
-    } else {
-        -contact.interface.normal
+/// How much is told of the forces of interfaces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Detail {
+    /// Normal and friction force at each corner, each by its own name: of a block on one interface.
+    Parts,
+    /// At each corner one force: of a block on few interfaces.
+    Corners,
+    /// One force for each interface.
+    Resultants,
+}
+
+/// How much is told of the forces of so many interfaces.
+pub(super) fn detail(count: usize, options: &Options) -> Detail {
+    match (options.corners, count) {
+        (_, 0..=1) => Detail::Parts,
+        (Corners::All, _) => Detail::Corners,
+        (Corners::Few, n) if n <= MOST => Detail::Corners,
+        (Corners::Few, _) => Detail::Resultants,
     }
 }
 
-/// Names at contact `number` of `count`: a letter with an arrow, numbered by interface where there are several.
-pub(super) fn named(below: &str, number: usize, count: usize) -> Symbol {
-    let symbol = Symbol::new("F", Accent::Arrow, below);
-    if count > 1 {
-        symbol.raised(&format!("({})", number + 1))
-    } else {
-        symbol
-    }
-}
-
-/// Every force that may act on a block, and ŝ of every interface.
+/// Every force on a block: weight, loads, interfaces, robots, and what is missing.
 pub(super) fn forces(
     analysis: &Analysis<'_>,
     frame: usize,
     block: BlockId,
     contacts: &[&Contact],
-    camera: &Camera,
     options: &Options,
 ) -> Vec<Force> {
-    let scene = analysis.scene;
-    let (theme, name) = (&options.theme, &scene.blocks[block.0].id);
+    let (scene, found) = (analysis.scene, &analysis.frames[frame]);
+    let (theme, body) = (&options.theme, &scene.blocks[block.0]);
     let mut forces = Vec::new();
-    // On a small block long arrows would reach across each other.
-    let diagonal = scene.blocks[block.0].body.polygon.bounds().diagonal();
-    let shorter = (camera.length(diagonal) / 300.0).clamp(0.5, 1.0);
-    let (long, thin) = (shorter * LONG, shorter * THIN);
-    let arrow = |symbol: Symbol, told: String, at, direction: Vector, length: f64| {
-        let (x, y) = camera.turn(direction);
-        let scale = length / libm::hypot(x, y).max(1e-300);
-        Force {
-            symbol,
-            told,
-            from: camera.place(at),
-            along: (x * scale, y * scale),
-            turn: None,
-            width: WIDTH,
-            colour: theme.ink,
-        }
-    };
-    for (number, contact) in contacts.iter().enumerate() {
-        let inward = inward(contact, block);
-        let left = quarter_turn(inward);
-        let [a, b] = contact.application_points;
-        let reach = (APART * camera.length((b - a).norm())).clamp(14.0, shorter * FRICTION);
-        let named = |below: &str| named(below, number, contacts.len());
-        for (k, at) in distinct(contact).into_iter().enumerate() {
-            let k = k + 1;
-            let symbol = named(&format!("s{k}"));
-            let told = format!("Normal force {} on block {name}", symbol.said());
-            forces.push(arrow(symbol, told, at, inward, long));
-            for (side, direction, word) in [("l", left, "left"), ("r", -left, "right")] {
-                let symbol = named(&format!("f{side}{k}"));
-                let told = format!(
-                    "Friction force {} on block {name}, to the {word} of ŝ",
-                    symbol.said()
-                );
-                forces.push(arrow(symbol, told, at, direction, reach));
-            }
-        }
-        let below = if contacts.len() > 1 {
-            (number + 1).to_string()
-        } else {
-            String::new()
-        };
-        let symbol = Symbol::new("s", Accent::Hat, &below);
-        let told = format!("Unit normal {} into block {name}", symbol.said());
-        let clear = camera.metres(FRICTION + 1.2 * thin);
+    let mut add = |symbol, what, from, at, (force, torque), colour| {
         forces.push(Force {
-            width: THIN_WIDTH,
-            colour: theme.faint,
-            ..arrow(
-                symbol,
-                told,
-                beside(scene, contact, block, clear),
-                inward,
-                THIN,
-            )
+            symbol,
+            what,
+            from,
+            at,
+            force,
+            torque,
+            colour,
         });
-    }
-    let body = &scene.blocks[block.0];
+    };
+    let arrow = |below: &str| Symbol::new("F", Accent::Arrow, below);
     if body.weight > 0.0 {
-        let symbol = weight();
-        let told = format!(
-            "Weight mg of block {name}: {}",
-            amount(scene.down() * body.weight)
+        let weight = scene.down() * body.weight;
+        let whose = "weight".to_owned();
+        add(
+            self::weight(),
+            "Weight",
+            whose,
+            body.centroid,
+            (weight, 0.0),
+            theme.ink,
         );
-        forces.push(arrow(symbol, told, body.centroid, scene.down(), long));
     }
     for (number, load) in scene.loads.iter().filter(|l| l.block == block).enumerate() {
         let below = (number + 1).to_string();
+        let whose = "load".to_owned();
         if load.force.norm() > 0.0 {
             let symbol = Symbol::new("Q", Accent::Arrow, &below);
-            let told = format!("Load on block {name}: {}", amount(load.force));
-            forces.push(arrow(symbol, told, load.at, load.force, long));
+            add(
+                symbol,
+                "Load",
+                whose.clone(),
+                load.at,
+                (load.force, 0.0),
+                theme.ink,
+            );
         }
         if load.torque != 0.0 {
             let symbol = Symbol::new("M", Accent::None, &format!("Q{below}"));
-            let told = format!(
-                "Torque of a load on block {name}: {}",
-                quantity(load.torque, "N·m")
+            let torque = (Vector::zeros(), load.torque);
+            add(
+                symbol,
+                "Torque of a load",
+                whose,
+                load.at,
+                torque,
+                theme.ink,
             );
-            let along = arrow(symbol, told, load.at, Vector::new(1.0, 0.0), 22.0);
-            forces.push(Force {
-                turn: Some(load.torque.signum() * 3.4),
-                ..along
-            });
         }
     }
-    for hold in scene.frames[frame]
-        .holds
-        .iter()
-        .filter(|h| h.block == block)
-    {
-        let (robot, colour) = (&scene.robots[hold.robot.0], theme.robot(hold.robot.0));
-        let colour = colour.mixed(theme.ink, 0.25);
-        for (axis, direction) in [("x", Vector::new(1.0, 0.0)), ("y", Vector::new(0.0, 1.0))] {
-            let symbol = Symbol::new("F", Accent::Arrow, axis).raised(&robot.id);
-            let told = format!(
-                "Force {} of robot {} on block {name}",
-                symbol.said(),
-                robot.id
-            );
-            forces.push(Force {
-                colour,
-                width: 1.3 * WIDTH,
-                ..arrow(symbol, told, hold.at, direction, long)
-            });
+    let detail = detail(contacts.len(), options);
+    let carried = contacts.iter().flat_map(|c| c.normal_forces);
+    let noise = NOISE * carried.fold(body.weight, f64::max);
+    for (number, contact) in contacts.iter().enumerate() {
+        let given = corners(contact, block);
+        let (normal, left) = (inward(contact, block), quarter_turn(inward(contact, block)));
+        let whose = named(analysis, other(contact, block));
+        let count = distinct(contact).len();
+        match detail {
+            Detail::Parts => {
+                for (k, corner) in given.iter().enumerate().take(count) {
+                    let k = k + 1;
+                    let symbol = arrow(&format!("s{k}"));
+                    let pushed = (normal * corner.normal, 0.0);
+                    add(
+                        symbol,
+                        "Normal force",
+                        whose.clone(),
+                        corner.at,
+                        pushed,
+                        theme.ink,
+                    );
+                    let side = if corner.friction >= 0.0 { "l" } else { "r" };
+                    for which in ["l", "r"] {
+                        let acts = which == side && corner.friction.abs() > noise;
+                        if options.corners == Corners::Few && !acts {
+                            continue;
+                        }
+                        let amount = if acts { corner.friction } else { 0.0 };
+                        let symbol = arrow(&format!("f{which}{k}"));
+                        let rubbed = (left * amount, 0.0);
+                        add(
+                            symbol,
+                            "Friction force",
+                            whose.clone(),
+                            corner.at,
+                            rubbed,
+                            theme.ink,
+                        );
+                    }
+                }
+            }
+            Detail::Corners => {
+                for (k, corner) in given.iter().enumerate().take(count) {
+                    let (letter, accent) = match options.corners {
+                        Corners::All => ("x", Accent::None),
+                        Corners::Few => ("F", Accent::Arrow),
+                    };
+                    let symbol = Symbol::new(letter, accent, &(k + 1).to_string());
+                    let symbol = symbol.raised(&format!("({})", number + 1));
+                    let both = normal * corner.normal + left * corner.friction;
+                    add(
+                        symbol,
+                        "Force",
+                        whose.clone(),
+                        corner.at,
+                        (both, 0.0),
+                        theme.ink,
+                    );
+                }
+            }
+            Detail::Resultants => {
+                let force = given.iter().map(|c| normal * c.normal + left * c.friction);
+                let symbol = arrow(&(number + 1).to_string());
+                let sum = (force.sum(), 0.0);
+                add(symbol, "Force", whose, contact.resultant.at, sum, theme.ink);
+            }
         }
-        if robot.limits.torque > 0.0 {
-            let symbol = Symbol::new("M", Accent::None, "").raised(&robot.id);
-            let told = format!("Torque {} of robot {}", symbol.said(), robot.id);
-            let along = arrow(symbol, told, hold.at, Vector::new(1.0, 0.0), 24.0);
-            forces.push(Force {
-                colour,
-                turn: Some(3.4),
-                ..along
-            });
+    }
+    for robot in found.robots.iter().filter(|r| r.block == block) {
+        let id = &scene.robots[robot.robot.0].id;
+        let colour = theme.robot(robot.robot.0).mixed(theme.ink, 0.25);
+        let whose = format!("robot {id}");
+        let given = (robot.force, 0.0);
+        add(
+            arrow("").raised(id),
+            "Force",
+            whose.clone(),
+            robot.at,
+            given,
+            colour,
+        );
+        if scene.robots[robot.robot.0].limits.torque > 0.0 {
+            let symbol = Symbol::new("M", Accent::None, "").raised(id);
+            let given = (Vector::zeros(), robot.torque);
+            add(symbol, "Torque", whose, robot.at, given, colour);
         }
+    }
+    let mut count = 0;
+    for failure in &found.failures {
+        let Some((whose, what, at, missing)) = missing(analysis, failure, block) else {
+            continue;
+        };
+        count += 1;
+        let accent = if missing.1 == 0.0 {
+            Accent::Arrow
+        } else {
+            Accent::None
+        };
+        let symbol = Symbol::new("X", accent, &count.to_string());
+        add(symbol, what, whose, at, missing, theme.failure);
     }
     forces
 }
 
-/// Where ŝ stands: `clear` metres beside the interface where the neighbour's edge goes on, in its middle otherwise.
-fn beside(scene: &Scene, contact: &Contact, block: BlockId, clear: f64) -> Point {
-    let interface = &contact.interface;
-    let (inward, along) = (inward(contact, block), interface.tangent());
-    let [first, second] = interface.bodies;
-    let neighbour = if first == BodyId::Block(block) {
-        second
-    } else {
-        first
+/// What a failure would have to give to a block: who, what, where, and force and torque.
+fn missing(
+    analysis: &Analysis<'_>,
+    failure: &Failure,
+    block: BlockId,
+) -> Option<(String, &'static str, Point, (Vector, f64))> {
+    let scene = analysis.scene;
+    let own = BodyId::Block(block);
+    let between = |what: &'static str, bodies: [BodyId; 2], at: Point, force: Vector| {
+        let (whose, force) = match bodies {
+            [a, b] if a == own => (b, force),
+            [a, b] if b == own => (a, -force),
+            _ => return None,
+        };
+        let whose = format!("missing, {}", named(analysis, whose));
+        Some((whose, what, at, (force, 0.0)))
     };
-    let tries = [
-        interface.ends[1] + along * clear,
-        interface.ends[0] - along * clear,
-    ];
-    let goes_on = |p: &Point| {
-        let inside = |beyond: f64| *p + along * beyond - inward * (0.05 * clear);
-        let polygon = &scene.body(neighbour).polygon;
-        let own = &scene.blocks[block.0].body.polygon;
-        [-0.2, 0.0, 0.2]
-            .iter()
-            .all(|b| polygon.contains(inside(b * clear)))
-            && !polygon.contains(*p + inward * (0.05 * clear))
-            && !own.contains(*p + inward * (0.05 * clear))
+    let robot = |number: usize| format!("missing, robot {}", scene.robots[number].id);
+    match *failure {
+        Failure::Tension { bodies, at, force } => between("Missing pull", bodies, at, force),
+        Failure::Friction { bodies, at, force } => between("Missing friction", bodies, at, force),
+        Failure::RobotForce {
+            robot: r,
+            block: b,
+            at,
+            force,
+        } if b == block => Some((robot(r.0), "Missing force", at, (force, 0.0))),
+        Failure::RobotTorque {
+            robot: r,
+            block: b,
+            at,
+            torque,
+        } if b == block => Some((robot(r.0), "Missing torque", at, (Vector::zeros(), torque))),
+        _ => None,
+    }
+}
+
+/// A body as the list has it.
+fn named(analysis: &Analysis<'_>, body: BodyId) -> String {
+    match body {
+        BodyId::Ground(_) => "ground".to_owned(),
+        BodyId::Block(_) => analysis.scene.name(body).to_owned(),
+    }
+}
+
+/// The amount of the longest arrow, N, a torque counting as torque per unit edge; 0 where lengths tell nothing.
+pub(super) fn largest(forces: &[Force], edge: f64, options: &Options) -> f64 {
+    let size = |f: &Force| f.force.norm().max(f.torque.abs() / edge);
+    match options.corners {
+        Corners::All => 0.0,
+        Corners::Few => forces.iter().map(size).fold(0.0, f64::max),
+    }
+}
+
+/// Length of the longest arrow, pixels: on a small block long arrows would reach across each other.
+pub(super) fn longest(analysis: &Analysis<'_>, block: BlockId, camera: &Camera) -> f64 {
+    shorter(analysis, block, camera) * LONG
+}
+
+fn shorter(analysis: &Analysis<'_>, block: BlockId, camera: &Camera) -> f64 {
+    let bounds = analysis.scene.blocks[block.0].body.polygon.bounds();
+    (camera.length(bounds.diagonal()) / 300.0).clamp(0.5, 1.0)
+}
+
+/// The arrows of the forces listed, as long as their forces; with [`Corners::All`] every force that may act, all of a
+/// kind equally long, for they only name it.
+pub(super) fn arrows(
+    analysis: &Analysis<'_>,
+    block: BlockId,
+    contacts: &[&Contact],
+    forces: &[Force],
+    camera: &Camera,
+    options: &Options,
+) -> Vec<Arrow> {
+    let name = &analysis.scene.blocks[block.0].id;
+    let detail = detail(contacts.len(), options);
+    let edge = unit(analysis.scene);
+    let largest = largest(forces, edge, options);
+    let naming = options.corners == Corners::All;
+    let shorter = shorter(analysis, block, camera);
+    let mut arrows = Vec::new();
+    let turned = |direction: Vector, length: f64| {
+        let (x, y) = camera.turn(direction);
+        let scale = length / libm::hypot(x, y).max(1e-300);
+        (x * scale, y * scale)
     };
-    tries
-        .into_iter()
-        .find(goes_on)
-        .unwrap_or(interface.middle())
+    for force in forces {
+        let interface = matches!(force.what, "Normal force" | "Friction force" | "Force")
+            && force.colour == options.theme.ink;
+        if naming && interface {
+            continue;
+        }
+        let straight = Arrow {
+            symbol: Some(force.symbol.clone()),
+            title: force.title(name),
+            at: force.at,
+            along: (0.0, 0.0),
+            turn: None,
+            width: WIDTH,
+            colour: force.colour,
+        };
+        if force.torque != 0.0 {
+            let share = force.torque.abs() / (edge * largest.max(f64::MIN_POSITIVE));
+            let sweep = if naming {
+                3.4
+            } else {
+                shorter * LONG * share / TURN
+            };
+            arrows.push(Arrow {
+                along: (TURN, 0.0),
+                turn: Some(sweep * force.torque.signum()),
+                ..straight
+            });
+        } else if force.force.norm() > 0.0 {
+            let length = if naming {
+                shorter * NAMING
+            } else {
+                shorter * LONG * force.force.norm() / largest
+            };
+            arrows.push(Arrow {
+                along: turned(force.force, length),
+                ..straight
+            });
+        }
+    }
+    let single = contacts.len() == 1;
+    for (number, contact) in contacts.iter().enumerate() {
+        let normal = inward(contact, block);
+        let left = quarter_turn(normal);
+        if naming {
+            let [a, b] = contact.application_points;
+            let reach = (APART * camera.length((b - a).norm())).clamp(14.0, shorter * FRICTION);
+            let given = corners(contact, block);
+            for (k, corner) in given.iter().enumerate().take(distinct(contact).len()) {
+                let k = k + 1;
+                let drawn = [
+                    (normal, shorter * NAMING, format!("s{k}"), "Normal force"),
+                    (left, reach, format!("fl{k}"), "Friction force"),
+                    (-left, reach, format!("fr{k}"), "Friction force"),
+                ];
+                for (part, (direction, length, below, what)) in drawn.into_iter().enumerate() {
+                    let own = Symbol::new("F", Accent::Arrow, &below);
+                    let common = Symbol::new("x", Accent::None, &k.to_string());
+                    let common = common.raised(&format!("({})", number + 1));
+                    let symbol = match detail {
+                        Detail::Parts => own,
+                        _ => common,
+                    };
+                    let title = format!("{what} {} on block {name}", symbol.said());
+                    arrows.push(Arrow {
+                        symbol: (detail == Detail::Parts || part == 0).then_some(symbol),
+                        title,
+                        at: corner.at,
+                        along: turned(direction, length),
+                        turn: None,
+                        width: WIDTH,
+                        colour: options.theme.ink,
+                    });
+                }
+            }
+        }
+        if naming || detail == Detail::Parts {
+            let below = if single {
+                String::new()
+            } else {
+                (number + 1).to_string()
+            };
+            let symbol = Symbol::new("s", Accent::Hat, &below);
+            let clear = camera.metres(FRICTION + 1.2 * shorter * THIN);
+            arrows.push(Arrow {
+                title: format!("Unit normal {} into block {name}", symbol.said()),
+                symbol: Some(symbol),
+                at: super::around::aside(analysis.scene, contact, block, clear, single),
+                along: turned(normal, THIN),
+                turn: None,
+                width: THIN_WIDTH,
+                colour: options.theme.faint,
+            });
+        }
+    }
+    arrows
 }
 
 /// The name of a weight.

@@ -1,20 +1,26 @@
-//! [`freebody`]: one block cut free, with every force that may act on it by name, and what each amounts to.
+//! [`freebody`]: one block cut free, with every force on it by name, and a list of them that balances.
 //!
-//! At each application point of each interface stand the three forces of the program: the normal force along ŝ, and
-//! friction to the left and to the right of it ([Vallat23](crate::doc::references) §2.0.3). The arrows name unknowns, so
-//! all of a kind are equally long; amounts stand below the drawing. Bodies that touch the block are outlined, ground is
-//! hatched.
+//! Weight, loads, what other bodies and robots give, and what is missing: each is an arrow as long as its amount and a row
+//! of the list. Of a block on one interface the normal and friction forces stand apart at each end, with the names of
+//! the source's figure 1 ([Vallat23](crate::doc::references) §2.0.3); on two or three interfaces each end has one force,
+//! numbered as in its figure 2; on more each interface has one. With [`Corners::All`](super::option::Corners) the arrows
+//! name every unknown of the program instead, also those that are zero, all of a kind equally long.
+//!
+//! Bodies that touch the block are outlined, ground is hatched.
 
 mod around;
+mod foot;
 mod force;
+mod heading;
+mod table;
 mod value;
 
-use around::{distinct, neighbours, view};
-use force::{Force, forces};
-use value::{Piece, rows};
+use around::{around_arrows, corners, distinct, neighbours, view};
+use force::{Arrow, Force, arrows, forces};
+use heading::heading;
 
+use super::arrow::LEAST_SEEN;
 use super::option::Options;
-use super::verdict;
 use crate::analysis::{Analysis, Contact};
 use crate::drawing::arrow::{straight, turning};
 use crate::drawing::hatch::{hatch, lines};
@@ -33,10 +39,14 @@ const NAME: f64 = 19.0;
 const AMOUNT: f64 = 15.0;
 /// Size of the heading, pixels.
 const HEADING: f64 = 20.0;
+/// Size of the line below the heading, pixels.
+const SUBHEADING: f64 = 15.0;
 /// Widest and highest a picture becomes, pixels.
 const LARGEST: f64 = 440.0;
-/// Room to the left of the picture and below it, for axes and the names of coordinates, pixels.
+/// Room to the left of the picture for axes and the names of coordinates, pixels.
 const ASIDE: f64 = 74.0;
+/// Room below the picture for the same, pixels.
+const BELOW: f64 = 58.0;
 /// Room around everything, pixels.
 const MARGIN: f64 = 24.0;
 /// Width of the page where none is asked for, pixels.
@@ -57,7 +67,7 @@ const HATCH: f64 = 7.0;
 /// let analysis = Analysis::of(&scene);
 /// let drawing = figure::freebody(&analysis, 0, BlockId(0), &figure::Options::default()).expect("block a stands there");
 /// let svg = output::svg::write(&drawing);
-/// assert!(svg.contains("Normal force F_s1 on block a"));
+/// assert!(svg.contains("Normal force F_s1 on block a: 2.85 N at 108°"));
 /// # Ok::<(), drystone::scene::Problems>(())
 /// ```
 pub fn freebody(
@@ -85,9 +95,12 @@ struct Sheet<'a> {
     camera: Camera,
     /// Width of the page, pixels.
     width: f64,
-    /// Where the picture's lower edge lies on the page.
-    floor: f64,
+    /// The part of the page in which arrows and their names stand.
+    picture: PageRect,
+    /// The lines above the drawing, with face and size.
+    heading: Vec<(String, Face, f64)>,
     forces: Vec<Force>,
+    arrows: Vec<Arrow>,
 }
 
 impl<'a> Sheet<'a> {
@@ -102,19 +115,33 @@ impl<'a> Sheet<'a> {
         let contacts: Vec<&Contact> = found.contacts.iter().filter(touches).collect();
         let view = view(analysis, block, &contacts);
         let width = options.width.unwrap_or(PAGE);
-        let room = (width - 2.0 * MARGIN - ASIDE).max(60.0);
-        let scale = (room / view.width()).min(LARGEST / view.height());
-        let scale = if scale.is_finite() { scale } else { 1.0 };
-        let heading = if options.captions {
-            HEADING + 22.0
-        } else {
-            0.0
+        let heading = heading(analysis, frame, block, options, width);
+        let high: f64 = heading.iter().map(|h| 1.2 * h.2).sum();
+        let top = MARGIN + if heading.is_empty() { 0.0 } else { high + 10.0 };
+        let forces = forces(analysis, frame, block, &contacts, options);
+        let guided = guided(analysis, frame, block, &contacts);
+        let left = if guided { MARGIN + ASIDE } else { MARGIN };
+        let room = (width - MARGIN - left).max(60.0);
+        // Room for every arrow and its name around what is shown, at the scale that this room leaves.
+        let fitted = |pads: [f64; 4]| {
+            let across = (room - pads[0] - pads[2]).max(40.0) / view.width();
+            let scale = across.min(LARGEST / view.height());
+            let scale = if scale.is_finite() { scale } else { 1.0 };
+            let spare = room - pads[0] - pads[2] - view.width() * scale;
+            let at = PagePoint::new(left + pads[0] + spare.max(0.0) / 2.0, top + pads[1]);
+            Camera::new(view, at, scale)
         };
-        let aside = (room - view.width() * scale) / 2.0;
-        let at = PagePoint::new(MARGIN + ASIDE + aside.max(0.0), MARGIN + heading);
-        let camera = Camera::new(view, at, scale);
+        let mut pads = [0.0; 4];
+        for _ in 0..4 {
+            let camera = fitted(pads);
+            let arrows = arrows(analysis, block, &contacts, &forces, &camera, options);
+            pads = around_arrows(&camera.rect(view), &arrows, &camera);
+        }
+        let camera = fitted(pads);
+        let shown = camera.rect(view);
         Sheet {
-            forces: forces(analysis, frame, block, &contacts, &camera, options),
+            arrows: arrows(analysis, block, &contacts, &forces, &camera, options),
+            forces,
             analysis,
             options,
             frame,
@@ -123,8 +150,18 @@ impl<'a> Sheet<'a> {
             view,
             camera,
             width,
-            floor: at.y + view.height() * scale,
+            picture: PageRect {
+                at: PagePoint::new(left, top),
+                width: room,
+                height: shown.height + pads[1] + pads[3],
+            },
+            heading,
         }
+    }
+
+    /// Where the picture's lower edge lies on the page.
+    fn floor(&self) -> f64 {
+        self.picture.at.y + self.picture.height
     }
 
     fn polygon(&self) -> &Polygon {
@@ -135,13 +172,8 @@ impl<'a> Sheet<'a> {
         &self.analysis.scene.blocks[self.block.0].id
     }
 
-    /// Coordinates are told where they stay readable: of a block on one edge, held by nobody.
     fn guides(&self) -> bool {
-        let held = self.analysis.scene.frames[self.frame]
-            .holds
-            .iter()
-            .any(|h| h.block == self.block);
-        self.contacts.len() == 1 && !held
+        guided(self.analysis, self.frame, self.block, &self.contacts)
     }
 
     fn drawing(&self) -> Drawing {
@@ -149,10 +181,10 @@ impl<'a> Sheet<'a> {
         let mut items: Vec<Item> = Vec::new();
         let title = format!("Block {} cut free", self.name());
         let mut y = MARGIN - 4.0;
-        for line in heading(self.analysis, self.block, self.options, self.width) {
-            y += 1.2 * HEADING;
+        for (line, face, size) in &self.heading {
+            y += 1.2 * size;
             let at = PagePoint::new(self.width / 2.0, y);
-            let words = Text::new(at, line, Face::SerifBold, HEADING, theme.ink);
+            let words = Text::new(at, line.as_str(), *face, *size, theme.ink);
             items.push(words.anchored(Anchor::Middle).into());
         }
         let mut ink = Ink::default();
@@ -162,11 +194,11 @@ impl<'a> Sheet<'a> {
         if self.guides() {
             items.push(self.guide_lines(&mut ink, &mut wishes).into());
         }
-        items.push(self.arrows(&mut ink, &mut wishes).into());
+        items.push(self.drawn(&mut ink, &mut wishes).into());
         items.push(self.axes(&mut ink).into());
-        items.push(self.names(&mut ink, &wishes).into());
-        let below = if self.guides() { 58.0 } else { 40.0 };
-        let (values, end) = self.values(self.floor + below);
+        let (names, nameless) = self.names(&mut ink, &wishes);
+        items.push(names.into());
+        let (values, end) = self.values(self.floor() + BELOW + 8.0, nameless);
         items.push(values.into());
         Drawing {
             width: self.width.ceil(),
@@ -237,12 +269,13 @@ impl<'a> Sheet<'a> {
             self.analysis.scene.blocks[self.block.0].centroid,
         )];
         for contact in &self.contacts {
-            for (k, point) in distinct(contact).into_iter().enumerate() {
-                told.push(("p", (k + 1).to_string(), point));
+            let count = distinct(contact).len();
+            for (k, corner) in corners(contact, self.block).iter().enumerate().take(count) {
+                told.push(("p", (k + 1).to_string(), corner.at));
             }
         }
         let dash = || Stroke::new(theme.faint, 1.0).dashed([5.0, 4.0]);
-        let (left, floor) = (self.camera.place(self.view.min).x, self.floor);
+        let (left, floor) = (self.picture.at.x, self.floor());
         for (letter, number, point) in told {
             let p = self.camera.place(point);
             let ends = [
@@ -275,33 +308,44 @@ impl<'a> Sheet<'a> {
         group
     }
 
-    fn arrows(&self, ink: &mut Ink, wishes: &mut Vec<(Symbol, Wish)>) -> Group {
+    /// Whether an arrow is long enough to be seen.
+    fn seen(arrow: &Arrow) -> bool {
+        let (x, y) = arrow.along;
+        let length = libm::hypot(x, y);
+        arrow.turn.map_or(length, |sweep| length * sweep.abs()) >= LEAST_SEEN
+    }
+
+    fn drawn(&self, ink: &mut Ink, wishes: &mut Vec<(Symbol, Wish)>) -> Group {
         let mut group = Group::of_class("forces");
-        for force in &self.forces {
-            let path = match force.turn {
+        for arrow in self.arrows.iter().filter(|a| Sheet::seen(a)) {
+            let from = self.camera.place(arrow.at);
+            let path = match arrow.turn {
                 Some(sweep) => {
-                    let radius = libm::hypot(force.along.0, force.along.1);
-                    ink.disc(force.from, radius + 1.5 * force.width);
-                    turning(force.from, radius, -0.4, sweep, force.width)
+                    let radius = libm::hypot(arrow.along.0, arrow.along.1);
+                    ink.disc(from, radius + 1.5 * arrow.width);
+                    turning(from, radius, -0.4, sweep, arrow.width)
                 }
                 None => {
-                    ink.arrow(force.from, force.along, force.width);
-                    straight(force.from, force.along, force.width)
+                    ink.arrow(from, arrow.along, arrow.width);
+                    straight(from, arrow.along, arrow.width)
                 }
             };
-            let path = Path::filled(path, force.colour);
+            let path = Path::filled(path, arrow.colour);
             let drawn = Group::of_class("force")
-                .titled(force.told.as_str())
+                .titled(arrow.title.as_str())
                 .with(path);
             group.items.push(drawn.into());
-            let (wide, high) = force.symbol.size(NAME);
+            let Some(symbol) = &arrow.symbol else {
+                continue;
+            };
+            let (wide, high) = symbol.size(NAME);
             wishes.push((
-                force.symbol.clone(),
+                symbol.clone(),
                 Wish {
-                    anchor: force.from.moved(force.along.0, force.along.1),
+                    anchor: from.moved(0.7 * arrow.along.0, 0.7 * arrow.along.1),
                     from: 5.0,
                     size: (wide, high),
-                    preferred: force.beside(wide, high),
+                    preferred: arrow.beside(from, wide, high),
                     ease: 0.0,
                     roams: true,
                 },
@@ -314,7 +358,7 @@ impl<'a> Sheet<'a> {
         let theme = &self.options.theme;
         let origin = PagePoint::new(
             MARGIN + 4.0,
-            self.floor + if self.guides() { 30.0 } else { 18.0 },
+            self.floor() + if self.guides() { 30.0 } else { BELOW - 4.0 },
         );
         let mut group = Group::of_class("axes").titled("Axes: x to the right, y up");
         let ends = [
@@ -341,18 +385,22 @@ impl<'a> Sheet<'a> {
         group
     }
 
-    /// The names of forces and coordinates, and of the bodies where there is room.
-    fn names(&self, ink: &mut Ink, wishes: &[(Symbol, Wish)]) -> Group {
+    /// The names of forces and coordinates, and of the bodies; and how many of them have no room.
+    fn names(&self, ink: &mut Ink, wishes: &[(Symbol, Wish)]) -> (Group, usize) {
         let theme = &self.options.theme;
         let page = PageRect {
-            at: PagePoint::new(2.0, self.camera.place(self.view.max).y - 16.0),
-            width: self.width - 4.0,
-            height: self.floor - self.camera.place(self.view.max).y + 72.0,
+            at: PagePoint::new(4.0, self.picture.at.y - 6.0),
+            width: self.width - 8.0,
+            height: self.picture.height + BELOW + 2.0,
         };
+        let mut nameless = 0;
         let mut group = Group::of_class("labels");
         let wanted: Vec<Wish> = wishes.iter().map(|w| w.1.clone()).collect();
         for ((symbol, _), placed) in wishes.iter().zip(place(ink, page, &wanted)) {
-            let Some(placed) = placed else { continue };
+            let Some(placed) = placed else {
+                nameless += 1;
+                continue;
+            };
             let mut label = Group::of_class("name");
             if let Some(leader) = placed.leader {
                 let line = Path::stroked(Outline::line(leader), Stroke::new(theme.faint, 0.7));
@@ -368,21 +416,37 @@ impl<'a> Sheet<'a> {
         for body in blocks.chain([BodyId::Block(self.block)]) {
             let name = scene.name(body);
             let size = (text::width(name, Face::SerifItalic, NAME), 0.96 * NAME);
+            // The block's own name may stand beside it, with a line to it; the others' only where they are.
+            let own = body == BodyId::Block(self.block);
+            let middle = scene.body(body).polygon.centroid();
             let wish = Wish {
-                anchor: page.at,
-                from: 0.0,
+                anchor: self.camera.place(middle),
+                from: 4.0,
                 size,
                 preferred: self.inside(&scene.body(body).polygon),
                 ease: 8.0,
-                roams: false,
+                roams: own,
             };
-            if let Some(placed) = place(ink, self.camera.rect(self.view), &[wish])[0] {
-                let at = placed.rect.at.moved(0.0, 0.8 * NAME);
-                let words = Text::new(at, name, Face::SerifItalic, NAME, theme.faint);
-                group.items.push(Group::of_class("name").with(words).into());
+            let room = if own {
+                page
+            } else {
+                self.camera.rect(self.view)
+            };
+            match place(ink, room, &[wish])[0] {
+                Some(placed) => {
+                    if let Some(leader) = placed.leader {
+                        let line = Outline::line(leader);
+                        let line = Path::stroked(line, Stroke::new(theme.faint, 0.7));
+                        group.items.push(line.into());
+                    }
+                    let at = placed.rect.at.moved(0.0, 0.8 * NAME);
+                    let words = Text::new(at, name, Face::SerifItalic, NAME, theme.faint);
+                    group.items.push(Group::of_class("name").with(words).into());
+                }
+                None => nameless += 1,
             }
         }
-        group
+        (group, nameless)
     }
 
     /// Places inside what the picture shows of a body, those nearest to their middle first.
@@ -403,83 +467,10 @@ impl<'a> Sheet<'a> {
         places.sort_by(|a, b| (a - middle).norm().total_cmp(&(b - middle).norm()));
         places.into_iter().map(|p| self.camera.place(p)).collect()
     }
-
-    /// What everything amounts to, from `top` down; and where it ends.
-    fn values(&self, top: f64) -> (Group, f64) {
-        let theme = &self.options.theme;
-        let (scene, found) = (self.analysis.scene, &self.analysis.frames[self.frame]);
-        let mut group = Group::of_class("values");
-        if !self.options.keys {
-            return (group, top);
-        }
-        let middle = self.width / 2.0;
-        let word = verdict::word(found.verdict);
-        let what = if scene.frames[self.frame].placed.len() > 1 {
-            format!("block {}: the structure {word}", self.name())
-        } else {
-            word.to_owned()
-        };
-        let wide = text::width(&what, Face::SansBold, 13.5);
-        let start = PagePoint::new(middle - wide / 2.0 - 10.0, top + 10.0);
-        let colour = verdict::colour(found.verdict, theme);
-        group = group
-            .with(verdict::mark(found.verdict, start, 7.5, theme))
-            .with(Text::new(
-                start.moved(13.0, 0.35 * 13.5),
-                what,
-                Face::SansBold,
-                13.5,
-                colour,
-            ));
-        let mut y = top + 44.0;
-        let room = self.width - 2.0 * MARGIN;
-        let values = value::values(
-            self.analysis,
-            self.frame,
-            self.block,
-            &self.contacts,
-            self.guides(),
-        );
-        for row in rows(&values, AMOUNT, room) {
-            let wide: f64 = value::width(&row, AMOUNT);
-            let mut at = PagePoint::new(middle - wide / 2.0, y);
-            for piece in row {
-                let (items, width) = piece.draw(at, AMOUNT, theme);
-                group.items.extend(items);
-                at = at.moved(width, 0.0);
-            }
-            y += 1.55 * AMOUNT;
-        }
-        (group, y)
-    }
-
-    fn told(&self) -> String {
-        let forces: Vec<&str> = self.forces.iter().map(|f| f.told.as_str()).collect();
-        let values = value::values(
-            self.analysis,
-            self.frame,
-            self.block,
-            &self.contacts,
-            self.guides(),
-        );
-        let said: Vec<String> = values
-            .iter()
-            .map(|value| value.iter().map(Piece::said).collect())
-            .collect();
-        format!("{}. {}.", forces.join(". "), said.join("; "))
-    }
 }
 
-/// What stands above the drawing: the scene's title, or the block's name.
-fn heading(analysis: &Analysis<'_>, block: BlockId, options: &Options, width: f64) -> Vec<String> {
-    if !options.captions {
-        return Vec::new();
-    }
-    let title = match analysis.scene.title.as_str() {
-        "" => format!("Block {} cut free", analysis.scene.blocks[block.0].id),
-        title => title.to_owned(),
-    };
-    let room = width - 2.0 * MARGIN;
-    let lines = text::wrap(&title, Face::SerifBold, HEADING, room);
-    text::cut(lines, 3, Face::SerifBold, HEADING, room)
+/// Coordinates are told where they stay readable: of a block on one edge, held by nobody.
+fn guided(analysis: &Analysis<'_>, frame: usize, block: BlockId, contacts: &[&Contact]) -> bool {
+    let holds = &analysis.scene.frames[frame].holds;
+    contacts.len() == 1 && !holds.iter().any(|h| h.block == block)
 }

@@ -1,8 +1,6 @@
-//! [`values`]: what the named forces amount to in the balance shown, and where they act.
+//! [`places`]: where forces act, and the direction into the block, in coordinates.
 
-use super::super::words::quantity;
-use super::around::distinct;
-use super::force::{inward, named, weight};
+use super::around::{corners, distinct, inward};
 use crate::analysis::{Analysis, Contact};
 use crate::drawing::symbol::{Accent, Symbol};
 use crate::drawing::text::NO_BREAK;
@@ -78,88 +76,32 @@ pub(super) fn rows(values: &[Vec<Piece>], size: f64, room: f64) -> Vec<Vec<Piece
     rows
 }
 
-/// What everything amounts to. Only the sum of an interface's friction has a value; it is given to the side it acts to.
-pub(super) fn values(
+/// The centroid, the application points and the normals into the block.
+pub(super) fn places(
     analysis: &Analysis<'_>,
-    frame: usize,
     block: BlockId,
     contacts: &[&Contact],
-    places: bool,
 ) -> Vec<Vec<Piece>> {
-    let (scene, found) = (analysis.scene, &analysis.frames[frame]);
     let is = |symbol: Symbol, words: String| {
         vec![
             Piece::Symbol(symbol),
             Piece::Words(format!("{NO_BREAK}={NO_BREAK}{words}")),
         ]
     };
-    let body = &scene.blocks[block.0];
-    let mut values = vec![is(weight(), quantity(body.weight, "N"))];
-    for (number, contact) in contacts.iter().enumerate() {
-        let points = distinct(contact).len();
-        let named = |below: &str| named(below, number, contacts.len());
-        let normal: f64 = contact.normal_forces.iter().sum();
-        for k in 0..points {
-            let amount = if points == 1 {
-                normal
-            } else {
-                contact.normal_forces[k]
-            };
-            values.push(is(
-                named(&format!("s{}", k + 1)),
-                quantity(tidy(amount, found.weight), "N"),
-            ));
+    let at = |x: f64, y: f64| format!("({}; {}){NO_BREAK}m", coordinate(x), coordinate(y));
+    let c = analysis.scene.blocks[block.0].centroid;
+    let mut places = vec![is(Symbol::new("c", Accent::None, ""), at(c.x, c.y))];
+    for contact in contacts {
+        let count = distinct(contact).len();
+        for (k, corner) in corners(contact, block).iter().enumerate().take(count) {
+            let symbol = Symbol::new("p", Accent::None, &(k + 1).to_string());
+            places.push(is(symbol, at(corner.at.x, corner.at.y)));
         }
-        let friction = tidy(contact.friction_force, found.weight);
-        let side = if friction >= 0.0 { "l" } else { "r" };
-        let mut sum = Vec::new();
-        for k in 0..points {
-            if k > 0 {
-                sum.push(Piece::Words(format!("{NO_BREAK}+{NO_BREAK}")));
-            }
-            sum.push(Piece::Symbol(named(&format!("f{side}{}", k + 1))));
-        }
-        sum.push(Piece::Words(format!(
-            "{NO_BREAK}={NO_BREAK}{}",
-            quantity(friction.abs(), "N")
-        )));
-        values.push(sum);
+        let s = inward(contact, block);
+        let words = format!("({}; {})", coordinate(s.x), coordinate(s.y));
+        places.push(is(Symbol::new("s", Accent::Hat, ""), words));
     }
-    for robot in found.robots.iter().filter(|r| r.block == block) {
-        let id = &scene.robots[robot.robot.0].id;
-        for (axis, amount) in [("x", robot.force.x), ("y", robot.force.y)] {
-            let symbol = Symbol::new("F", Accent::Arrow, axis).raised(id);
-            values.push(is(symbol, quantity(tidy(amount, found.weight), "N")));
-        }
-        if scene.robots[robot.robot.0].limits.torque > 0.0 {
-            let symbol = Symbol::new("M", Accent::None, "").raised(id);
-            values.push(is(symbol, quantity(robot.torque, "N·m")));
-        }
-    }
-    if places {
-        let at = |x: f64, y: f64| format!("({}; {}){NO_BREAK}m", coordinate(x), coordinate(y));
-        let c = body.centroid;
-        values.push(is(Symbol::new("c", Accent::None, ""), at(c.x, c.y)));
-        for contact in contacts {
-            for (k, p) in distinct(contact).into_iter().enumerate() {
-                let symbol = Symbol::new("p", Accent::None, &(k + 1).to_string());
-                values.push(is(symbol, at(p.x, p.y)));
-            }
-            let s = inward(contact, block);
-            let words = format!("({}; {})", coordinate(s.x), coordinate(s.y));
-            values.push(is(Symbol::new("s", Accent::Hat, ""), words));
-        }
-    }
-    values
-}
-
-/// An amount without the noise of a solution: nothing where it is a billionth of the weight.
-fn tidy(amount: f64, weight: f64) -> f64 {
-    if amount.abs() <= 1e-9 * weight {
-        0.0
-    } else {
-        amount
-    }
+    places
 }
 
 /// A coordinate with three decimals at most.

@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::analysis::{EffectReport, Resultant as Sum, SolveReport};
-use crate::geometry::{Polygon, Tolerance};
-use crate::scene::{Block, Body, Frame as Step, Limits, Robot as Arm};
+use crate::geometry::{Polygon, Tolerance as Closeness};
+use crate::scene::{Block, Body, Frame as Step, Healed, Limits, Robot as Arm};
 
 fn scene() -> Scene {
     let corners = vec![
@@ -17,6 +17,7 @@ fn scene() -> Scene {
         material: None,
         friction: 0.5,
         fill: None,
+        gap: 3e-6,
     };
     let block = |id: &str| Block {
         id: id.into(),
@@ -30,7 +31,8 @@ fn scene() -> Scene {
         kernel: 0.0,
         lattice: None,
         exact: false,
-        tolerance: Tolerance::of(3.0, 3.0),
+        tolerance: Closeness::of(3.0, 3.0),
+        healed: Healed::default(),
         ground: vec![],
         blocks: vec![block("a"), block("b")],
         robots: vec![Arm {
@@ -150,6 +152,13 @@ fn frame() -> FrameAnalysis {
 const LINES: &str = r#"{
   "drystone": "VERSION",
   "scene": "A \"wedge\"",
+  "contact_tolerance": {
+    "gap": 3e-6,
+    "from": "size",
+    "healed_within": 0.0,
+    "moved_corners": 0,
+    "largest_move": 0.0
+  },
   "frames": [
     {
       "title": "Only",

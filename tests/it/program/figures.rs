@@ -51,7 +51,7 @@ fn a_block_is_cut_free_by_its_name() {
     let ran = bench.run("render stands.json -o free.svg --kind freebody --block lintel");
     assert_eq!(ran.code, 0, "{}", ran.err);
     let svg = fs::read_to_string(bench.path("free.svg")).expect("drawn");
-    assert!(svg.contains("Normal force F_s1^(2) on block lintel"));
+    assert!(svg.contains("Force F_1^(2) on block lintel"));
     for (line, said) in [
         (
             "render stands.json -o a.svg --kind freebody",

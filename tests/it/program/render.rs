@@ -253,7 +253,7 @@ fn every_kind_of_figure_says_what_it_shows() {
     for (kind, falls, stands) in [
         (
             "mechanism",
-            "block left turns about a corner on the ground",
+            "block lintel turns about a corner on block left",
             "there is no mechanism",
         ),
         (

@@ -1,0 +1,139 @@
+//! What stands below a free-body diagram: the verdict, the scale, what is left out, and the list of forces.
+
+use super::force::{WIDTH, largest, longest};
+use super::table::Table;
+use super::value::{self, Piece, rows};
+use super::{AMOUNT, MARGIN, Sheet};
+use crate::drawing::{Anchor, Face, Group, PagePoint, Text, text};
+use crate::figure::arrow::{LEAST_SEEN, round_above};
+use crate::figure::legend;
+use crate::figure::option::Corners;
+use crate::figure::stage::unit;
+use crate::figure::verdict;
+use crate::figure::words::{quantity, round_below};
+
+impl Sheet<'_> {
+    /// The list of forces, moments about the block's centroid.
+    pub(super) fn table(&self) -> Table {
+        let body = &self.analysis.scene.blocks[self.block.0];
+        let size = body.body.polygon.bounds().diagonal();
+        Table::of(&self.forces, body.centroid, size)
+    }
+
+    /// The verdict, the scale, what is left out, and what everything amounts to, from `top` down; and where it ends.
+    pub(super) fn values(&self, top: f64, nameless: usize) -> (Group, f64) {
+        let theme = &self.options.theme;
+        let (scene, found) = (self.analysis.scene, &self.analysis.frames[self.frame]);
+        let mut group = Group::of_class("values");
+        if !self.options.keys {
+            return (group, top);
+        }
+        let (middle, room) = (self.width / 2.0, self.width - 2.0 * MARGIN);
+        let word = verdict::word(found.verdict);
+        let what = if scene.frames[self.frame].placed.len() > 1 {
+            format!("the structure {word}")
+        } else {
+            word.to_owned()
+        };
+        let wide = text::width(&what, Face::SansBold, 13.5);
+        let scale = self.scale();
+        let scaled = scale.as_ref().map_or(0.0, |s| {
+            22.0 + legend::widest(std::slice::from_ref(s), theme)
+        });
+        let start = PagePoint::new(middle - (wide + 21.0 + scaled) / 2.0 + 7.5, top + 10.0);
+        let colour = verdict::colour(found.verdict, theme);
+        group = group
+            .with(verdict::mark(found.verdict, start, 7.5, theme))
+            .with(Text::new(
+                start.moved(13.5, 0.35 * 13.5),
+                what,
+                Face::SansBold,
+                13.5,
+                colour,
+            ));
+        if let Some(scale) = scale {
+            let at = start.moved(13.5 + wide + 22.0, 0.0);
+            group.items.extend(legend::single(&scale, at, theme).0);
+        }
+        let mut y = top + 28.0;
+        let size = theme.sizes.reason;
+        for note in self.notes(nameless) {
+            for line in text::wrap(&note, Face::Sans, size, room) {
+                y += 1.36 * size;
+                let at = PagePoint::new(middle, y);
+                let words = Text::new(at, line, Face::Sans, size, theme.faint);
+                group.items.push(words.anchored(Anchor::Middle).into());
+            }
+        }
+        y += 12.0;
+        let table = self.table();
+        group
+            .items
+            .push(table.draw(middle, y, room, AMOUNT, theme).into());
+        y += table.height(AMOUNT) + 6.0;
+        if self.guides() {
+            let values = value::places(self.analysis, self.block, &self.contacts);
+            for row in rows(&values, AMOUNT, room) {
+                y += 1.55 * AMOUNT;
+                let wide: f64 = value::width(&row, AMOUNT);
+                let mut at = PagePoint::new(middle - wide / 2.0, y);
+                for piece in row {
+                    let (items, width) = piece.draw(at, AMOUNT, theme);
+                    group.items.extend(items);
+                    at = at.moved(width, 0.0);
+                }
+            }
+        }
+        (group, y)
+    }
+
+    /// An arrow that tells the scale; `None` where lengths tell nothing.
+    fn scale(&self) -> Option<legend::Entry> {
+        let largest = largest(&self.forces, unit(self.analysis.scene), self.options);
+        let amount = round_below(largest);
+        let longest = longest(self.analysis, self.block, &self.camera);
+        (amount > 0.0).then(|| {
+            let length = amount / largest * longest;
+            legend::Entry::Scale(length, WIDTH, quantity(amount, "N"))
+        })
+    }
+
+    /// What a reader must know of arrows and names that are not there, or whose length tells nothing.
+    fn notes(&self, nameless: usize) -> Vec<String> {
+        let mut notes = Vec::new();
+        if self.options.corners == Corners::All {
+            notes.push("arrows name forces; their lengths tell nothing".to_owned());
+        }
+        let unseen = self.arrows.iter().filter(|a| !Sheet::seen(a)).count();
+        if unseen > 0 {
+            let largest = largest(&self.forces, unit(self.analysis.scene), self.options);
+            let longest = longest(self.analysis, self.block, &self.camera);
+            let amount = quantity(round_above(largest * LEAST_SEEN / longest), "N");
+            let forces = if unseen == 1 { "force" } else { "forces" };
+            notes.push(format!("{unseen} {forces} under {amount} not drawn"));
+        }
+        if nameless > 0 {
+            let names = if nameless == 1 {
+                "name has"
+            } else {
+                "names have"
+            };
+            notes.push(format!("{nameless} {names} no room"));
+        }
+        let found = &self.analysis.frames[self.frame];
+        if found.unsupported.contains(&self.block) {
+            notes.push("nothing could hold this block: its forces do not balance".to_owned());
+        }
+        notes
+    }
+
+    pub(super) fn told(&self) -> String {
+        let arrows: Vec<&str> = self.arrows.iter().map(|a| a.title.as_str()).collect();
+        let mut said = self.table().said();
+        if self.guides() {
+            let places = value::places(self.analysis, self.block, &self.contacts);
+            said.extend(places.iter().map(|p| p.iter().map(Piece::said).collect()));
+        }
+        format!("{}. {}.", arrows.join(". "), said.join("; "))
+    }
+}

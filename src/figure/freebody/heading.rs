@@ -1,0 +1,42 @@
+//! What stands above a free-body diagram: the scene's title, and which block of which step.
+
+use super::{HEADING, MARGIN, SUBHEADING};
+use crate::analysis::Analysis;
+use crate::drawing::{Face, text};
+use crate::figure::option::Options;
+use crate::figure::words::letter;
+use crate::scene::BlockId;
+
+/// The lines above the drawing, with face and size.
+pub(super) fn heading(
+    analysis: &Analysis<'_>,
+    frame: usize,
+    block: BlockId,
+    options: &Options,
+    width: f64,
+) -> Vec<(String, Face, f64)> {
+    if !options.captions {
+        return Vec::new();
+    }
+    let scene = analysis.scene;
+    let mut which = format!("Block {} cut free", scene.blocks[block.0].id);
+    if scene.frames.len() > 1 {
+        let step = &scene.frames[frame].title;
+        let (letter, count) = (letter(frame), scene.frames.len());
+        which.push_str(&format!(", step ({letter}) of {count}"));
+        if !step.is_empty() {
+            which.push_str(&format!(": {step}"));
+        }
+    }
+    let room = width - 2.0 * MARGIN;
+    let broken = |words: &str, most: usize, face: Face, size: f64| {
+        let lines = text::cut(text::wrap(words, face, size, room), most, face, size, room);
+        lines.into_iter().map(move |line| (line, face, size))
+    };
+    let mut lines = Vec::new();
+    if !scene.title.is_empty() {
+        lines.extend(broken(&scene.title, 3, Face::SerifBold, HEADING));
+    }
+    lines.extend(broken(&which, 3, Face::Serif, SUBHEADING));
+    lines
+}

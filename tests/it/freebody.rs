@@ -1,0 +1,123 @@
+//! Free bodies: every force is listed, and the list balances.
+
+use drystone::Analysis;
+use drystone::analysis::Verdict;
+use drystone::figure::{self, Corners, Options};
+use drystone::scene::BlockId;
+
+use crate::lines::brought;
+use crate::pictures::gallery;
+
+/// A row of the list: name, and x, y and moment as they are printed.
+struct Row {
+    name: String,
+    numbers: [String; 3],
+}
+
+fn rows(description: &str) -> Vec<Row> {
+    let mut rows = Vec::new();
+    for part in description.split("; ").collect::<Vec<_>>().windows(2) {
+        // `mg = 6 N: (0` and `−6) N, moment 0 N·m, weight`
+        let Some((before, x)) = part[0].rsplit_once(": (") else {
+            continue;
+        };
+        let (y, rest) = part[1].split_once(") ").expect("the second component");
+        let moment = rest.split_once("moment ").expect("a moment").1;
+        let moment = moment.split(' ').next().expect("a number");
+        let name = before.rsplit(". ").next().unwrap_or(before);
+        rows.push(Row {
+            name: name.to_owned(),
+            numbers: [x, y, moment].map(str::to_owned),
+        });
+    }
+    rows
+}
+
+fn number(printed: &str) -> f64 {
+    printed
+        .replace('−', "-")
+        .parse()
+        .unwrap_or_else(|_| panic!("{printed}"))
+}
+
+/// Half a unit of the last digit.
+fn rounding(printed: &str) -> f64 {
+    let decimals = printed.split_once('.').map_or(0, |(_, d)| d.len());
+    0.5 * libm::pow(10.0, -(decimals as f64))
+}
+
+fn balances(name: &str, analysis: &Analysis<'_>, frame: usize, id: BlockId) -> usize {
+    let (scene, found) = (analysis.scene, &analysis.frames[frame]);
+    let mut listed = 0;
+    for corners in [Corners::Few, Corners::All] {
+        let options = Options {
+            corners,
+            ..Options::default()
+        };
+        let drawing = figure::freebody(analysis, frame, id, &options).expect("it is placed");
+        let what = format!("{name}, frame {frame}, block {}", scene.blocks[id.0].id);
+        let rows = rows(&drawing.description);
+        let (sum, forces) = rows.split_last().expect("a list");
+        assert_eq!(sum.name, "sum", "{what}: {}", drawing.description);
+        assert!(
+            !forces.is_empty() || scene.blocks[id.0].weight == 0.0,
+            "{what}"
+        );
+        for k in 0..3 {
+            let added: f64 = forces.iter().map(|r| number(&r.numbers[k])).sum();
+            let slack = rounding(&sum.numbers[k]) * (forces.len() as f64 + 1.0) + 1e-9;
+            let off = (added - number(&sum.numbers[k])).abs();
+            assert!(
+                off <= slack,
+                "{what}: column {k} adds up to {added}, {off} off"
+            );
+            if found.verdict != Verdict::Undecided && !found.unsupported.contains(&id) {
+                let all = &drawing.description;
+                assert_eq!(number(&sum.numbers[k]), 0.0, "{what}: {all}");
+            }
+        }
+        listed += forces.len();
+    }
+    listed
+}
+
+#[test]
+fn the_forces_and_moments_of_every_block_add_up_to_nothing_as_printed() {
+    let mut listed = 0;
+    for (name, scene) in gallery().into_iter().chain(brought()) {
+        let analysis = Analysis::of(&scene);
+        for frame in 0..analysis.frames.len() {
+            // A wall has many blocks like each other.
+            for id in scene.frames[frame].placed.iter().take(24) {
+                listed += balances(&name, &analysis, frame, *id);
+            }
+        }
+    }
+    assert!(listed > 1500, "{listed}");
+}
+
+#[test]
+fn loads_what_is_missing_and_the_step_are_told() {
+    let loaded = crate::pictures::scene("tests/scenes/loaded.json");
+    let beam = BlockId(2);
+    let options = Options::default();
+    let drawing = figure::freebody(&Analysis::of(&loaded), 0, beam, &options).expect("placed");
+    let told = &drawing.description;
+    assert!(
+        told.contains("Load Q_1 on block beam: 4 kN at 270°"),
+        "{told}"
+    );
+    assert!(told.contains("Q_2 = 0.800 kN: (0.800; 0.000) kN"), "{told}");
+    let slide = crate::pictures::scene("tests/scenes/slide.json");
+    let drawing = figure::freebody(&Analysis::of(&slide), 0, BlockId(0), &options).expect("placed");
+    assert!(
+        drawing.description.contains("missing, ground"),
+        "{}",
+        drawing.description
+    );
+    let steps = crate::pictures::scene("assets/thesis/figure-4.json");
+    let analysis = Analysis::of(&steps);
+    let drawing = figure::freebody(&analysis, 1, BlockId(0), &options).expect("placed");
+    let svg = drystone::output::svg::write(&drawing);
+    assert!(svg.contains("step (b) of 6"), "{svg}");
+}

@@ -1,0 +1,375 @@
+//! Lines and arrows tell the truth: measured on the drawings themselves, against the forces that were found.
+
+use drystone::Analysis;
+use drystone::analysis::FrameAnalysis;
+use drystone::drawing::{Camera, Drawing, Group, Item, Outline, PagePoint};
+use drystone::figure::{self, ForceStyle, Kind, Normalisation, Options};
+use drystone::geometry::{Point, Vector, cross};
+use drystone::scene::{BlockId, BodyId, Scene};
+
+use crate::pictures::{gallery, scene};
+
+/// Structures that nobody here designed, as strangers brought them.
+pub(crate) fn brought() -> Vec<(String, Scene)> {
+    let folder = format!("{}/tests/scenes", env!("CARGO_MANIFEST_DIR"));
+    let mut names: Vec<String> = std::fs::read_dir(folder)
+        .expect("scenes that were brought")
+        .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
+        .filter(|name| name.ends_with(".json"))
+        .collect();
+    names.sort();
+    assert!(names.len() >= 13);
+    let read = |name: String| (name.clone(), scene(&format!("tests/scenes/{name}")));
+    names.into_iter().map(read).collect()
+}
+
+fn of_class<'d>(items: &'d [Item], class: &str, found: &mut Vec<&'d Group>) {
+    for item in items {
+        if let Item::Group(group) = item {
+            if group.class == class {
+                found.push(group);
+            }
+            of_class(&group.items, class, found);
+        }
+    }
+}
+
+pub(crate) fn all<'d>(items: &'d [Item], class: &str) -> Vec<&'d Group> {
+    let mut found = Vec::new();
+    of_class(items, class, &mut found);
+    found
+}
+
+fn outline(group: &Group) -> &Outline {
+    let path = group.items.iter().find_map(|item| match item {
+        Item::Path(path) => Some(path),
+        _ => None,
+    });
+    &path.expect("it is drawn").outline
+}
+
+/// A force on a block and its moment about the block's centroid.
+#[derive(Clone, Copy)]
+struct Acting {
+    force: Vector,
+    moment: f64,
+}
+
+/// What bodies and robots give to a block, and its weight and loads.
+fn acting(scene: &Scene, found: &FrameAnalysis, id: BlockId) -> [Vec<Acting>; 2] {
+    let block = &scene.blocks[id.0];
+    let at = |p: Point, force: Vector, torque: f64| Acting {
+        force,
+        moment: cross(p - block.centroid, force) + torque,
+    };
+    let (mut pressing, mut loads) = (Vec::new(), Vec::new());
+    for contact in &found.contacts {
+        let sign = match contact.interface.bodies {
+            [BodyId::Block(b), _] if b == id => 1.0,
+            [_, BodyId::Block(b)] if b == id => -1.0,
+            _ => continue,
+        };
+        // From the corners, not from the resultant that the picture is made of.
+        let normal = contact.interface.normal;
+        let [p, q] = contact.application_points;
+        let [n, m] = contact.normal_forces;
+        let parts = [
+            at(p, normal * n, 0.0),
+            at(q, normal * m, 0.0),
+            at(
+                p,
+                Vector::new(-normal.y, normal.x) * contact.friction_force,
+                0.0,
+            ),
+        ];
+        pressing.push(Acting {
+            force: parts.iter().map(|a| a.force).sum::<Vector>() * sign,
+            moment: parts.iter().map(|a| a.moment).sum::<f64>() * sign,
+        });
+    }
+    for robot in found.robots.iter().filter(|r| r.block == id) {
+        pressing.push(at(robot.at, robot.force, robot.torque));
+    }
+    loads.push(at(block.centroid, scene.down() * block.weight, 0.0));
+    for load in scene.loads.iter().filter(|l| l.block == id) {
+        loads.push(at(load.at, load.force, load.torque));
+    }
+    [pressing, loads]
+}
+
+/// Every force that may run through a block on one line: each by itself, and each joint's with some of the loads.
+fn lines([pressing, loads]: &[Vec<Acting>; 2]) -> Vec<Acting> {
+    let sum = |a: Acting, b: &Acting| Acting {
+        force: a.force + b.force,
+        moment: a.moment + b.moment,
+    };
+    let mut lines: Vec<Acting> = loads.clone();
+    for one in pressing {
+        // With three forces and more there is no telling which of them a load belongs to.
+        let subsets = if pressing.len() <= 2 {
+            1 << loads.len()
+        } else {
+            1
+        };
+        for subset in 0..subsets {
+            let chosen = loads
+                .iter()
+                .enumerate()
+                .filter(|(i, _)| (subset >> i) & 1 == 1);
+            lines.push(chosen.fold(*one, |a, (_, b)| sum(a, b)));
+        }
+    }
+    lines
+}
+
+#[test]
+fn every_piece_of_a_line_of_thrust_lies_on_a_true_line_of_action() {
+    let (mut checked, mut scenes) = (0, 0);
+    for (name, scene) in gallery().into_iter().chain(brought()) {
+        let analysis = Analysis::of(&scene);
+        let drawing = figure::draw(&analysis, Kind::Thrust, &Options::default());
+        for (found, frame) in analysis.frames.iter().zip(all(&drawing.items, "frame")) {
+            let picture = all(&frame.items, "picture")[0];
+            let camera = picture.camera.expect("it shows the scene");
+            for line in all(&picture.items, "thrust") {
+                for force in all(&line.items, "force") {
+                    checked += 1;
+                    on_a_line(&name, &scene, found, force, &camera);
+                }
+            }
+        }
+        scenes += 1;
+    }
+    assert!(checked > 400 && scenes > 20, "{checked} pieces of {scenes}");
+}
+
+fn on_a_line(name: &str, scene: &Scene, found: &FrameAnalysis, drawn: &Group, camera: &Camera) {
+    let title = &drawn.title;
+    let on = title.strip_prefix("Force on block ").expect("it is titled");
+    let on = on.split(" from ").next().expect("the block");
+    let number = scene
+        .blocks
+        .iter()
+        .position(|b| b.id == on)
+        .expect("a block");
+    let block = &scene.blocks[number];
+    let ends: Vec<Point> = outline(drawn).points().map(|p| camera.back(p)).collect();
+    let size = block.body.polygon.bounds().diagonal();
+    let off = |line: &Acting| {
+        let away = |p: &Point| {
+            let moment = line.moment - cross(p - block.centroid, line.force);
+            moment.abs() / line.force.norm()
+        };
+        ends.iter().map(away).fold(0.0, f64::max)
+    };
+    let lines = lines(&acting(scene, found, BlockId(number)));
+    let most = lines.iter().map(|l| l.force.norm()).fold(0.0, f64::max);
+    let real = lines.iter().filter(|l| l.force.norm() > 1e-9 * most);
+    let nearest = real.map(off).fold(f64::INFINITY, f64::min);
+    assert!(
+        nearest < 1e-4 * size,
+        "{name}: {title} is {nearest} m off, at {ends:?}"
+    );
+}
+
+#[test]
+fn a_loaded_beam_has_no_line_along_its_soffit_and_shows_its_loads() {
+    let scene = scene("tests/scenes/loaded.json");
+    let analysis = Analysis::of(&scene);
+    let drawing = figure::draw(&analysis, Kind::Thrust, &Options::default());
+    let thrust = all(&drawing.items, "thrust");
+    for force in all(&thrust[0].items, "force") {
+        let ends: Vec<PagePoint> = outline(force).points().collect();
+        let level = (ends[0].y - ends[1].y).abs() < 0.2 * (ends[0].x - ends[1].x).abs();
+        let load = force.title.contains("from a load");
+        assert!(!level || load, "{}", force.title);
+    }
+    let arrows = all(&drawing.items, "forces");
+    let loads = all(&arrows[0].items, "force");
+    let titles: Vec<&str> = loads.iter().map(|l| l.title.as_str()).collect();
+    assert_eq!(
+        titles,
+        [
+            "Load on block beam: 4 kN at 270°",
+            "Load on block beam: 800 N at 0°"
+        ]
+    );
+}
+
+/// An amount with its unit as it is printed, in newtons.
+fn newtons(words: &str) -> Option<f64> {
+    let words = words.replace('\u{a0}', " ").replace('−', "-");
+    let mut parts = words.split(' ');
+    let (number, unit) = (parts.next()?.parse::<f64>().ok()?, parts.next()?);
+    let factor = match unit {
+        "N" => 1.0,
+        "kN" => 1e3,
+        "MN" => 1e6,
+        "GN" => 1e9,
+        "mN" => 1e-3,
+        "µN" => 1e-6,
+        _ => return None,
+    };
+    Some(number * factor)
+}
+
+/// From tail to tip, pixels: the outline of an arrow begins and ends at its tail, its fourth corner is the tip.
+fn long(outline: &Outline) -> f64 {
+    let points: Vec<PagePoint> = outline.points().collect();
+    assert_eq!(points.len(), 7);
+    let tail = PagePoint::new(
+        (points[0].x + points[6].x) / 2.0,
+        (points[0].y + points[6].y) / 2.0,
+    );
+    let far = |p: &PagePoint| libm::hypot(p.x - tail.x, p.y - tail.y);
+    let farthest = points.iter().map(far).fold(0.0, f64::max);
+    let tip = far(&points[3]);
+    // No corner lies farther along than the tip.
+    assert!(farthest <= tip * 1.06, "{points:?}");
+    tip
+}
+
+/// The scale arrow of a panel: how long it is, and for how much.
+fn scale(frame: &Group) -> Option<(f64, f64)> {
+    frame.items.windows(2).find_map(|pair| match pair {
+        [Item::Path(path), Item::Text(text)] if path.outline.points().count() == 7 => {
+            Some((long(&path.outline), newtons(&text.words)?))
+        }
+        _ => None,
+    })
+}
+
+#[test]
+fn from_tail_to_tip_every_arrow_is_as_long_as_its_force_and_so_is_the_scale() {
+    let (mut checked, mut shortest, mut left_out) = (0, f64::INFINITY, 0);
+    let options = [
+        Options::default(),
+        Options {
+            style: ForceStyle::Components,
+            ..Options::default()
+        },
+        Options {
+            normalisation: Normalisation::Source,
+            ..Options::default()
+        },
+        Options {
+            width: Some(396.0),
+            ..Options::default()
+        },
+    ];
+    for (name, scene) in gallery().into_iter().chain(brought()) {
+        let analysis = Analysis::of(&scene);
+        for (options, kind) in options
+            .iter()
+            .flat_map(|o| [(o, Kind::Forces), (o, Kind::Thrust)])
+        {
+            let drawing: Drawing = figure::draw(&analysis, kind, options);
+            for frame in all(&drawing.items, "frame") {
+                let Some((length, amount)) = scale(frame) else {
+                    continue;
+                };
+                let per_newton = length / amount;
+                let mut arrows: Vec<&Group> = Vec::new();
+                for class in ["forces", "failures"] {
+                    for group in all(&frame.items, class) {
+                        arrows.extend(all(&group.items, "force"));
+                    }
+                }
+                for arrow in arrows {
+                    let (_, told) = arrow.title.rsplit_once(": ").expect("a force");
+                    let force = newtons(told).unwrap_or_else(|| panic!("{}", arrow.title));
+                    let long = long(outline(arrow));
+                    let expected = force * per_newton;
+                    // Three digits are printed. What a source's scale makes red has a scale of its own, block by block.
+                    let own = options.normalisation == Normalisation::Source
+                        && arrow.title.starts_with("Missing");
+                    assert!(
+                        own || (long - expected).abs() <= 0.006 * expected,
+                        "{name}: {} is {long} px instead of {expected}",
+                        arrow.title
+                    );
+                    shortest = shortest.min(long);
+                    checked += 1;
+                }
+                let said = all_text(frame).iter().any(|t| t.contains("not drawn"));
+                left_out += usize::from(said);
+            }
+        }
+    }
+    assert!(checked > 2000 && shortest < 4.0, "{checked}, {shortest}");
+    assert!(left_out > 4, "{left_out} panels leave something out");
+}
+
+fn all_text(group: &Group) -> Vec<&str> {
+    let mut words = Vec::new();
+    for item in &group.items {
+        match item {
+            Item::Text(text) => words.push(text.words.as_str()),
+            Item::Group(inner) => words.extend(all_text(inner)),
+            Item::Path(_) => {}
+        }
+    }
+    words
+}
+
+#[test]
+fn what_is_too_small_to_be_drawn_is_counted() {
+    for (name, scene) in gallery().into_iter().chain(brought()) {
+        let analysis = Analysis::of(&scene);
+        let options = Options::default();
+        let drawing = figure::forces(&analysis, &options);
+        for (number, frame) in all(&drawing.items, "frame").into_iter().enumerate() {
+            let mut drawn = 0;
+            for class in ["forces", "failures"] {
+                for group in all(&frame.items, class) {
+                    drawn += all(&group.items, "force").len();
+                }
+            }
+            let words = all_text(frame).join(" ");
+            let left_out: usize = match words.split(" not drawn").next() {
+                Some(before) if words.contains("not drawn") => {
+                    let under = before.rsplit_once(" under ").expect("an amount").0;
+                    let mut words = under.rsplit(' ').skip(1);
+                    words.next().and_then(|n| n.parse().ok()).expect("a number")
+                }
+                _ => 0,
+            };
+            let all = figure::arrows(&analysis, number, &options).len();
+            assert_eq!(drawn + left_out, all, "{name}, frame {number}: {words}");
+        }
+    }
+}
+
+#[test]
+fn a_force_polygon_is_closed_where_the_structure_stands_and_tip_to_tail() {
+    let mut closed = 0;
+    for (name, scene) in gallery().into_iter().chain(brought()) {
+        let analysis = Analysis::of(&scene);
+        let drawing = figure::draw(&analysis, Kind::Polygon, &Options::default());
+        for (found, frame) in analysis.frames.iter().zip(all(&drawing.items, "frame")) {
+            let Some(polygon) = all(&frame.items, "polygon").first().copied() else {
+                continue;
+            };
+            let ends = |group: &&Group| {
+                let p: Vec<PagePoint> = outline(group).points().collect();
+                let tail = ((p[0].x + p[6].x) / 2.0, (p[0].y + p[6].y) / 2.0);
+                [tail, (p[3].x, p[3].y)]
+            };
+            let arrows: Vec<[(f64, f64); 2]> =
+                all(&polygon.items, "force").iter().map(ends).collect();
+            let size = drawing.width;
+            let near =
+                |a: (f64, f64), b: (f64, f64)| libm::hypot(a.0 - b.0, a.1 - b.1) < 1e-6 * size;
+            assert!(arrows.windows(2).all(|w| near(w[0][1], w[1][0])), "{name}");
+            let (Some(first), Some(last)) = (arrows.first(), arrows.last()) else {
+                continue;
+            };
+            if found.verdict == drystone::analysis::Verdict::Stable {
+                assert!(near(last[1], first[0]), "{name}: {first:?} {last:?}");
+                assert!(all(&polygon.items, "gap").is_empty());
+                closed += 1;
+            }
+        }
+    }
+    assert!(closed > 15, "{closed}");
+}

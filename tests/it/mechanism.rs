@@ -1,0 +1,156 @@
+//! Mechanisms: elementary ones, of bodies that do not pass through each other and slide along their joints.
+
+use drystone::Analysis;
+use drystone::analysis::{FrameAnalysis, Motion, Verdict};
+use drystone::drawing::{Camera, Group, Item};
+use drystone::figure::{self, Kind, Options};
+use drystone::geometry::{Pieces, Point, Polygon, Vector, cross, overlap};
+use drystone::scene::{BodyId, Scene};
+
+use crate::lines::{all, brought};
+use crate::pictures::scene;
+
+fn speed(scene: &Scene, motions: &[Motion], body: BodyId, at: Point) -> Vector {
+    let BodyId::Block(id) = body else {
+        return Vector::zeros();
+    };
+    let motion = motions.iter().find(|m| m.block == id);
+    motion.map_or(Vector::zeros(), |m| {
+        let arm = at - scene.blocks[id.0].centroid;
+        m.velocity + Vector::new(-arm.y, arm.x) * m.spin
+    })
+}
+
+/// The power of the loads along a motion, and the fastest closing of a contact.
+fn power_and_closing(scene: &Scene, found: &FrameAnalysis, motions: &[Motion]) -> (f64, f64) {
+    let power = motions.iter().map(|m| {
+        let block = &scene.blocks[m.block.0];
+        let loads = scene.loads.iter().filter(|l| l.block == m.block);
+        let loads = loads.map(|l| {
+            let arm = l.at - block.centroid;
+            l.force.dot(&m.velocity) + (cross(arm, l.force) + l.torque) * m.spin
+        });
+        (scene.down() * block.weight).dot(&m.velocity) + loads.sum::<f64>()
+    });
+    let power = power.sum();
+    let mut closing: f64 = 0.0;
+    for contact in &found.contacts {
+        let [a, b] = contact.interface.bodies;
+        for at in contact.application_points {
+            let apart = speed(scene, motions, a, at) - speed(scene, motions, b, at);
+            closing = closing.max(-apart.dot(&contact.interface.normal));
+        }
+    }
+    (power, closing)
+}
+
+#[test]
+fn elementary_mechanisms_do_work_and_close_no_contact() {
+    let mut falling = 0;
+    for (name, scene) in crate::pictures::gallery().into_iter().chain(brought()) {
+        let analysis = Analysis::of(&scene);
+        let elementary = analysis.elementary();
+        for (found, drawn) in analysis.frames.iter().zip(&elementary.frames) {
+            if found.verdict != Verdict::Unstable {
+                assert_eq!(found.mechanism, drawn.mechanism);
+                continue;
+            }
+            falling += 1;
+            let (power, closing) = power_and_closing(&scene, found, &drawn.mechanism);
+            assert!(power > 0.0, "{name}: {power} W");
+            assert!(closing < 1e-5, "{name}: closes with {closing}");
+        }
+    }
+    assert!(falling >= 8, "{falling}");
+}
+
+#[test]
+fn a_thin_arch_falls_on_four_hinges() {
+    for name in ["arch13thin", "archri4.55"] {
+        let scene = scene(&format!("tests/scenes/{name}.json"));
+        let drawing = figure::draw(&Analysis::of(&scene), Kind::Mechanism, &Options::default());
+        let hinges = all(&drawing.items, "hinge").len();
+        assert_eq!(hinges, 4, "{name}");
+    }
+}
+
+/// The outline of a drawn block, metres.
+fn polygon(group: &Group, camera: &Camera) -> Polygon {
+    let outline = group.items.iter().find_map(|item| match item {
+        Item::Path(path) => Some(&path.outline),
+        _ => None,
+    });
+    let corners = outline
+        .expect("an outline")
+        .points()
+        .map(|p| camera.back(p));
+    Polygon::new(corners.collect(), Vec::new()).expect("a rigid motion keeps it simple")
+}
+
+#[test]
+fn nobody_passes_through_another_at_the_amplitude_drawn() {
+    let mut compared = 0;
+    for (name, scene) in brought() {
+        let analysis = Analysis::of(&scene);
+        if analysis.frames[0].verdict != Verdict::Unstable || scene.kernel > 0.0 {
+            continue;
+        }
+        let drawing = figure::draw(&analysis, Kind::Mechanism, &Options::default());
+        let picture = all(&drawing.items, "picture")[0];
+        let camera = picture.camera.expect("it shows the scene");
+        let mut bodies: Vec<Polygon> = all(&picture.items, "displaced")
+            .into_iter()
+            .chain(all(&picture.items, "block"))
+            .map(|group| polygon(group, &camera))
+            .collect();
+        bodies.extend(scene.ground.iter().map(|g| g.body.polygon.clone()));
+        for (i, a) in bodies.iter().enumerate() {
+            for b in &bodies[..i] {
+                let shared = overlap(&Pieces::of(a), &Pieces::of(b), 0.0).map_or(0.0, |o| o.area);
+                let share = shared / a.area().min(b.area());
+                assert!(share < 0.012, "{name}: {share} of the smaller");
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared > 100, "{compared}");
+}
+
+#[test]
+fn what_slides_stays_on_its_joint() {
+    let scene = scene("tests/scenes/slide.json");
+    let drawing = figure::draw(&Analysis::of(&scene), Kind::Mechanism, &Options::default());
+    let picture = all(&drawing.items, "picture")[0];
+    let camera = picture.camera.expect("it shows the scene");
+    let moved = polygon(all(&picture.items, "displaced")[0], &camera);
+    // The slope rises by 4 in 9.
+    let normal = Vector::new(-4.0, 9.0).normalize();
+    let heights: Vec<f64> = moved
+        .outline()
+        .iter()
+        .map(|p| p.coords.dot(&normal))
+        .collect();
+    let lowest = heights.iter().copied().fold(f64::INFINITY, f64::min);
+    assert!(lowest.abs() < 1e-5, "{heights:?}");
+    let svg = drystone::output::svg::write(&drawing);
+    assert!(svg.contains("slides along its joint"));
+}
+
+#[test]
+fn an_animated_mechanism_moves_and_its_pages_are_alike() {
+    let scene = scene("tests/scenes/arch13thin.json");
+    let analysis = Analysis::of(&scene);
+    let pages = figure::pages(&analysis, Kind::Mechanism, &Options::default());
+    assert!(pages.len() >= 10);
+    let first = |n: usize| {
+        let picture = all(&pages[n].items, "picture")[0];
+        let camera = picture.camera.expect("it shows the scene");
+        polygon(all(&picture.items, "displaced")[3], &camera).centroid()
+    };
+    let ways: Vec<f64> = (0..pages.len())
+        .map(|n| (first(n) - first(0)).norm())
+        .collect();
+    assert!(ways.windows(2).all(|w| w[1] > w[0]), "{ways:?}");
+    let size = |n: usize| (pages[n].width, pages[n].height);
+    assert!((1..pages.len()).all(|n| size(n) == size(0)));
+}
