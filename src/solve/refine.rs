@@ -141,6 +141,13 @@ fn largest(rest: &[f64], scales: &[f64]) -> f64 {
     off.fold(0.0, f64::max)
 }
 
+/// Whether every number of a program is finite: of loads near the smallest numbers there are, no shares can be taken.
+fn is_finite(conic: &Conic) -> bool {
+    let entries = conic.matrix.iter().chain(&conic.quadratic).map(|e| e.2);
+    let lists = conic.bound.iter().chain(&conic.linear).copied();
+    entries.chain(lists).all(f64::is_finite)
+}
+
 /// Forces near given ones that balance every block better in parts of its own forces, if there are such nearby.
 ///
 /// With r what is left, w the amounts of the rays and D the rows' scales, each round is the program
@@ -181,6 +188,9 @@ pub fn relative(program: &Program, amounts: &Amounts, effort: &mut Effort) -> Op
             let unknown = used.len() + row;
             conic.quadratic.push((unknown, unknown, FIRMNESS));
             conic.matrix.push((row, unknown, 1.0));
+        }
+        if !is_finite(&conic) {
+            break;
         }
         let answer = careful(&conic, Care::Full, effort);
         if answer.status != Status::Solved {
@@ -229,6 +239,9 @@ pub fn corrected(program: &Program, amounts: &Amounts, effort: &mut Effort) -> O
             size,
         };
         let conic = least_squares(&blown, &list, Some(correction));
+        if !is_finite(&conic) {
+            break;
+        }
         let answer = careful(&conic, Care::Full, effort);
         if answer.status != Status::Solved {
             break;
