@@ -125,6 +125,9 @@ pub mod doc {
     #[doc = include_str!("doc/import.md")]
     pub mod import {}
 
+    #[doc = include_str!("doc/claims.md")]
+    pub mod claims {}
+
     #[doc = include_str!("doc/references.md")]
     pub mod references {}
 }

@@ -320,11 +320,10 @@ fn examined(situation: &Situation, options: Options, known: &mut Known) -> Frame
     let wedging = match (options.wedging, analysis.verdict) {
         (Ask::No, _) => Wedging::NotAsked,
         (Ask::Yes, Verdict::Stable) => {
-            analysis.only_by_wedging = component::only_by_wedging(found.iter().copied());
-            match analysis.only_by_wedging {
-                Some(_) => Wedging::Found,
-                None => Wedging::Unclear,
-            }
+            let components = found.iter().copied();
+            let (only, shown) = component::only_by_wedging(situation.scene, components);
+            analysis.only_by_wedging = only;
+            shown
         }
         (Ask::Yes, _) => Wedging::Falls,
     };

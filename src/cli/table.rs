@@ -209,6 +209,13 @@ fn remarks(scene: &Scene, frame: &FrameAnalysis) -> Vec<String> {
     if frame.only_by_wedging == Some(true) {
         remarks.push("stands only by wedging: nothing that acts on it builds up the forces that would hold it".into());
     }
+    let wedging = frame
+        .effects
+        .iter()
+        .find(|e| e.effect == "wedging" && e.simulated);
+    if let Some(effect) = wedging.filter(|_| frame.only_by_wedging != Some(false)) {
+        remarks.push(format!("wedging: {}", effect.why));
+    }
     if let Some(margins) = &frame.margins {
         remarks.extend(edges(scene, margins));
     }

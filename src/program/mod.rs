@@ -12,8 +12,8 @@ mod scale;
 pub use column::{Column, Count, Force, columns, sticking_columns};
 pub(crate) use pose::product;
 pub use pose::{
-    Cap, Conic, Correction, elastic, force_form, kinematic, least_left, least_squares, most_of,
-    shortest, smallest, source,
+    Cap, Conic, Correction, force_form, kinematic, least_left, least_squares, most_of, shortest,
+    smallest, source,
 };
 pub use scale::Scale;
 

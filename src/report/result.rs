@@ -119,8 +119,9 @@ struct Frame<'a> {
     mechanism: Vec<Motion<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     margins: Option<Margins<'a>>,
+    /// `null` where it was asked for and stays open.
     #[serde(skip_serializing_if = "Option::is_none")]
-    only_by_wedging: Option<bool>,
+    only_by_wedging: Option<Option<bool>>,
     effects: Vec<Effect<'a>>,
     proof: ProofNumbers,
     solve: Solve,
@@ -314,7 +315,7 @@ impl<'a> Frame<'a> {
                 .map(|m| Motion::of(scene, m))
                 .collect(),
             margins: frame.margins.as_ref().map(|m| Margins::of(scene, m)),
-            only_by_wedging: frame.only_by_wedging,
+            only_by_wedging: looked_at(frame, "wedging").then_some(frame.only_by_wedging),
             effects: frame
                 .effects
                 .iter()
@@ -337,6 +338,14 @@ impl<'a> Frame<'a> {
             notices: &frame.notices,
         }
     }
+}
+
+/// Whether an effect was simulated.
+fn looked_at(frame: &FrameAnalysis, effect: &str) -> bool {
+    frame
+        .effects
+        .iter()
+        .any(|e| e.effect == effect && e.simulated)
 }
 
 /// The verdict's word, in results as in a person's table.

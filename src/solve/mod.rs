@@ -26,7 +26,7 @@ pub use limit::{Limit, least, most};
 pub use opening::opened;
 pub use refine::{corrected, relative};
 pub use stick::{Stuck, stick, stick_in};
-pub use wedge::{Reach, reach};
+pub use wedge::{Reach, Squeeze, reach};
 
 use crate::geometry::{Vector, cross, quarter_turn};
 use crate::program::{

@@ -10,6 +10,7 @@ mod accuracy;
 mod assembly;
 mod book;
 mod bound;
+mod claims;
 mod edge;
 mod falls;
 mod freebody;

@@ -3,10 +3,11 @@
 use super::{Case, Findings};
 use crate::analysis::{Options, Verdict};
 use crate::assembly::Assembly;
-use crate::geometry::cross;
+use crate::effect::wedging::Wedging;
 use crate::program::Program;
 use crate::proof::Motion;
-use crate::solve::{Reach, reach};
+use crate::scene::Scene;
+use crate::solve::{Reach, Squeeze, reach};
 
 /// Whether a component stands, and how it begins to move where it falls: the verdict of [`solved`](super::solved) without
 /// the rest.
@@ -30,31 +31,70 @@ pub(in crate::analysis) fn judged(assembly: &Assembly) -> (Verdict, Vec<Motion>)
     (decision.verdict, decision.mechanism)
 }
 
-/// Whether some component stands only by wedging; `None` where none surely does and some component's springs do not
-/// settle.
-///
-/// Robots act, they do not yield: what they give is what was found for the verdict, and the contacts follow.
+/// Whether some component stands only by wedging, and what shows it; nothing is said where none surely does and some
+/// component stays open.
 pub(in crate::analysis) fn only_by_wedging<'a>(
+    scene: &Scene,
     components: impl Iterator<Item = (&'a Assembly, &'a Findings)>,
-) -> Option<bool> {
-    let mut only = Some(false);
+) -> (Option<bool>, Wedging) {
+    let mut answer = (Some(false), Wedging::FromRest);
     for (assembly, found) in components {
         let case = Case::of(assembly, Options::default());
-        let mut program = Program::of(assembly, case.scale);
-        let held = &found.forces.grips;
-        for (grip, held) in std::mem::take(&mut program.grips).iter().zip(held) {
-            let force = held.force / case.scale.force;
-            let moment = cross(grip.arm, force) + held.torque / case.scale.moment();
-            let row = 3 * grip.block;
-            for (offset, given) in [force.x, force.y, moment].into_iter().enumerate() {
-                program.need[row + offset] -= given;
-            }
-        }
-        match reach(&program) {
+        let program = Program::of(assembly, case.scale);
+        let given: Vec<[f64; 3]> = found
+            .forces
+            .grips
+            .iter()
+            .map(|held| {
+                let force = held.force / case.scale.force;
+                [force.x, force.y, held.torque / case.scale.moment()]
+            })
+            .collect();
+        let body = |body: usize| scene.blocks[assembly.bodies[body].block.0].id.as_str();
+        let face = |contact: usize| {
+            let [on, from] = assembly.contacts[contact].bodies;
+            format!("{}|{}", scene.name(on), scene.name(from))
+        };
+        match reach(&program, &given) {
             Reach::FromRest => {}
-            Reach::OnlyWedged => return Some(true),
-            Reach::Unclear => only = None,
+            Reach::OnlyWedged(squeeze) => {
+                let shown = shown(&squeeze, case.scale.force, body, face);
+                return (Some(true), Wedging::Only(shown));
+            }
+            Reach::Unclear(doubt) => answer = (None, Wedging::Open(doubt.to_string())),
         }
     }
-    only
+    answer
+}
+
+/// What shows that no springs come to rest, in words.
+fn shown<'n>(
+    squeeze: &Squeeze,
+    unit: f64,
+    body: impl Fn(usize) -> &'n str,
+    face: impl Fn(usize) -> String,
+) -> String {
+    let moving = squeeze.moving().map(|block| body(block).to_string());
+    let mut words = format!("as they give way, {} moves", several(moving));
+    if squeeze.presses_nothing {
+        words.push_str(" and presses nothing");
+    }
+    let faces = several(squeeze.contacts.iter().map(|contact| face(*contact)));
+    if let Some(least) = squeeze.least.filter(|least| *least > 0.0) {
+        let newtons = least * unit;
+        words.push_str(&format!(
+            "; to balance, {faces} must press with {newtons:.3e} N or more in all"
+        ));
+    }
+    words.push_str(&format!("; cases ruled out: {}", squeeze.cases));
+    words
+}
+
+/// The first of some names, and how many more there are.
+fn several(names: impl Iterator<Item = String>) -> String {
+    let names: Vec<String> = names.collect();
+    match names.len() {
+        0..=4 => names.join(", "),
+        n => format!("{} and {} more", names[..4].join(", "), n - 4),
+    }
 }
