@@ -68,6 +68,12 @@ pub(super) fn settle(analysis: &mut FrameAnalysis, situation: &Situation, count:
         .effects
         .push(sticking::report(blocks, fails, count.sticking));
     analysis.effects.push(mechanism::report(unstable));
+    if analysis.verdict == Verdict::Stable && !analysis.least_force {
+        analysis.notices.push(
+            "the forces shown balance every block; that they are those of least sum was not shown"
+                .into(),
+        );
+    }
     if !analysis.unsupported.is_empty() {
         let names: Vec<&str> = analysis
             .unsupported

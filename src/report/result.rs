@@ -101,6 +101,11 @@ struct Tolerance {
     largest_move: Number,
 }
 
+/// A total is the least unless the result says that it is not.
+fn is_least(least: &bool) -> bool {
+    *least
+}
+
 #[derive(Serialize)]
 struct Frame<'a> {
     title: &'a str,
@@ -109,6 +114,8 @@ struct Frame<'a> {
     doubt: &'a str,
     length: Number,
     total_force: Number,
+    #[serde(skip_serializing_if = "is_least")]
+    total_force_least: bool,
     total_sticking: Number,
     weight: Number,
     interfaces: Vec<Interface<'a>>,
@@ -295,6 +302,7 @@ impl<'a> Frame<'a> {
             doubt: &frame.doubt,
             length: Number(frame.length),
             total_force: Number(frame.total_force),
+            total_force_least: frame.least_force,
             total_sticking: Number(frame.total_sticking),
             weight: Number(frame.weight),
             interfaces: frame

@@ -251,8 +251,9 @@ fn solved(mut t: [[f64; 4]; 3]) -> Option<[f64; 3]> {
         }
         for row in k + 1..3 {
             let factor = t[row][k] / t[k][k];
-            for column in k..4 {
-                t[row][column] -= factor * t[k][column];
+            let pivot = t[k];
+            for (value, above) in t[row].iter_mut().zip(pivot).skip(k) {
+                *value -= factor * above;
             }
         }
     }

@@ -214,6 +214,7 @@ fn what_is_worth_saying_is_said() {
     let scene = scene();
     let mut frame = frame();
     frame.doubt = "both proofs fail".into();
+    frame.least_force = false;
     frame.unsupported = vec![BlockId(1)];
     frame.notices = vec!["a contact of 1e-9 m is left out".into()];
     frame.proof = Proof::Forces {
@@ -232,6 +233,7 @@ fn what_is_worth_saying_is_said() {
     );
     assert!(json.contains(r#""doubt": "both proofs fail""#), "{json}");
     assert!(json.contains(r#""unsupported": ["b"]"#), "{json}");
+    assert!(json.contains(r#""total_force_least": false"#), "{json}");
     assert!(
         json.contains(r#""notices": ["a contact of 1e-9 m is left out"]"#),
         "{json}"

@@ -293,7 +293,7 @@ impl<'a> Springs<'a> {
         let sum: f64 = rest
             .iter()
             .zip(u)
-            .map(|(r, u)| (r + ground * u).powi(2))
+            .map(|(r, u)| (r + ground * u) * (r + ground * u))
             .sum();
         sum.sqrt()
     }
