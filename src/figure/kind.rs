@@ -5,6 +5,7 @@ use super::collapse;
 use super::displacement::{self, Displacement};
 use super::kernel;
 use super::legend::{self, Entry};
+use super::margin;
 use super::mark;
 use super::mechanism;
 use super::option::{ArrowScale, Options};
@@ -41,6 +42,8 @@ pub enum Kind {
     Build,
     /// The forces on the structure from outside, and beside it their polygon, tip to tail.
     Polygon,
+    /// The structure as it stands, and as a ghost how it falls once gravity has turned as far as its margin.
+    Margin,
 }
 
 /// A figure of this kind, one panel per frame.
@@ -83,7 +86,7 @@ fn moving(analysis: &Analysis<'_>, options: &Options) -> Vec<Drawing> {
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Kind; 7] = [
+    pub const ALL: [Kind; 8] = [
         Kind::Forces,
         Kind::Mechanism,
         Kind::Thrust,
@@ -91,6 +94,7 @@ impl Kind {
         Kind::Utilisation,
         Kind::Build,
         Kind::Polygon,
+        Kind::Margin,
     ];
 
     /// Its name, in small letters.
@@ -103,6 +107,7 @@ impl Kind {
             Kind::Utilisation => "utilisation",
             Kind::Build => "build",
             Kind::Polygon => "polygon",
+            Kind::Margin => "margin",
         }
     }
 
@@ -129,6 +134,7 @@ impl Kind {
             Kind::Kernel => "Resultants in the safe stretches of interfaces",
             Kind::Utilisation => "Friction used in a dry-laid structure",
             Kind::Polygon => "The force polygon of a dry-laid structure",
+            Kind::Margin => "How far a dry-laid structure is from falling",
         }
     }
 
@@ -176,6 +182,7 @@ impl Kind {
     ) -> Option<Bounds> {
         match self {
             Kind::Polygon => polygon::reach(analysis, frame, marks),
+            Kind::Margin => margin::reach(analysis, frame, unit),
             _ => mechanism::reach(analysis, &self.displacements(analysis, frame, unit, 1.0)),
         }
     }
@@ -210,6 +217,7 @@ impl Kind {
             Kind::Kernel => kernel::picture(stage, frame, view, camera),
             Kind::Utilisation => utilisation::picture(stage, frame, view, camera),
             Kind::Polygon => polygon::picture(stage, frame, view, camera),
+            Kind::Margin => margin::picture(stage, frame, view, camera),
         }
     }
 
@@ -222,6 +230,7 @@ impl Kind {
             Kind::Kernel => kernel::entries(stage),
             Kind::Utilisation => utilisation::entries(stage),
             Kind::Polygon => polygon::entries(stage, unit),
+            Kind::Margin => margin::entries(stage),
         }
     }
 
@@ -235,6 +244,7 @@ impl Kind {
             Kind::Kernel => kernel::reason(scene, found),
             Kind::Utilisation => utilisation::reason(scene, found),
             Kind::Polygon => polygon::reason(stage, frame),
+            Kind::Margin => margin::reason(stage.analysis, frame),
         }
     }
 }

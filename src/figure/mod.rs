@@ -20,6 +20,7 @@ mod kind;
 mod label;
 mod layout;
 mod legend;
+mod margin;
 mod mark;
 mod mechanism;
 mod option;
