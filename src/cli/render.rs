@@ -89,6 +89,8 @@ enum Kind {
     Polygon,
     /// As it stands, and as a ghost how it falls once gravity is turned as far as its margin
     Margin,
+    /// What changed from one frame to the next: blocks and forces
+    Compare,
     /// One block cut free, with every force that may act on it by name
     Freebody,
 }
@@ -130,6 +132,7 @@ impl Kind {
             Kind::Build => Some(figure::Kind::Build),
             Kind::Polygon => Some(figure::Kind::Polygon),
             Kind::Margin => Some(figure::Kind::Margin),
+            Kind::Compare => Some(figure::Kind::Compare),
             Kind::Freebody => None,
         }
     }

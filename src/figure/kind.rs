@@ -2,6 +2,7 @@
 
 use super::arrow::Marks;
 use super::collapse;
+use super::compare;
 use super::displacement::{self, Displacement};
 use super::kernel;
 use super::legend::{self, Entry};
@@ -44,6 +45,8 @@ pub enum Kind {
     Polygon,
     /// The structure as it stands, and as a ghost how it falls once gravity has turned as far as its margin.
     Margin,
+    /// What changed from one frame to the next: blocks and forces, arrows to one scale in all of them.
+    Compare,
 }
 
 /// A figure of this kind, one panel per frame.
@@ -86,7 +89,7 @@ fn moving(analysis: &Analysis<'_>, options: &Options) -> Vec<Drawing> {
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Kind; 8] = [
+    pub const ALL: [Kind; 9] = [
         Kind::Forces,
         Kind::Mechanism,
         Kind::Thrust,
@@ -95,6 +98,7 @@ impl Kind {
         Kind::Build,
         Kind::Polygon,
         Kind::Margin,
+        Kind::Compare,
     ];
 
     /// Its name, in small letters.
@@ -108,6 +112,7 @@ impl Kind {
             Kind::Build => "build",
             Kind::Polygon => "polygon",
             Kind::Margin => "margin",
+            Kind::Compare => "compare",
         }
     }
 
@@ -119,7 +124,7 @@ impl Kind {
     /// The options with what the kind itself decides.
     fn options(self, options: &Options) -> Options {
         let mut options = options.clone();
-        if self == Kind::Build {
+        if matches!(self, Kind::Build | Kind::Compare) {
             options.scale = ArrowScale::Strip;
         }
         options
@@ -135,6 +140,7 @@ impl Kind {
             Kind::Utilisation => "Friction used in a dry-laid structure",
             Kind::Polygon => "The force polygon of a dry-laid structure",
             Kind::Margin => "How far a dry-laid structure is from falling",
+            Kind::Compare => "What changes in a dry-laid structure",
         }
     }
 
@@ -148,7 +154,7 @@ impl Kind {
         let scene = analysis.scene;
         let (placed, found) = (&scene.frames[frame], &analysis.frames[frame]);
         match self {
-            Kind::Forces | Kind::Build | Kind::Polygon => {
+            Kind::Forces | Kind::Build | Kind::Polygon | Kind::Compare => {
                 mark::largest(scene, placed, found, options)
             }
             Kind::Thrust => thrust::largest_load(scene, placed),
@@ -165,7 +171,9 @@ impl Kind {
         newtons_per_unit: f64,
     ) -> Marks {
         match self {
-            Kind::Forces | Kind::Build => mark::marks(analysis, frame, options, newtons_per_unit),
+            Kind::Forces | Kind::Build | Kind::Compare => {
+                mark::marks(analysis, frame, options, newtons_per_unit)
+            }
             Kind::Thrust => thrust::marks(analysis, frame, options, newtons_per_unit),
             Kind::Polygon => polygon::marks(analysis, frame, options, newtons_per_unit),
             _ => Marks::default(),
@@ -183,6 +191,7 @@ impl Kind {
         match self {
             Kind::Polygon => polygon::reach(analysis, frame, marks),
             Kind::Margin => margin::reach(analysis, frame, unit),
+            Kind::Compare => compare::reach(analysis, frame),
             _ => mechanism::reach(analysis, &self.displacements(analysis, frame, unit, 1.0)),
         }
     }
@@ -218,6 +227,7 @@ impl Kind {
             Kind::Utilisation => utilisation::picture(stage, frame, view, camera),
             Kind::Polygon => polygon::picture(stage, frame, view, camera),
             Kind::Margin => margin::picture(stage, frame, view, camera),
+            Kind::Compare => compare::picture(stage, frame, view, camera),
         }
     }
 
@@ -231,6 +241,7 @@ impl Kind {
             Kind::Utilisation => utilisation::entries(stage),
             Kind::Polygon => polygon::entries(stage, unit),
             Kind::Margin => margin::entries(stage),
+            Kind::Compare => compare::entries(stage, unit),
         }
     }
 
@@ -245,6 +256,7 @@ impl Kind {
             Kind::Utilisation => utilisation::reason(scene, found),
             Kind::Polygon => polygon::reason(stage, frame),
             Kind::Margin => margin::reason(stage.analysis, frame),
+            Kind::Compare => compare::reason(stage.analysis, frame),
         }
     }
 }

@@ -8,6 +8,7 @@ mod arrow;
 mod bearing;
 mod caption;
 mod collapse;
+mod compare;
 mod displacement;
 mod fill;
 mod forces;
