@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 
-use crate::analysis::{Analysis, Verdict};
+use crate::analysis::{Analysis, Ask, Verdict};
 use crate::cli::complaint::Complaint;
 use crate::cli::destination::{self, Destination};
 use crate::cli::ending::Ending;
@@ -87,6 +87,10 @@ enum Kind {
     Build,
     /// The forces on the structure from outside, and their polygon beside it
     Polygon,
+    /// As it stands, and as a ghost how it falls once gravity is turned as far as its margin
+    Margin,
+    /// What changed from one frame to the next: blocks and forces
+    Compare,
     /// One block cut free, with every force that may act on it by name
     Freebody,
 }
@@ -127,6 +131,8 @@ impl Kind {
             Kind::Utilisation => Some(figure::Kind::Utilisation),
             Kind::Build => Some(figure::Kind::Build),
             Kind::Polygon => Some(figure::Kind::Polygon),
+            Kind::Margin => Some(figure::Kind::Margin),
+            Kind::Compare => Some(figure::Kind::Compare),
             Kind::Freebody => None,
         }
     }
@@ -244,7 +250,11 @@ impl Render {
         progress: &Progress,
     ) -> Result<Rendered, Complaint> {
         progress.doing(&source.name());
-        let analysis = Analysis::with(&source.scene, &self.level.options());
+        let mut asked = self.level.options();
+        if matches!(self.kind, Kind::Margin) {
+            asked.margins = Ask::Yes;
+        }
+        let analysis = Analysis::with(&source.scene, &asked);
         progress.step();
         let bytes = match self.animate {
             Some(seconds) => {
