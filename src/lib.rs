@@ -44,10 +44,10 @@
 //! | [`Scene::from_json`] | [`Scene`], checked | text |
 //! | [`import`](mod@import) | a scene file | a drawing: SVG, GeoJSON or WKT |
 //! | [`interface`] | what touches what | a scene |
-//! | [`effect`] | what to simulate and what to leave out | a frame of it |
-//! | [`program`] | the balance in pure numbers | those |
+//! | [`effect::assemble`] | [`assembly::Assembly`]: bodies, contacts, grips | a frame, by the effects it calls for |
+//! | [`program`] | the balance in pure numbers | an assembly |
 //! | [`solve`] | forces, or a motion | a program |
-//! | [`proof`] | how well that is proved | geometry and forces alone |
+//! | [`proof`] | how well that is proved | an assembly and forces alone |
 //! | [`resultant`] | one force per interface | its corner forces |
 //! | [`Analysis`] | all that was found out | all of the above |
 //! | [`figure::forces`] | [`drawing::Drawing`] | an analysis |
@@ -56,11 +56,14 @@
 //! | [`output::pdf::write`] | a PDF page | a drawing, through that text |
 //! | [`study::study`] | what accuracy costs | scenes |
 //! | [`report::result::to_json`] | JSON for other programs | an analysis |
+//! | [`text`] | words that do nothing | text of others |
 //!
 //! Why it is built so stands in [`doc::design`]; axes, units and signs in [`doc::conventions`]; tolerances and traps in
 //! [`doc::numerics`].
 
 // Blank lines keep the order of reading: the formatter would sort them.
+
+pub mod text;
 
 pub mod geometry;
 
@@ -69,6 +72,8 @@ pub mod scene;
 pub mod import;
 
 pub mod interface;
+
+pub mod assembly;
 
 pub mod effect;
 
@@ -113,6 +118,9 @@ pub mod doc {
     #[doc = include_str!("doc/accuracy.md")]
     #[doc = include_str!("../assets/accuracy.svg")]
     pub mod accuracy {}
+
+    #[doc = include_str!("doc/performance.md")]
+    pub mod performance {}
 
     #[doc = include_str!("doc/import.md")]
     pub mod import {}

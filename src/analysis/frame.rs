@@ -1,7 +1,10 @@
-//! What a frame's groups say together.
+//! What a frame's components say together.
 
 use super::{FrameAnalysis, Verdict};
-use crate::effect::{Situation, mechanism, sticking};
+use crate::effect::{
+    Situation, contact, corner_contact, friction, mechanism, robot, robot_torque, sticking,
+};
+use crate::program::Count;
 use crate::proof::Proof;
 
 /// The worst of the numbers of two proofs; of two kinds, the mechanism.
@@ -44,15 +47,26 @@ pub(super) fn worst(a: Proof, b: Proof) -> Proof {
     }
 }
 
-/// Writes what only the outcome tells.
-pub(super) fn settle(analysis: &mut FrameAnalysis, situation: &Situation) {
+/// Writes what only the outcome tells: the unknowns posed, and the effects that it called for.
+pub(super) fn settle(analysis: &mut FrameAnalysis, situation: &Situation, count: Count) {
     let unstable = analysis.verdict == Verdict::Unstable;
     if analysis.verdict != Verdict::Undecided {
         analysis.doubt.clear();
     }
+    for report in analysis.effects.iter_mut().filter(|r| r.simulated) {
+        report.unknowns = match report.effect {
+            contact::NAME => count.contact,
+            friction::NAME => count.friction,
+            corner_contact::NAME => count.corner_contact,
+            robot::NAME => count.robot,
+            robot_torque::NAME => count.robot_torque,
+            _ => 0,
+        };
+    }
+    let (blocks, fails) = (situation.frame.placed.len(), !analysis.failures.is_empty());
     analysis
         .effects
-        .push(sticking::report(situation, !analysis.failures.is_empty()));
+        .push(sticking::report(blocks, fails, count.sticking));
     analysis.effects.push(mechanism::report(unstable));
     if !analysis.unsupported.is_empty() {
         let names: Vec<&str> = analysis

@@ -85,7 +85,7 @@ impl<'s> Analysis<'s> {
     ) -> Vec<Motion> {
         let mut all = Vec::new();
         for part in parts(found, motions) {
-            let fall = Fall::of(scene, found, part, self.length);
+            let fall = Fall::of(scene, found, part, found.length);
             all.extend(fall.elementary().unwrap_or(fall.motions));
         }
         let fastest = all

@@ -1,13 +1,15 @@
 //! [`Analysis`]: a scene and all that was found out about it, frame by frame.
 //!
 //! Everything here is in the scene's own units (metres, newtons) and axes (x right, y up). Pictures and reports read
-//! this and nothing deeper. Groups of blocks that cannot influence each other are solved apart, and a group that has
-//! been solved in an earlier frame is not solved again; `group` does one group, this file puts frames together.
+//! this and nothing deeper. Components of a frame's assembly, which cannot influence each other, are solved apart, and a
+//! component that has been solved in an earlier frame is not solved again; `component` does one, this file puts frames
+//! together.
 
+mod component;
 mod frame;
-mod group;
 mod margin;
 mod mechanism;
+mod near;
 mod option;
 
 use std::collections::BTreeMap;
@@ -15,19 +17,21 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 
+use crate::assembly::Assembly;
 pub use crate::effect::EffectReport;
 use crate::effect::wedging::{self, Wedging};
-use crate::effect::{self, Plan, Situation};
+use crate::effect::{self, Situation};
 use crate::geometry::{Point, Vector};
 use crate::interface::{Interface, Interfaces};
-use crate::program::{Group, groups};
+use crate::program::Count;
 pub use crate::proof::{Demand, Motion, Proof};
 pub use crate::resultant::Resultant;
 use crate::resultant::{friction_used, of as resultant_of};
-use crate::scene::{BlockId, BodyId, Frame, RobotId, Scene};
-use crate::solve::Effort;
+use crate::scene::{BlockId, BodyId, RobotId, Scene};
+use crate::solve::{Effort, Until};
+pub use component::Method;
+use component::{Findings, solved};
 use frame::{settle, worst};
-use group::{Findings, solved};
 pub use margin::{Margin, Margins, RobotMargins, Sides};
 pub use option::{Accuracy, Ask, Options};
 
@@ -47,8 +51,6 @@ pub enum Verdict {
 pub struct Analysis<'s> {
     /// The scene examined.
     pub scene: &'s Scene,
-    /// L, the median interface length in metres, by which torques are weighed against forces.
-    pub length: f64,
     /// One entry per frame of the scene, in order.
     pub frames: Vec<FrameAnalysis>,
 }
@@ -60,8 +62,13 @@ pub struct FrameAnalysis {
     pub verdict: Verdict,
     /// Why it is undecided, in words, with both proofs' numbers; empty otherwise.
     pub doubt: String,
+    /// L in metres, by which torques are weighed against forces: the median length of the frame's edge interfaces, or the
+    /// median block's square root of area where nothing touches.
+    pub length: f64,
     /// Σ(N1+N2+|T|) + Σ(|Fx|+|Fy|+|M|/L), N: the source's cost.
     pub total_force: f64,
+    /// Whether the forces are those of least sum; where not, they balance, and a smaller sum may balance too.
+    pub least_force: bool,
     /// The same sum over the sticking forces, N.
     pub total_sticking: f64,
     /// Sum of the placed blocks' weights, N.
@@ -173,29 +180,32 @@ pub enum Failure {
 /// How a frame was solved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SolveReport {
-    /// Name of the method.
-    pub method: &'static str,
+    /// How the component that was hardest to decide was decided.
+    pub method: Method,
     /// Iterations of all programs together.
     pub iterations: usize,
     /// Programs solved for this frame; 0 where closed forms or earlier frames answered it.
     pub programs: usize,
-    /// Groups of blocks that cannot influence each other.
+    /// Components: blocks that cannot influence each other.
     pub groups: usize,
-    /// Groups answered by an earlier frame.
+    /// Components answered by an earlier frame.
     pub reused: usize,
     /// Wall time in seconds.
     pub seconds: f64,
 }
 
-/// What is known of the groups of earlier frames.
+/// Why a frame is undecided whose programs were given up at the deadline.
+const LATE: &str = "the time limit was reached before it was decided";
+
+/// What is known of the components of earlier frames.
 #[derive(Default)]
 struct Known {
     findings: BTreeMap<Key, Findings>,
     margins: BTreeMap<Key, Margins>,
 }
 
-/// What makes one group the same as one of an earlier frame: its blocks and who holds them where.
-type Key = (Vec<BlockId>, Vec<(RobotId, BlockId, [u64; 2])>);
+/// What makes one component the same as one of an earlier frame: its blocks, who holds them where, and L.
+type Key = (Vec<BlockId>, Vec<(RobotId, BlockId, [u64; 2])>, u64);
 
 impl<'s> Analysis<'s> {
     /// Examines every frame of a scene.
@@ -219,32 +229,9 @@ impl<'s> Analysis<'s> {
 
     /// Examines every frame of a scene, and what else is asked for.
     pub fn with(scene: &'s Scene, options: &Options) -> Analysis<'s> {
-        let found = Interfaces::of(scene);
-        let length = Analysis::length_of(scene, &found);
-        let mut known = Known::default();
-        let frames = scene
-            .frames
-            .iter()
-            .map(|frame| {
-                let interfaces = found.in_frame(scene, frame);
-                let mut analysis =
-                    examined(scene, frame, &interfaces, length, *options, &mut known);
-                analysis.notices.extend(found.notices.iter().cloned());
-                analysis
-            })
-            .collect();
-        Analysis {
-            scene,
-            length,
-            frames,
-        }
-    }
-
-    /// L: the median interface length, or the typical block's where nothing touches; metres.
-    pub fn length_of(scene: &Scene, found: &Interfaces) -> f64 {
-        found
-            .typical_length()
-            .unwrap_or_else(|| typical_block(scene))
+        let (found, mut frames) = examine(scene, options);
+        near::judge(scene, &found, &mut frames, options);
+        Analysis { scene, frames }
     }
 
     /// The worst verdict of all frames.
@@ -257,43 +244,42 @@ impl<'s> Analysis<'s> {
     }
 }
 
-/// A length to weigh torques by where nothing touches: the median block's square root of area.
-fn typical_block(scene: &Scene) -> f64 {
-    let mut sizes: Vec<f64> = scene
-        .blocks
+/// Examines every frame of a scene with its gaps as they are.
+fn examine(scene: &Scene, options: &Options) -> (Interfaces, Vec<FrameAnalysis>) {
+    let found = Interfaces::of(scene);
+    let mut known = Known::default();
+    let frames = scene
+        .frames
         .iter()
-        .map(|b| b.body.polygon.area().sqrt())
+        .map(|frame| {
+            let interfaces = found.in_frame(scene, frame);
+            let situation = Situation {
+                scene,
+                frame,
+                interfaces: &interfaces,
+            };
+            let mut analysis = examined(&situation, *options, &mut known);
+            analysis.notices.extend(found.notices.iter().cloned());
+            analysis
+        })
         .collect();
-    sizes.sort_by(f64::total_cmp);
-    sizes
-        .get(sizes.len().saturating_sub(1) / 2)
-        .copied()
-        .unwrap_or(1.0)
+    (found, frames)
 }
 
 /// Examines one frame.
-fn examined(
-    scene: &Scene,
-    frame: &Frame,
-    interfaces: &[&Interface],
-    length: f64,
-    options: Options,
-    known: &mut Known,
-) -> FrameAnalysis {
+fn examined(situation: &Situation, options: Options, known: &mut Known) -> FrameAnalysis {
     let start = Instant::now();
-    let situation = Situation {
-        scene,
-        frame,
-        interfaces,
-    };
-    let plan = effect::plan(&situation);
-    let groups = groups(scene.blocks.len(), frame, interfaces);
-    let keys: Vec<Key> = groups.iter().map(|g| key(frame, g)).collect();
-    let fresh: Vec<usize> = (0..groups.len())
+    let (assembly, reports) = effect::assemble(situation);
+    let components = assembly.split();
+    let keys: Vec<Key> = components.iter().map(key).collect();
+    let fresh: Vec<usize> = (0..components.len())
         .filter(|k| !known.findings.contains_key(&keys[*k]))
         .collect();
-    let one = |k: &usize| solved(&situation, &plan, &groups[*k], length, options);
-    // Many small groups are worth the threads; the order of the results is that of the groups either way.
+    let one = |k: &usize| {
+        let _until = Until::set(options.deadline);
+        solved(&components[*k], options)
+    };
+    // Many small components are worth the threads; the order of the results is that of the components either way.
     let findings: Vec<Findings> = if fresh.len() > 16 {
         fresh.par_iter().map(one).collect()
     } else {
@@ -305,31 +291,36 @@ fn examined(
     for (k, found) in fresh.iter().zip(findings) {
         known.findings.insert(keys[*k].clone(), found);
     }
-    let mut analysis = gathered(scene, frame, interfaces, &plan);
-    for (group, key) in groups.iter().zip(&keys) {
-        if let Some(found) = known.findings.get(key) {
-            add(&mut analysis, scene, frame, group, found, length);
-        }
+    let found: Vec<(&Assembly, &Findings)> = components
+        .iter()
+        .zip(&keys)
+        .filter_map(|(component, key)| Some((component, known.findings.get(key)?)))
+        .collect();
+    let mut analysis = gathered(situation, &assembly, reports);
+    for (component, found) in &found {
+        add(&mut analysis, component, found, situation.scene.kernel);
     }
-    settle(&mut analysis, &situation);
-    let mut judged = None;
-    if options.margins == Ask::Yes {
-        let (findings, ends) = (&known.findings, &mut known.margins);
-        let (margins, tries) =
-            margin::of(scene, frame, interfaces, &groups, findings, ends, length);
-        analysis.margins = Some(margins);
-        judged = Some(tries);
+    let count = found
+        .iter()
+        .fold(Count::default(), |sum, f| sum.and(f.1.count));
+    settle(&mut analysis, situation, count);
+    if analysis.verdict == Verdict::Undecided && options.is_late() {
+        analysis.doubt = format!("{LATE}: {}", analysis.doubt);
     }
-    analysis.effects.push(effect::margin::report(judged));
+    let _until = Until::set(options.deadline);
+    let methods = found.iter().map(|f| f.1.method);
+    analysis.solve = SolveReport {
+        method: methods.max().unwrap_or(Method::ClosedForm),
+        iterations: effort.iterations,
+        programs: effort.programs,
+        groups: components.len(),
+        reused: components.len() - fresh.len(),
+        seconds: 0.0,
+    };
     let wedging = match (options.wedging, analysis.verdict) {
         (Ask::No, _) => Wedging::NotAsked,
         (Ask::Yes, Verdict::Stable) => {
-            let found = groups
-                .iter()
-                .zip(&keys)
-                .filter_map(|(group, key)| Some((group, known.findings.get(key)?)));
-            analysis.only_by_wedging =
-                group::only_by_wedging(scene, frame, interfaces, &plan, found, length);
+            analysis.only_by_wedging = component::only_by_wedging(found.iter().copied());
             match analysis.only_by_wedging {
                 Some(_) => Wedging::Found,
                 None => Wedging::Unclear,
@@ -337,37 +328,46 @@ fn examined(
         }
         (Ask::Yes, _) => Wedging::Falls,
     };
+    let mut judged = None;
+    if options.margins == Ask::Yes {
+        let verdicts: Vec<Verdict> = found.iter().map(|f| f.1.verdict).collect();
+        let parts = components.iter().zip(&keys).zip(verdicts);
+        let (margins, tries) = margin::of(&parts.collect::<Vec<_>>(), &mut known.margins);
+        analysis.margins = Some(margins);
+        judged = Some(tries);
+    }
+    analysis.effects.push(effect::margin::report(judged));
     analysis.effects.push(wedging::report(wedging));
-    analysis.solve = SolveReport {
-        method: if effort.programs == 0 && fresh.len() == groups.len() {
-            "closed form"
-        } else {
-            "kinematic"
-        },
-        iterations: effort.iterations,
-        programs: effort.programs,
-        groups: groups.len(),
-        reused: groups.len() - fresh.len(),
-        seconds: start.elapsed().as_secs_f64(),
-    };
+    analysis.solve.seconds = start.elapsed().as_secs_f64();
     analysis
 }
 
-fn key(frame: &Frame, group: &Group) -> Key {
-    let holds = group.holds.iter().map(|h| {
-        let hold = frame.holds[*h];
+fn key(component: &Assembly) -> Key {
+    let blocks = component.bodies.iter().map(|body| body.block);
+    let holds = component.grips.iter().map(|grip| {
+        let block = component.bodies[grip.body].block;
         (
-            hold.robot,
-            hold.block,
-            [hold.at.x.to_bits(), hold.at.y.to_bits()],
+            grip.robot,
+            block,
+            [grip.at.x.to_bits(), grip.at.y.to_bits()],
         )
     });
-    (group.blocks.clone(), holds.collect())
+    (
+        blocks.collect(),
+        holds.collect(),
+        component.length.to_bits(),
+    )
 }
 
-/// The frame before any group is added: every contact and grip without force.
-fn gathered(scene: &Scene, frame: &Frame, interfaces: &[&Interface], plan: &Plan) -> FrameAnalysis {
-    let contacts = interfaces
+/// The frame before any component is added: every contact and grip without force.
+fn gathered(
+    situation: &Situation,
+    assembly: &Assembly,
+    effects: Vec<EffectReport>,
+) -> FrameAnalysis {
+    let (scene, frame) = (situation.scene, situation.frame);
+    let contacts = situation
+        .interfaces
         .iter()
         .map(|interface| Contact {
             interface: (*interface).clone(),
@@ -393,7 +393,9 @@ fn gathered(scene: &Scene, frame: &Frame, interfaces: &[&Interface], plan: &Plan
     FrameAnalysis {
         verdict: Verdict::Stable,
         doubt: String::new(),
+        length: assembly.length,
         total_force: 0.0,
+        least_force: true,
         total_sticking: 0.0,
         weight: frame.placed.iter().map(|b| scene.blocks[b.0].weight).sum(),
         contacts,
@@ -403,7 +405,7 @@ fn gathered(scene: &Scene, frame: &Frame, interfaces: &[&Interface], plan: &Plan
         mechanism: Vec::new(),
         margins: None,
         only_by_wedging: None,
-        effects: plan.reports.clone(),
+        effects,
         proof: Proof::Forces {
             worst_imbalance: 0.0,
             worst_share: 0.0,
@@ -411,7 +413,7 @@ fn gathered(scene: &Scene, frame: &Frame, interfaces: &[&Interface], plan: &Plan
             worst_slip: 0.0,
         },
         solve: SolveReport {
-            method: "kinematic",
+            method: Method::ClosedForm,
             iterations: 0,
             programs: 0,
             groups: 0,
@@ -422,25 +424,18 @@ fn gathered(scene: &Scene, frame: &Frame, interfaces: &[&Interface], plan: &Plan
     }
 }
 
-/// Enters what was found for one group.
-fn add(
-    analysis: &mut FrameAnalysis,
-    scene: &Scene,
-    frame: &Frame,
-    group: &Group,
-    found: &Findings,
-    length: f64,
-) {
-    for (number, (normal, friction)) in group.interfaces.iter().zip(&found.contacts) {
-        let contact = &mut analysis.contacts[*number];
-        contact.normal_forces = *normal;
-        contact.friction_force = *friction;
-        contact.resultant = resultant_of(&contact.interface, scene.kernel, *normal, *friction);
-        contact.friction_used = friction_used(&contact.interface, *normal, *friction);
+/// Enters what was found for one component.
+fn add(analysis: &mut FrameAnalysis, component: &Assembly, found: &Findings, kernel: f64) {
+    for (at, pressed) in component.contacts.iter().zip(&found.forces.contacts) {
+        let contact = &mut analysis.contacts[at.interface];
+        let (normal, friction) = (pressed.normal, pressed.friction);
+        contact.normal_forces = normal;
+        contact.friction_force = friction;
+        contact.resultant = resultant_of(&contact.interface, kernel, normal, friction);
+        contact.friction_used = friction_used(&contact.interface, normal, friction);
         analysis.total_force += normal[0] + normal[1] + friction.abs();
     }
-    for (number, (force, torque)) in group.holds.iter().zip(&found.grips) {
-        let limits = scene.robots[frame.holds[*number].robot.0].limits;
+    for (grip, held) in component.grips.iter().zip(&found.forces.grips) {
         let share = |amount: f64, limit: f64| {
             if limit.is_finite() && limit > 0.0 {
                 amount.abs() / limit
@@ -448,26 +443,29 @@ fn add(
                 0.0
             }
         };
-        let robot = &mut analysis.robots[*number];
-        robot.force = *force;
-        robot.torque = *torque;
+        let (force, torque, limits) = (held.force, held.torque, grip.limits);
+        let robot = &mut analysis.robots[grip.hold];
+        robot.force = force;
+        robot.torque = torque;
         robot.limit_used = share(force.x, limits.fx)
             .max(share(force.y, limits.fy))
-            .max(share(*torque, limits.torque));
-        analysis.total_force += force.x.abs() + force.y.abs() + torque.abs() / length;
+            .max(share(torque, limits.torque));
+        analysis.total_force += force.x.abs() + force.y.abs() + torque.abs() / component.length;
     }
+    analysis.least_force &= found.least_force;
     analysis.total_sticking += found.total_sticking;
     analysis.failures.extend(found.failures.iter().copied());
     analysis.mechanism.extend(found.mechanism.iter().copied());
     if found.unsupported {
-        analysis.unsupported.extend(group.blocks.iter().copied());
+        let blocks = component.bodies.iter().map(|body| body.block);
+        analysis.unsupported.extend(blocks);
     }
     if found.verdict == Verdict::Undecided && !analysis.doubt.is_empty() {
         analysis.doubt.push_str("; ");
     }
     analysis.doubt.push_str(&found.doubt);
     analysis.proof = match (analysis.verdict, found.verdict) {
-        // Groups of the same verdict: the worst of their numbers. Otherwise the worse verdict brings its own proof.
+        // Components of the same verdict: the worst of their numbers. Otherwise the worse verdict brings its own proof.
         (a, b) if a == b => worst(analysis.proof, found.proof),
         (a, b) if a < b => found.proof,
         _ => analysis.proof,

@@ -2,6 +2,8 @@
 //!
 //! A level changes what an answer costs and how well it must be proved, never what it may say without a proof.
 
+use std::time::Instant;
+
 use crate::proof::Demand;
 use crate::solve::{Care, Choice, Manner, TOLERANCE};
 
@@ -16,6 +18,9 @@ pub struct Options {
     pub margins: Ask,
     /// Whether each standing frame stands only by wedging.
     pub wedging: Ask,
+    /// When to give up: what is not decided by then is `Undecided`, and its doubt says so. Without one the same scene gives
+    /// the same answer every time.
+    pub deadline: Option<Instant>,
 }
 
 /// Whether something is asked for.
@@ -55,6 +60,11 @@ impl Accuracy {
 }
 
 impl Options {
+    /// Whether the time is up.
+    pub(super) fn is_late(self) -> bool {
+        self.deadline.is_some_and(|end| Instant::now() >= end)
+    }
+
     /// The manners in which a program is tried, one after the other until a proof convinces.
     pub(super) fn manners(self) -> Vec<Manner> {
         let full = match self.accuracy {

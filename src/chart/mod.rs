@@ -13,6 +13,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{FontStyle, RGBColor, register_font};
 
 use crate::drawing::Face;
+use crate::text::xml;
 
 /// Picture units per unit of the page.
 const FINE: i32 = 10;
@@ -134,18 +135,12 @@ pub fn scatter(chart: &Scatter) -> Result<String, Undrawn> {
     let (width, height) = SIZE;
     let page = format!(
         "width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {w} {h}\" role=\"img\" aria-label=\"{}\"",
-        escaped(&chart.title)
+        xml(&chart.title)
     );
     Ok(svg.replacen(&head, &page, 1).replace(
         &format!("font-family=\"{FONT}\""),
         "font-family=\"Inter, 'Helvetica Neue', Arial, sans-serif\"",
     ))
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('"', "&quot;")
 }
 
 fn draw(chart: &Scatter, svg: &mut String) -> Result<(), Box<dyn std::error::Error>> {

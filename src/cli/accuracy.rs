@@ -55,7 +55,7 @@ impl Accuracy {
         }
         let scenes: Vec<&Path> = self.scenes.iter().map(PathBuf::as_path).collect();
         destination::apart(&self.output, &scenes).map_err(|c| vec![c])?;
-        let sources = source::read(&self.scenes, None)?;
+        let sources = source::read(&self.scenes, None, None)?;
         // A scene without a title is known by its file.
         let scenes: Vec<Scene> = sources
             .iter()

@@ -9,6 +9,7 @@ use crate::analysis::{Analysis, Ask, Options};
 use crate::cli::complaint::Complaint;
 use crate::cli::ending::Ending;
 use crate::cli::level::Level;
+use crate::cli::page::Page;
 use crate::cli::progress::{Progress, Shown};
 use crate::cli::source::{self, FrameChoice};
 use crate::cli::table;
@@ -40,7 +41,7 @@ pub(crate) struct Check {
 
 impl Check {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
-        let sources = source::read(&self.scenes, self.frame)?;
+        let sources = source::read(&self.scenes, self.frame, self.level.contact_tolerance)?;
         let shown = if terminal.shows_progress() {
             Shown::WhenLong
         } else {
@@ -72,21 +73,21 @@ impl Check {
         } else {
             Layout::OneLine
         };
-        let mut text = String::new();
-        if self.json {
-            text.extend(
-                analyses
-                    .iter()
-                    .map(|analysis| to_json(analysis, timing, layout)),
-            );
-        } else if !terminal.is_quiet() {
-            for (source, analysis) in sources.iter().zip(&analyses) {
-                text += &table::of(&source.name(), analysis, timing);
-                text.push('\n');
+        let printed = if self.json {
+            let results = analyses.iter().map(|a| to_json(a, timing, layout));
+            terminal.print_bytes(results.collect::<String>().as_bytes())
+        } else {
+            let mut page = Page::default();
+            if !terminal.is_quiet() {
+                for (source, analysis) in sources.iter().zip(&analyses) {
+                    page.append(&table::of(&source.name(), analysis, timing));
+                    page.end();
+                }
+                page.ours(table::LIMITS);
             }
-            text += table::LIMITS;
-        }
-        terminal.print(&text).map_err(|c| vec![c])?;
+            terminal.print(&page)
+        };
+        printed.map_err(|c| vec![c])?;
         Ok(analyses
             .iter()
             .map(Ending::of)

@@ -9,9 +9,10 @@ use std::ops::Range;
 use ariadne::{Color, Config, Label, Report, ReportKind, Source};
 
 use crate::cli::ending::Ending;
-use crate::cli::terminal::visible;
+use crate::cli::page::Page;
 use crate::drawing::style;
 use crate::scene::{Problem, Problems};
+use crate::text::line;
 
 /// So many problems of one file are shown; a file with more has one cause, and it is among the first.
 const SHOWN: usize = 30;
@@ -45,7 +46,9 @@ pub(crate) enum Complaint {
         why: String,
     },
     /// A drawing does not become a scene, in a person's words.
-    Drawing(String),
+    Drawing(Page),
+    /// Blocks of a book cannot be drawn, each in lines whose parts are [`line`].
+    Book(Vec<String>),
     /// The command line asks for something that cannot be.
     CommandLine(String),
     /// An output cannot be written.
@@ -66,44 +69,50 @@ impl Complaint {
             | Complaint::Style { .. }
             | Complaint::NotRead { .. }
             | Complaint::Drawing(_)
+            | Complaint::Book(_)
             | Complaint::CommandLine(_) => Ending::WrongInput,
         }
     }
 
     /// What a person is told, in colour.
-    pub(crate) fn text(&self) -> String {
+    pub(crate) fn page(&self) -> Page {
+        let mut page = Page::default();
         match self {
             Complaint::Scene { name, problems } => {
-                all(name, problems.text.as_deref(), &problems.list)
+                page.block(&all(name, problems.text.as_deref(), &problems.list));
             }
-            Complaint::Style { name, problems } => problems
-                .0
-                .iter()
-                .map(|problem| {
-                    format!(
-                        "error: {}: {}\n",
-                        visible(name),
-                        visible(&problem.to_string())
-                    )
-                })
-                .collect(),
+            Complaint::Style { name, problems } => {
+                for problem in &problems.0 {
+                    page.line(&format!("error: {name}: {problem}"));
+                }
+            }
             Complaint::NotRead { what, why } => {
-                format!("error: cannot read {}: {why}", visible(what))
+                page.line(&format!("error: cannot read {what}: {why}"));
             }
-            Complaint::Drawing(what) => what.clone(),
-            Complaint::CommandLine(what) => format!(
-                "error: {}\n\nFor more information, try '--help'.",
-                visible(what)
-            ),
+            Complaint::Drawing(page) => return page.clone(),
+            Complaint::CommandLine(what) => {
+                page.line(&format!("error: {what}"));
+                page.ours("\nFor more information, try '--help'.\n");
+            }
+            Complaint::Book(problems) => {
+                for (number, problem) in problems.iter().enumerate() {
+                    if number > 0 {
+                        page.end();
+                    }
+                    page.words("error: ");
+                    page.block(problem);
+                }
+            }
             Complaint::NotWritten { what, why } => {
-                format!("error: cannot write {}: {why}", visible(what))
+                page.line(&format!("error: cannot write {what}: {why}"));
             }
         }
+        page
     }
 }
 
 fn all(name: &str, text: Option<&str>, problems: &[Problem]) -> String {
-    let name = visible(name);
+    let name = line(name);
     let mut out = String::new();
     for problem in problems.iter().take(SHOWN) {
         let place = text
@@ -153,11 +162,11 @@ impl<'a> Place<'a> {
 }
 
 fn headline(problem: &Problem) -> String {
-    let message = visible(&problem.message);
+    let message = line(&problem.message);
     if problem.path.is_empty() {
         message
     } else {
-        format!("{}: {message}", visible(&problem.path))
+        format!("{}: {message}", line(&problem.path))
     }
 }
 
@@ -169,7 +178,7 @@ fn plain(name: &str, problem: &Problem) -> String {
     };
     let mut out = format!("error: {name}{at}: {}\n", headline(problem));
     if !problem.help.is_empty() {
-        let _ = writeln!(out, "  help: {}", visible(&problem.help));
+        let _ = writeln!(out, "  help: {}", line(&problem.help));
     }
     out
 }
@@ -178,23 +187,23 @@ fn plain(name: &str, problem: &Problem) -> String {
 fn pointed(name: &str, problem: &Problem, place: &Place) -> String {
     let above = problem.line.saturating_sub(1);
     // A blank behind the line gives a problem at its very end, such as a file cut short, something to point at.
-    let source = Source::from(format!("{}{} ", "\n".repeat(above), visible(place.line)));
+    let source = Source::from(format!("{}{} ", "\n".repeat(above), line(place.line)));
     let range = place.range.start + above..place.range.end + above;
     let label = if problem.path.is_empty() {
         "here".into()
     } else {
-        visible(&problem.path)
+        line(&problem.path)
     };
     let mut report = Report::build(ReportKind::Error, (name, range.clone()))
         .with_config(Config::default())
-        .with_message(visible(&problem.message))
+        .with_message(line(&problem.message))
         .with_label(
             Label::new((name, range))
                 .with_message(label)
                 .with_color(Color::Red),
         );
     if !problem.help.is_empty() {
-        report = report.with_help(visible(&problem.help));
+        report = report.with_help(line(&problem.help));
     }
     let mut bytes = Vec::new();
     match report.finish().write((name, source), &mut bytes) {
@@ -212,7 +221,7 @@ fn windowed(name: &str, problem: &Problem, place: &Place) -> String {
     let (first, help) = out.split_once('\n').unwrap_or((&out, ""));
     let lead = if from > 0 { "…" } else { " " };
     let gap = " ".repeat(place.range.start - from + 1);
-    let piece = visible(&piece).replace('\t', " ");
+    let piece = line(&piece);
     format!(
         "{first}\n  {lead}{piece}…\n  {gap}{}\n{help}",
         "^".repeat(marks)

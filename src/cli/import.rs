@@ -9,8 +9,9 @@ use clap::{Args, ValueEnum};
 use crate::cli::complaint::Complaint;
 use crate::cli::destination;
 use crate::cli::ending::Ending;
+use crate::cli::page::Page;
 use crate::cli::source::FrameChoice;
-use crate::cli::terminal::{Terminal, visible};
+use crate::cli::terminal::Terminal;
 use crate::import::{self, Format, Imported, Options, Remark};
 use crate::output::file::Existing;
 use crate::report::result::import_json;
@@ -108,7 +109,7 @@ impl Import {
             Ok(imported) => imported,
             Err(refusal) => {
                 for remark in &refusal.remarks {
-                    terminal.note(&said("warning", &name, remark));
+                    terminal.notes(&said("warning", &name, remark));
                 }
                 return Err(refused(&name, &refusal.problems));
             }
@@ -122,13 +123,15 @@ impl Import {
                 let files = [(path.to_owned(), scene.into_bytes())];
                 destination::write(&files, Existing::Replace).map_err(|c| vec![c])?;
             }
-            None => terminal.print(&scene).map_err(|c| vec![c])?,
+            None => {
+                let printed = terminal.print_bytes(scene.as_bytes());
+                printed.map_err(|c| vec![c])?;
+            }
         }
         self.tell(terminal, &name, &imported);
         if self.json {
-            terminal
-                .print(&import_json(&imported))
-                .map_err(|c| vec![c])?;
+            let json = import_json(&imported);
+            terminal.print_bytes(json.as_bytes()).map_err(|c| vec![c])?;
         }
         Ok(Ending::Done)
     }
@@ -200,16 +203,15 @@ impl Import {
 
     fn tell(&self, terminal: &Terminal, name: &str, imported: &Imported) {
         for remark in &imported.remarks {
-            terminal.note(&said("warning", name, remark));
+            terminal.notes(&said("warning", name, remark));
         }
         let count = |n: usize, one: &str, many: &str| match n {
             1 => format!("1 {one}"),
             n => format!("{n} {many}"),
         };
         let scene = &imported.scene;
-        let mut text = format!(
-            "{}: {}, {}, {}\n",
-            visible(name),
+        let mut page = Page::of(&format!(
+            "{name}: {}, {}, {}",
             count(scene.blocks.len(), "block", "blocks"),
             count(
                 scene.ground.len(),
@@ -217,18 +219,18 @@ impl Import {
                 "parts of the ground"
             ),
             count(scene.robots.len(), "robot", "robots"),
-        );
+        ));
         for note in &imported.notes {
-            text += &format!("  {}\n", visible(note));
+            page.line(&format!("  {note}"));
         }
         for snapped in imported.snapped.iter().take(LISTED) {
-            text += &format!(
-                "  snapped {}: {} by up to {:.2e} m, to {}\n",
-                visible(&snapped.body),
+            page.line(&format!(
+                "  snapped {}: {} by up to {:.2e} m, to {}",
+                snapped.body,
                 count(snapped.corners, "corner", "corners"),
                 snapped.distance,
-                visible(&snapped.to.join(", "))
-            );
+                snapped.to.join(", ")
+            ));
         }
         if imported.snapped.len() > LISTED {
             let more = imported.snapped.len() - LISTED;
@@ -237,11 +239,11 @@ impl Import {
                 .iter()
                 .map(|s| s.distance)
                 .fold(0.0, f64::max);
-            text += &format!(
-                "  snapped {more} more; of all, the farthest by {most:.2e} m; --json lists them\n"
-            );
+            page.line(&format!(
+                "  snapped {more} more; of all, the farthest by {most:.2e} m; --json lists them"
+            ));
         }
-        terminal.note(&text);
+        terminal.notes(&page);
     }
 }
 
@@ -250,16 +252,17 @@ fn refused(name: &str, problems: &[Remark]) -> Vec<Complaint> {
     problems.iter().map(complaint).collect()
 }
 
-fn said(severity: &str, name: &str, remark: &Remark) -> String {
-    let mut text = format!("{severity}: {name}: ");
+fn said(severity: &str, name: &str, remark: &Remark) -> Page {
+    let mut page = Page::default();
+    page.words(&format!("{severity}: {name}: "));
     if !remark.element.is_empty() {
-        text += &format!("{}: ", remark.element);
+        page.words(&format!("{}: ", remark.element));
     }
-    text += &remark.message;
+    page.line(&remark.message);
     if !remark.help.is_empty() {
-        text += &format!("\n  help: {}", remark.help);
+        page.line(&format!("  help: {}", remark.help));
     }
-    visible(&text)
+    page
 }
 
 /// `9.81` is downwards, `0,-9.81` is as it says.

@@ -1,5 +1,7 @@
 //! [`Level`]: what an analysis is asked, the part that `check` and `render` share.
 
+use std::time::{Duration, Instant};
+
 use clap::{Args, ValueEnum};
 
 use crate::analysis::{Accuracy, Ask, Options};
@@ -13,6 +15,13 @@ pub(crate) struct Level {
     /// Tell whether each standing frame stands only by a self-stress that its loads do not build up from rest
     #[arg(long)]
     wedging: bool,
+    /// Edges within so many metres touch, and bodies may overlap by as much; in place of the scene's `contact_tolerance`, or
+    /// of what is estimated from how its coordinates are written
+    #[arg(long, value_name = "METRES", value_parser = length)]
+    pub(crate) contact_tolerance: Option<f64>,
+    /// Stop solving after so many seconds: what is not decided by then is undecided
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    time_limit: Option<Duration>,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -23,7 +32,7 @@ enum Name {
 }
 
 impl Level {
-    /// What an analysis is asked.
+    /// What an analysis is asked; a limit of time counts from here.
     pub(crate) fn options(self) -> Options {
         let accuracy = match self.accuracy {
             Name::Draft => Accuracy::Draft,
@@ -33,7 +42,24 @@ impl Level {
         Options {
             accuracy,
             wedging: if self.wedging { Ask::Yes } else { Ask::No },
+            deadline: self
+                .time_limit
+                .and_then(|limit| Instant::now().checked_add(limit)),
             ..Options::default()
         }
+    }
+}
+
+fn length(typed: &str) -> Result<f64, String> {
+    match typed.parse::<f64>() {
+        Ok(metres) if (0.0..=1e12).contains(&metres) => Ok(metres),
+        _ => Err("give a length in metres, at least 0".into()),
+    }
+}
+
+fn seconds(typed: &str) -> Result<Duration, String> {
+    match typed.parse::<f64>() {
+        Ok(seconds) if (0.0..=1e6).contains(&seconds) => Ok(Duration::from_secs_f64(seconds)),
+        _ => Err("it is a time in seconds, from 0 to 1000000".into()),
     }
 }

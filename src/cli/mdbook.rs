@@ -48,8 +48,8 @@ impl MdBook {
                     why: error.to_string(),
                 }]
             })?;
-        let drawn = book::illustrate(&input)
-            .map_err(|problems| vec![Complaint::CommandLine(problems.to_string())])?;
+        let drawn =
+            book::illustrate(&input).map_err(|problems| vec![Complaint::Book(problems.0)])?;
         terminal
             .print_bytes(drawn.as_bytes())
             .map_err(|c| vec![c])?;

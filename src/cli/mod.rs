@@ -27,6 +27,7 @@ mod level;
 mod look;
 mod mdbook;
 mod new;
+mod page;
 mod picture;
 mod progress;
 mod render;
@@ -118,7 +119,7 @@ fn refused(error: &clap::Error, printed: io::Result<()>) -> Ending {
         Ok(()) => Ending::Done,
         Err(complaint) => {
             // Standard error may be as full as standard output; then the exit code alone tells.
-            let _ = writeln!(io::stderr(), "{}", complaint.text());
+            let _ = write!(io::stderr(), "{}", complaint.page().text());
             complaint.ending()
         }
     }
@@ -126,7 +127,7 @@ fn refused(error: &clap::Error, printed: io::Result<()>) -> Ending {
 
 fn complain(terminal: &Terminal, complaints: &[Complaint]) -> Ending {
     for complaint in complaints {
-        terminal.complain(&complaint.text());
+        terminal.complain(&complaint.page());
     }
     complaints
         .iter()

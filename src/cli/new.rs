@@ -29,7 +29,7 @@ impl New {
             .as_deref()
             .filter(|path| *path != Path::new("-"))
         {
-            None => terminal.print(text),
+            None => terminal.print_bytes(text.as_bytes()),
             Some(path) => self.write(path, text, terminal),
         }
         .map_err(|c| vec![c])?;

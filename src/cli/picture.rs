@@ -140,7 +140,10 @@ impl Picture {
                 .map(String::into_bytes)
                 .map_err(|error| unwritten(&error)),
             Format::Png => {
-                png::render(&svg::write(&drawing), self.size()).map_err(|error| not_drawn(&error))
+                // A page that is too large is refused before it is written out, which takes far more memory than the drawing.
+                png::check(drawing.width, drawing.height, self.size())
+                    .and_then(|()| png::render(&svg::write(&drawing), self.size()))
+                    .map_err(|error| not_drawn(&error))
             }
             Format::Pdf => pdf::write(&drawing, self.width_mm).map_err(|error| match error {
                 PdfError::Size { .. } => Complaint::CommandLine(error.to_string()),
@@ -155,6 +158,10 @@ impl Picture {
         drawings: Vec<Drawing>,
         seconds: f64,
     ) -> Result<Vec<u8>, Complaint> {
+        if let Some(drawing) = drawings.first() {
+            png::check(drawing.width, drawing.height, self.size())
+                .map_err(|error| not_drawn(&error))?;
+        }
         let svgs: Vec<String> = drawings
             .into_iter()
             .map(|drawing| svg::write(&self.on_page(drawing)))

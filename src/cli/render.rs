@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 
-use crate::analysis::{Analysis, Ask, Verdict};
+use crate::analysis::{self, Analysis, Verdict};
 use crate::cli::complaint::Complaint;
 use crate::cli::destination::{self, Destination};
 use crate::cli::ending::Ending;
@@ -166,7 +166,10 @@ impl Render {
         }
         self.check_count(&destination, format, terminal)
             .map_err(|c| vec![c])?;
-        let (theme, sources) = match (self.look.theme(), source::read(&self.scenes, self.frame)) {
+        let (theme, sources) = match (
+            self.look.theme(),
+            source::read(&self.scenes, self.frame, self.level.contact_tolerance),
+        ) {
             (Ok(theme), Ok(sources)) => (theme, sources),
             (theme, sources) => {
                 let scenes = sources.err().into_iter().flatten();
@@ -185,9 +188,13 @@ impl Render {
             Shown::Never
         };
         let progress = Progress::begin(2 * sources.len(), shown);
+        let mut asked = self.level.options();
+        if matches!(self.kind, Kind::Margin) {
+            asked.margins = analysis::Ask::Yes;
+        }
         let rendered: Vec<Result<Rendered, Complaint>> = sources
             .par_iter()
-            .map(|source| self.render(source, &options, format, &progress))
+            .map(|source| self.render(source, &asked, &options, format, &progress))
             .collect();
         drop(progress);
         let rendered = all(rendered)?;
@@ -245,16 +252,13 @@ impl Render {
     fn render(
         &self,
         source: &Source,
+        asked: &analysis::Options,
         options: &figure::Options,
         format: Format,
         progress: &Progress,
     ) -> Result<Rendered, Complaint> {
         progress.doing(&source.name());
-        let mut asked = self.level.options();
-        if matches!(self.kind, Kind::Margin) {
-            asked.margins = Ask::Yes;
-        }
-        let analysis = Analysis::with(&source.scene, &asked);
+        let analysis = Analysis::with(&source.scene, asked);
         progress.step();
         let bytes = match self.animate {
             Some(seconds) => {

@@ -18,7 +18,7 @@ impl Schema {
         if !text.ends_with('\n') {
             text.push('\n');
         }
-        terminal.print(&text).map_err(|c| vec![c])?;
+        terminal.print_bytes(text.as_bytes()).map_err(|c| vec![c])?;
         Ok(Ending::Done)
     }
 }

@@ -93,10 +93,11 @@ impl FromStr for FrameChoice {
     }
 }
 
-/// All the scenes, or everything that is wrong with any of them.
+/// All the scenes, or everything that is wrong with any of them. A tolerance in metres takes the place of their own.
 pub(crate) fn read(
     paths: &[PathBuf],
     frame: Option<FrameChoice>,
+    tolerance: Option<f64>,
 ) -> Result<Vec<Source>, Vec<Complaint>> {
     if paths.iter().filter(|p| *p == Path::new("-")).count() > 1 {
         return Err(vec![Complaint::CommandLine(
@@ -106,7 +107,7 @@ pub(crate) fn read(
     let mut sources = Vec::new();
     let mut complaints = Vec::new();
     for path in paths {
-        let source = read_one(path).and_then(|mut source| match frame {
+        let source = read_one(path, tolerance).and_then(|mut source| match frame {
             Some(choice) => source.only_frame(choice).map(|()| source),
             None => Ok(source),
         });
@@ -122,7 +123,7 @@ pub(crate) fn read(
     }
 }
 
-fn read_one(path: &Path) -> Result<Source, Complaint> {
+fn read_one(path: &Path, tolerance: Option<f64>) -> Result<Source, Complaint> {
     let bytes = if path == Path::new("-") {
         let mut bytes = Vec::new();
         io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes)
@@ -133,10 +134,11 @@ fn read_one(path: &Path) -> Result<Source, Complaint> {
         what: name(path),
         why: error.to_string(),
     })?;
-    let scene = Scene::from_slice(&bytes).map_err(|problems| Complaint::Scene {
-        name: name(path),
-        problems,
-    })?;
+    let scene =
+        Scene::from_slice_within(&bytes, tolerance).map_err(|problems| Complaint::Scene {
+            name: name(path),
+            problems,
+        })?;
     Ok(Source {
         path: path.to_owned(),
         scene,

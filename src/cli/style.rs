@@ -21,7 +21,8 @@ pub(crate) struct Style {
 impl Style {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
         let theme = Theme::named(&self.theme).unwrap_or_default();
-        terminal.print(&theme.to_json()).map_err(|c| vec![c])?;
+        let json = theme.to_json();
+        terminal.print_bytes(json.as_bytes()).map_err(|c| vec![c])?;
         Ok(Ending::Done)
     }
 }

@@ -5,11 +5,12 @@ use std::fmt::Write;
 use clap::builder::styling::{AnsiColor, Style};
 
 use crate::analysis::{Analysis, Failure, FrameAnalysis, Margin, Margins, Proof, Sides, Verdict};
-use crate::cli::terminal::visible;
+use crate::cli::page::Page;
 use crate::figure::letter;
 use crate::geometry::Point;
 use crate::report::result::{Timing, word};
 use crate::scene::{BlockId, RobotId, Scene};
+use crate::text::heading;
 
 /// What a verdict says and what it does not, for under the tables.
 pub(crate) const LIMITS: &str = "\
@@ -21,18 +22,21 @@ proof     in parts of the largest weight; the motion's fastest point has speed 1
 
 /// So many failures of a frame are told in words; the figure and the JSON have them all.
 const TOLD: usize = 12;
-/// A longer title is cut.
+/// A frame's longer title is cut.
 const TITLE: usize = 40;
+/// A scene's longer title is cut: a terminal would break the line, and what stands behind the break would look like a row.
+const HEADING: usize = 60;
 
 /// The table of one scene.
-pub(crate) fn of(name: &str, analysis: &Analysis, timing: Timing) -> String {
+pub(crate) fn of(name: &str, analysis: &Analysis, timing: Timing) -> Page {
     let scene = analysis.scene;
-    let bold = Style::new().bold();
-    let mut out = format!("{bold}{}{bold:#}", visible(name));
+    let mut page = Page::default();
+    page.styled(Style::new().bold(), name);
     if !scene.title.is_empty() {
-        let _ = write!(out, "  {}", visible(&scene.title));
+        page.words("  ");
+        page.words(&heading(&scene.title, HEADING));
     }
-    out.push('\n');
+    page.end();
     let rows: Vec<[String; 7]> = scene
         .frames
         .iter()
@@ -53,14 +57,20 @@ pub(crate) fn of(name: &str, analysis: &Analysis, timing: Timing) -> String {
     };
     let widths: [usize; 7] = std::array::from_fn(width);
     let dim = Style::new().dimmed();
-    let _ = writeln!(out, "  {dim}{}{dim:#}", line(&heads, &widths, Style::new()));
+    line(&mut page, &heads, &widths, [dim; 7]);
     for (frame, cells) in analysis.frames.iter().zip(&rows) {
-        let _ = writeln!(out, "  {}", line(cells, &widths, style(frame.verdict)));
+        let mut styles = [Style::new(); 7];
+        styles[1] = style(frame.verdict);
+        line(&mut page, cells, &widths, styles);
         for remark in remarks(scene, frame) {
-            let _ = writeln!(out, "      {}", visible(&remark));
+            page.line(&format!("      {remark}"));
         }
     }
-    out
+    if let Some(words) = scene.tolerance_words() {
+        page.styled(dim, &format!("  {words}"));
+        page.end();
+    }
+    page
 }
 
 fn style(verdict: Verdict) -> Style {
@@ -73,26 +83,24 @@ fn style(verdict: Verdict) -> Style {
 }
 
 /// Words to the left, numbers to the right of their columns.
-fn line(cells: &[String; 7], widths: &[usize; 7], verdict: Style) -> String {
-    let mut out = String::new();
+fn line(page: &mut Page, cells: &[String; 7], widths: &[usize; 7], styles: [Style; 7]) {
     for (column, (cell, width)) in cells.iter().zip(widths).enumerate() {
         let gap = " ".repeat(width - cell.chars().count());
-        let _ = match column {
-            0 => write!(out, "{cell}{gap}"),
-            1 => write!(out, "   {verdict}{cell}{verdict:#}{gap}"),
-            6 => write!(out, "   {cell}"),
-            _ => write!(out, "   {gap}{cell}"),
-        };
+        page.words(if column == 0 { "  " } else { "   " });
+        if (2..6).contains(&column) {
+            page.words(&gap);
+        }
+        page.styled(styles[column], cell);
+        if column < 2 {
+            page.words(&gap);
+        }
     }
-    out
+    page.end();
 }
 
 /// A frame by its letter, where it needs one, and its title.
 fn label(scene: &Scene, number: usize, title: &str) -> String {
-    let mut title: String = visible(title).replace('\n', " ");
-    if title.chars().count() > TITLE {
-        title = title.chars().take(TITLE - 1).chain(['…']).collect();
-    }
+    let title = heading(title, TITLE);
     match (scene.frames.len(), title.is_empty()) {
         (1, true) => "all".into(),
         (1, false) => title,

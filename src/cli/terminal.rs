@@ -9,6 +9,7 @@ use anstream::ColorChoice;
 use clap::{Args, ValueEnum};
 
 use crate::cli::complaint::Complaint;
+use crate::cli::page::Page;
 
 /// How loud and how colourful the program is.
 #[derive(Clone, Copy, Debug, Args)]
@@ -61,34 +62,39 @@ impl Terminal {
         io::stdout().is_terminal()
     }
 
-    /// Writes a result as text.
-    pub(crate) fn print(&self, text: &str) -> Result<(), Complaint> {
+    /// Writes a result for a person.
+    pub(crate) fn print(&self, page: &Page) -> Result<(), Complaint> {
         let mut stream = anstream::stdout().lock();
         written(
             stream
-                .write_all(text.as_bytes())
+                .write_all(page.text().as_bytes())
                 .and_then(|()| stream.flush()),
         )
     }
 
-    /// Writes a result as it is.
+    /// Writes a result as it is: a picture or JSON, in which no text of others can do anything.
     pub(crate) fn print_bytes(&self, bytes: &[u8]) -> Result<(), Complaint> {
         let mut stream = io::stdout().lock();
         written(stream.write_all(bytes).and_then(|()| stream.flush()))
     }
 
-    /// Says something useful that is no result, unless asked to be quiet.
-    pub(crate) fn note(&self, text: &str) {
+    /// Says something useful in a line that is no result, unless asked to be quiet.
+    pub(crate) fn note(&self, words: &str) {
+        self.notes(&Page::of(words));
+    }
+
+    /// Likewise, in several lines.
+    pub(crate) fn notes(&self, page: &Page) {
         if !self.quiet {
-            self.complain(text);
+            self.complain(page);
         }
     }
 
     /// Says what is wrong.
-    pub(crate) fn complain(&self, text: &str) {
+    pub(crate) fn complain(&self, page: &Page) {
         let mut stream = anstream::stderr().lock();
         // With standard error gone, only the exit code is left to tell.
-        let _ = writeln!(stream, "{}", text.trim_end()).and_then(|()| stream.flush());
+        let _ = writeln!(stream, "{}", page.text().trim_end()).and_then(|()| stream.flush());
     }
 }
 
@@ -100,33 +106,5 @@ pub(crate) fn written(written: io::Result<()>) -> Result<(), Complaint> {
             why: error.to_string(),
         }),
         _ => Ok(()),
-    }
-}
-
-/// Text from a file, made harmless for a terminal: control characters become marks that can be seen.
-///
-/// Every mark is as many bytes long as what it stands for, so that byte ranges stay where they are.
-pub(crate) fn visible(text: &str) -> String {
-    text.chars()
-        .map(|c| match c {
-            '\n' | '\t' => c,
-            c if c.is_control() && c.len_utf8() == 1 => '?',
-            c if c.is_control() => '¿',
-            // Two that break lines, and are no control characters by name.
-            '\u{2028}' | '\u{2029}' => '␤',
-            c => c,
-        })
-        .collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn control_characters_become_visible_and_keep_their_length() {
-        let text = "a\u{1b}[31m\tb\n\u{9b}c\r\u{2028}";
-        assert_eq!(visible(text), "a?[31m\tb\n¿c?␤");
-        assert_eq!(visible(text).len(), text.len());
     }
 }

@@ -1,22 +1,52 @@
-//! Contact: two normal forces per edge interface, one per corner contact, pressing only. Source:
-//! [Vallat23](crate::doc::references) §2.0.1–2.
+//! Contact: two normal forces per edge interface, pressing only. Source: [Vallat23](crate::doc::references) §2.0.1–2.
 
-use super::{EffectReport, Situation, counted};
-use crate::interface::ContactKind;
+use super::{Call, Situation, counted};
+use crate::assembly::{Assembly, Contact};
+use crate::interface::{ContactKind, Interface};
+use crate::scene::BodyId;
 
 /// Name in results.
 pub const NAME: &str = "contact";
 
 /// Called for when two bodies touch.
-pub fn report(situation: &Situation) -> EffectReport {
-    let interfaces = situation.interfaces;
-    let unknowns: usize = interfaces
-        .iter()
-        .map(|i| if i.kind == ContactKind::Edge { 2 } else { 1 })
-        .sum();
-    if interfaces.is_empty() {
-        EffectReport::skipped(NAME, "no two bodies touch", 0)
-    } else {
-        EffectReport::simulated(NAME, counted(interfaces.len(), "interface"), unknowns)
+pub fn called_for(situation: &Situation) -> Call {
+    match situation.interfaces.len() {
+        0 => Call::not("no two bodies touch"),
+        n => Call::For(counted(n, "interface")),
+    }
+}
+
+/// Adds a smooth contact for every edge interface.
+pub fn contribute(situation: &Situation, assembly: &mut Assembly) {
+    add(situation, assembly, ContactKind::Edge, |_| 0.0);
+}
+
+/// Adds a contact for every interface of a kind, with the friction given for each.
+pub(super) fn add(
+    situation: &Situation,
+    assembly: &mut Assembly,
+    kind: ContactKind,
+    friction: impl Fn(&Interface) -> f64,
+) {
+    let numbers = assembly.numbers(situation.scene.blocks.len());
+    let body = |id: BodyId| match id {
+        BodyId::Ground(_) => None,
+        BodyId::Block(block) => numbers[block.0],
+    };
+    for (number, interface) in situation.interfaces.iter().enumerate() {
+        let [on, from] = interface.bodies.map(body);
+        if let (true, Some(on)) = (interface.kind == kind, on) {
+            assembly.contacts.push(Contact {
+                interface: number,
+                bodies: interface.bodies,
+                on,
+                from,
+                kind,
+                ends: interface.ends,
+                points: interface.ends,
+                normal: interface.normal,
+                friction: friction(interface),
+            });
+        }
     }
 }

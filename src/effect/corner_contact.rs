@@ -1,35 +1,26 @@
 //! Corner contacts: tips that touch edges or tips carry force. The source leaves them out as unreliable
 //! ([Vallat23](crate::doc::references) §3).
 
-use super::{EffectReport, Situation};
+use super::{Call, Situation, contact};
+use crate::assembly::Assembly;
 use crate::interface::ContactKind;
 
 /// Name in results.
 pub const NAME: &str = "corner contacts";
 
 /// Called for when the scene asks for them and a tip touches something.
-pub fn report(situation: &Situation) -> EffectReport {
-    let corners = situation
-        .interfaces
-        .iter()
-        .filter(|i| i.kind == ContactKind::Corner);
-    let (count, rough) = corners.fold((0, 0), |(n, r), i| {
-        (n + 1, r + usize::from(i.friction > 0.0))
-    });
-    if !situation.scene.corner_contacts {
-        EffectReport::skipped(NAME, "not asked for; tips are unreliable", 0)
-    } else if count == 0 {
-        EffectReport::skipped(NAME, "no tip touches another body", 0)
-    } else {
-        let verb = if count == 1 {
-            "tip touches"
-        } else {
-            "tips touch"
-        };
-        EffectReport::simulated(
-            NAME,
-            format!("{count} {verb} another body"),
-            count + 2 * rough,
-        )
+pub fn called_for(situation: &Situation) -> Call {
+    let kinds = situation.interfaces.iter().map(|i| i.kind);
+    let count = kinds.filter(|kind| *kind == ContactKind::Corner).count();
+    match count {
+        _ if !situation.scene.corner_contacts => Call::not("not asked for; tips are unreliable"),
+        0 => Call::not("no tip touches another body"),
+        1 => Call::For("1 tip touches another body".to_owned()),
+        n => Call::For(format!("{n} tips touch another body")),
     }
+}
+
+/// Adds a contact with one application point for every tip, friction included.
+pub fn contribute(situation: &Situation, assembly: &mut Assembly) {
+    contact::add(situation, assembly, ContactKind::Corner, |i| i.friction);
 }

@@ -1,34 +1,29 @@
-//! Friction: |T| ≤ μ (N1 + N2) on each interface, two unknowns T⁺ and T⁻. Source: [Vallat23](crate::doc::references) §2.0.3.
+//! Friction: |T| ≤ μ (N1 + N2) on each interface. Source: [Vallat23](crate::doc::references) §2.0.3.
 //!
-//! Both corners' friction forces act along one line, so friction belongs to the interface; posed per interface it needs
-//! two unknowns where the source has four, with the same answers.
+//! Each application point of a rough interface gets two more unknowns: the normal force with full friction either way.
 
-use super::{EffectReport, Situation, counted};
+use super::{Call, Situation, counted};
+use crate::assembly::Assembly;
 
 /// Name in results.
 pub const NAME: &str = "friction";
 
 /// Called for when some interface has μ > 0.
-pub fn report(situation: &Situation) -> EffectReport {
-    let rough = situation
-        .interfaces
-        .iter()
-        .filter(|i| i.friction > 0.0)
-        .count();
-    let smooth = situation.interfaces.len() - rough;
-    if rough == 0 {
-        let why = if smooth == 0 {
-            "there is no interface"
-        } else {
-            "μ is 0 at every interface"
-        };
-        EffectReport::skipped(NAME, why, 2 * smooth)
-    } else {
-        let has = if rough == 1 { "has" } else { "have" };
-        EffectReport::simulated(
-            NAME,
-            format!("{} {has} friction", counted(rough, "interface")),
-            2 * rough,
-        )
+pub fn called_for(situation: &Situation) -> Call {
+    let rough = situation.interfaces.iter().filter(|i| i.friction > 0.0);
+    let (rough, all) = (rough.count(), situation.interfaces.len());
+    match rough {
+        0 if all == 0 => Call::not("there is no interface"),
+        // Two directions at each of two application points.
+        0 => Call::Not("μ is 0 at every interface".to_owned(), 4 * all),
+        1 => Call::For("1 interface has friction".to_owned()),
+        n => Call::For(format!("{} have friction", counted(n, "interface"))),
+    }
+}
+
+/// Gives every contact its interface's coefficient.
+pub fn contribute(situation: &Situation, assembly: &mut Assembly) {
+    for contact in &mut assembly.contacts {
+        contact.friction = situation.interfaces[contact.interface].friction;
     }
 }

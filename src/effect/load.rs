@@ -1,24 +1,36 @@
 //! Loads: forces and torques on blocks beside their weight. Add no unknown.
 
-use super::{EffectReport, Situation, counted};
+use super::{Call, Situation, counted};
+use crate::assembly::{Assembly, about};
 
 /// Name in results.
 pub const NAME: &str = "loads";
 
 /// Called for when the scene lists a load on a placed block.
-pub fn report(situation: &Situation) -> EffectReport {
-    let (loads, placed) = (&situation.scene.loads, &situation.frame.placed);
-    let acting = loads.iter().filter(|l| placed.contains(&l.block)).count();
-    if loads.is_empty() {
-        EffectReport::skipped(NAME, "the scene lists no loads", 0)
-    } else if acting == 0 {
-        EffectReport::skipped(NAME, "no listed load acts on a placed block", 0)
-    } else {
-        let verb = if acting == 1 {
-            "acts on a placed block"
-        } else {
-            "act on placed blocks"
-        };
-        EffectReport::simulated(NAME, format!("{} {verb}", counted(acting, "load")), 0)
+pub fn called_for(situation: &Situation) -> Call {
+    let scene = situation.scene;
+    if scene.loads.is_empty() {
+        return Call::not("the scene lists no loads");
+    }
+    let mut placed = vec![false; scene.blocks.len()];
+    for block in &situation.frame.placed {
+        placed[block.0] = true;
+    }
+    match scene.loads.iter().filter(|l| placed[l.block.0]).count() {
+        0 => Call::not("no listed load acts on a placed block"),
+        1 => Call::For("1 load acts on a placed block".to_owned()),
+        n => Call::For(format!("{} act on placed blocks", counted(n, "load"))),
+    }
+}
+
+/// Adds the listed loads of every placed block to its body.
+pub fn contribute(situation: &Situation, assembly: &mut Assembly) {
+    let numbers = assembly.numbers(situation.scene.blocks.len());
+    for load in &situation.scene.loads {
+        if let Some(number) = numbers[load.block.0] {
+            let body = &mut assembly.bodies[number];
+            let more = about(body.centroid, load.at, load.force, load.torque);
+            body.listed = body.listed.and(more);
+        }
     }
 }

@@ -1,8 +1,10 @@
-//! Effects: what a frame calls for, decided one by one before anything is posed.
+//! Effects: what a frame calls for, decided one by one and contributed to its [`Assembly`].
 //!
-//! Makes a [`Plan`]: which effects are simulated and a [`EffectReport`] for each, with the reason in words and the force
-//! unknowns it adds or saves. One file per effect, each with its rule and its source. Sticking and mechanism are called
-//! for by the outcome, so their reports are written after the solve.
+//! One file per effect, each with two functions and its source: `called_for` says whether the frame needs it, in words,
+//! and `contribute` adds what it brings to the assembly (loads, contacts, friction, grips). An effect that is not called
+//! for contributes nothing, so that no program has a row or a column of it. How many unknowns each added is counted from
+//! the programs that were posed. Sticking, mechanism, margins and wedging are called for by the outcome or by the user;
+//! they add to no assembly, and their reports are written after the solve.
 
 pub mod contact;
 pub mod corner_contact;
@@ -17,6 +19,7 @@ pub mod sticking;
 pub mod wedging;
 pub mod weight;
 
+use crate::assembly::Assembly;
 use crate::interface::Interface;
 use crate::scene::{Frame, Scene};
 
@@ -29,7 +32,7 @@ pub struct EffectReport {
     pub simulated: bool,
     /// Why, in words.
     pub why: String,
-    /// Force unknowns it added, or saved where it was skipped.
+    /// Force unknowns it added to the programs posed, or would have added where it was skipped.
     pub unknowns: usize,
 }
 
@@ -64,62 +67,89 @@ pub struct Situation<'a> {
     pub interfaces: &'a [&'a Interface],
 }
 
-/// Which effects the program of a frame contains.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Plan {
-    /// Friction columns.
-    pub friction: bool,
-    /// Robot force columns.
-    pub robots: bool,
-    /// Robot torque columns.
-    pub robot_torque: bool,
-    /// Loads in the balance.
-    pub loads: bool,
-    /// The share of a stretch by which application points move inward, twice.
-    pub kernel: f64,
-    /// What was decided, effect by effect.
-    pub reports: Vec<EffectReport>,
+/// Whether a frame calls for an effect.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Call {
+    /// It does, for the reason given.
+    For(String),
+    /// It does not, for the reason given; so many unknowns are saved by leaving it out.
+    Not(String, usize),
 }
 
-impl Plan {
-    /// Every effect that a program can contain, without a word about why: for frames that are changed and judged again.
-    pub fn everything(kernel: f64) -> Plan {
-        Plan {
-            friction: true,
-            robots: true,
-            robot_torque: true,
-            loads: true,
-            kernel,
-            reports: Vec::new(),
-        }
+impl Call {
+    fn not(why: &str) -> Call {
+        Call::Not(why.to_owned(), 0)
     }
 }
 
-/// Decides which effects a frame calls for.
-pub fn plan(situation: &Situation) -> Plan {
-    let reports = vec![
-        weight::report(situation),
-        contact::report(situation),
-        friction::report(situation),
-        kernel::report(situation),
-        robot::report(situation),
-        robot_torque::report(situation),
-        load::report(situation),
-        corner_contact::report(situation),
-    ];
-    let simulated = |name: &str| reports.iter().any(|r| r.effect == name && r.simulated);
-    Plan {
-        friction: simulated(friction::NAME),
-        robots: simulated(robot::NAME),
-        robot_torque: simulated(robot_torque::NAME),
-        loads: simulated(load::NAME),
-        kernel: if simulated(kernel::NAME) {
-            situation.scene.kernel
-        } else {
-            0.0
-        },
-        reports,
+/// An effect that contributes to the assembly.
+struct Effect {
+    name: &'static str,
+    called_for: fn(&Situation) -> Call,
+    contribute: fn(&Situation, &mut Assembly),
+}
+
+/// In the order in which they are reported and contribute: friction and kernel change the contacts that are there.
+const EFFECTS: [Effect; 8] = [
+    Effect {
+        name: weight::NAME,
+        called_for: weight::called_for,
+        contribute: weight::contribute,
+    },
+    Effect {
+        name: contact::NAME,
+        called_for: contact::called_for,
+        contribute: contact::contribute,
+    },
+    Effect {
+        name: friction::NAME,
+        called_for: friction::called_for,
+        contribute: friction::contribute,
+    },
+    Effect {
+        name: kernel::NAME,
+        called_for: kernel::called_for,
+        contribute: kernel::contribute,
+    },
+    Effect {
+        name: robot::NAME,
+        called_for: robot::called_for,
+        contribute: robot::contribute,
+    },
+    Effect {
+        name: robot_torque::NAME,
+        called_for: robot_torque::called_for,
+        contribute: robot_torque::contribute,
+    },
+    Effect {
+        name: load::NAME,
+        called_for: load::called_for,
+        contribute: load::contribute,
+    },
+    Effect {
+        name: corner_contact::NAME,
+        called_for: corner_contact::called_for,
+        contribute: corner_contact::contribute,
+    },
+];
+
+/// Puts a frame's assembly together from the effects it calls for, and reports on each of them.
+///
+/// The reports of simulated effects hold 0 unknowns until they are counted from the programs posed.
+pub fn assemble(situation: &Situation) -> (Assembly, Vec<EffectReport>) {
+    let mut assembly = Assembly::bare(situation.scene, situation.frame, situation.interfaces);
+    let mut reports = Vec::with_capacity(EFFECTS.len());
+    for effect in &EFFECTS {
+        reports.push(match (effect.called_for)(situation) {
+            Call::For(why) => {
+                (effect.contribute)(situation, &mut assembly);
+                EffectReport::simulated(effect.name, why, 0)
+            }
+            Call::Not(why, saved) => EffectReport::skipped(effect.name, why, saved),
+        });
     }
+    assembly.contacts.sort_by_key(|contact| contact.interface);
+    (assembly.settled(), reports)
 }
 
 /// `1 thing`, `2 things`.

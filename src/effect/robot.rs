@@ -1,28 +1,41 @@
 //! Robots: a force F_x±, F_y± at the grip point of each held block, within its limits. Source:
 //! [Vallat23](crate::doc::references) §2.0.6.
 
-use super::{EffectReport, Situation, counted};
+use super::{Call, Situation, counted};
+use crate::assembly::{Assembly, Grip};
+use crate::scene::Limits;
 
 /// Name in results.
 pub const NAME: &str = "robots";
 
 /// Called for when some robot holds a placed block.
-pub fn report(situation: &Situation) -> EffectReport {
+pub fn called_for(situation: &Situation) -> Call {
     let (holds, robots) = (situation.frame.holds.len(), situation.scene.robots.len());
-    if robots == 0 {
-        EffectReport::skipped(NAME, "the scene has no robots", 0)
-    } else if holds == 0 {
-        EffectReport::skipped(NAME, "no robot holds a block", 4 * robots)
-    } else {
-        let verb = if holds == 1 {
-            "holds a block"
-        } else {
-            "hold blocks"
-        };
-        EffectReport::simulated(
-            NAME,
-            format!("{} {verb}", counted(holds, "robot")),
-            4 * holds,
-        )
+    match holds {
+        _ if robots == 0 => Call::not("the scene has no robots"),
+        // Two components, each either way.
+        0 => Call::Not("no robot holds a block".to_owned(), 4 * robots),
+        1 => Call::For("1 robot holds a block".to_owned()),
+        n => Call::For(format!("{} hold blocks", counted(n, "robot"))),
+    }
+}
+
+/// Adds a grip for every hold, with the robot's limits on force and none of its torque.
+pub fn contribute(situation: &Situation, assembly: &mut Assembly) {
+    let numbers = assembly.numbers(situation.scene.blocks.len());
+    for (number, hold) in situation.frame.holds.iter().enumerate() {
+        if let Some(body) = numbers[hold.block.0] {
+            let limits = situation.scene.robots[hold.robot.0].limits;
+            assembly.grips.push(Grip {
+                hold: number,
+                robot: hold.robot,
+                body,
+                at: hold.at,
+                limits: Limits {
+                    torque: 0.0,
+                    ..limits
+                },
+            });
+        }
     }
 }

@@ -2,32 +2,29 @@
 //! [Vallat23](crate::doc::references) §2.0.6;
 //! its §3 sets every torque limit to 0, because real robots control torque badly.
 
-use super::{EffectReport, Situation, counted};
+use super::{Call, Situation, counted};
+use crate::assembly::Assembly;
 
 /// Name in results.
 pub const NAME: &str = "robot torque";
 
 /// Called for when a holding robot may give a torque.
-pub fn report(situation: &Situation) -> EffectReport {
-    let robots = &situation.scene.robots;
-    let holds = &situation.frame.holds;
-    let strong = holds
-        .iter()
-        .filter(|h| robots[h.robot.0].limits.torque > 0.0)
-        .count();
-    if holds.is_empty() {
-        EffectReport::skipped(NAME, "no robot holds a block", 0)
-    } else if strong == 0 {
-        EffectReport::skipped(
-            NAME,
-            "every holding robot's torque limit is 0",
+pub fn called_for(situation: &Situation) -> Call {
+    let (robots, holds) = (&situation.scene.robots, &situation.frame.holds);
+    let torques = holds.iter().map(|h| robots[h.robot.0].limits.torque);
+    match torques.filter(|torque| *torque > 0.0).count() {
+        _ if holds.is_empty() => Call::not("no robot holds a block"),
+        0 => Call::Not(
+            "every holding robot's torque limit is 0".to_owned(),
             2 * holds.len(),
-        )
-    } else {
-        EffectReport::simulated(
-            NAME,
-            format!("{} may give a torque", counted(strong, "holding robot")),
-            2 * strong,
-        )
+        ),
+        n => Call::For(format!("{} may give a torque", counted(n, "holding robot"))),
+    }
+}
+
+/// Gives every grip its robot's limit on torque.
+pub fn contribute(situation: &Situation, assembly: &mut Assembly) {
+    for grip in &mut assembly.grips {
+        grip.limits.torque = situation.scene.robots[grip.robot.0].limits.torque;
     }
 }

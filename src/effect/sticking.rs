@@ -2,24 +2,18 @@
 //! Source: [Vallat23](crate::doc::references) §2.0.8, posed lexicographically: first the least sticking, then the
 //! least force.
 
-use super::{EffectReport, Situation, counted};
-use crate::interface::ContactKind;
+use super::{EffectReport, counted};
 
 /// Name in results.
 pub const NAME: &str = "sticking";
 
-/// Called for when the program without it has no solution.
-pub fn report(situation: &Situation, needed: bool) -> EffectReport {
-    let contacts: usize = situation
-        .interfaces
-        .iter()
-        .map(|i| if i.kind == ContactKind::Edge { 4 } else { 3 })
-        .sum();
-    let unknowns = contacts + 6 * situation.frame.holds.len();
+/// Called for when the program without it has no solution. `blocks` counts the frame's; `unknowns` those of sticking, as
+/// posed or saved.
+pub fn report(blocks: usize, needed: bool, unknowns: usize) -> EffectReport {
     if needed {
         let why = format!(
             "no admissible forces balance the {}",
-            counted(situation.frame.placed.len(), "block")
+            counted(blocks, "block")
         );
         EffectReport::simulated(NAME, why, unknowns)
     } else {

@@ -1,26 +1,29 @@
 //! Weight: each block's own weight at its centroid, along gravity. Adds no unknown. Source:
 //! [Vallat23](crate::doc::references) §2.0.1.
 
-use super::{EffectReport, Situation, counted};
+use super::{Call, Situation, counted};
+use crate::assembly::Assembly;
 
 /// Name in results.
 pub const NAME: &str = "weight";
 
 /// Called for when some placed block has weight and gravity has a direction.
-pub fn report(situation: &Situation) -> EffectReport {
+pub fn called_for(situation: &Situation) -> Call {
     let scene = situation.scene;
-    let heavy = situation
-        .frame
-        .placed
-        .iter()
-        .filter(|b| scene.blocks[b.0].weight > 0.0)
-        .count();
-    if scene.gravity.norm() == 0.0 {
-        EffectReport::skipped(NAME, "there is no gravity", 0)
-    } else if heavy == 0 {
-        EffectReport::skipped(NAME, "no placed block has weight", 0)
-    } else {
-        let has = if heavy == 1 { "has" } else { "have" };
-        EffectReport::simulated(NAME, format!("{} {has} weight", counted(heavy, "block")), 0)
+    let weights = situation.frame.placed.iter();
+    let weights = weights.map(|b| scene.blocks[b.0].weight);
+    match weights.filter(|weight| *weight > 0.0).count() {
+        _ if scene.gravity.norm() == 0.0 => Call::not("there is no gravity"),
+        0 => Call::not("no placed block has weight"),
+        1 => Call::For("1 block has weight".to_owned()),
+        n => Call::For(format!("{} have weight", counted(n, "block"))),
+    }
+}
+
+/// Gives every body its weight, and the assembly the direction of gravity.
+pub fn contribute(situation: &Situation, assembly: &mut Assembly) {
+    assembly.pull = situation.scene.down();
+    for body in &mut assembly.bodies {
+        body.weight = situation.scene.blocks[body.block.0].weight;
     }
 }

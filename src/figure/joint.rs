@@ -51,7 +51,7 @@ pub(crate) fn joints(analysis: &Analysis<'_>, frame: usize) -> Vec<Joint> {
     };
     let one = |(number, contact): (usize, &Contact)| {
         let [a, b] = contact.interface.bodies;
-        let turning = (spin(a) - spin(b)).abs() * analysis.length;
+        let turning = (spin(a) - spin(b)).abs() * found.length;
         let found = joint(contact, relative[number], turning, NOISE * largest)?;
         Some(Joint {
             contact: number,

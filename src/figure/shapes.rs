@@ -42,6 +42,7 @@ fn sheet(lattice: Lattice, named: &[(&str, Vec<Cell>)], theme: &Theme) -> Drawin
                 material: None,
                 friction: 0.0,
                 fill: None,
+                gap: 0.0,
             },
             view,
         ));

@@ -7,14 +7,19 @@
 mod lattice;
 mod overlap;
 mod polygon;
+mod sum;
+pub(crate) mod snap;
 mod tolerance;
+mod zonotope;
 
 pub(crate) use lattice::boundary;
 pub use lattice::{Cell, Half, Lattice, LatticeKind};
 pub use overlap::{Overlap, Pieces, overlap};
 pub(crate) use polygon::sin_cos_degrees;
 pub use polygon::{Bounds, Edge, Flaw, Polygon};
+pub use sum::Sum;
 pub use tolerance::Tolerance;
+pub use zonotope::{Triple, least_scale, scale_at_most};
 
 /// A place in the plane, in metres.
 pub type Point = nalgebra::Point2<f64>;

@@ -371,6 +371,7 @@ fn ring_contains(ring: &[Point], p: Point) -> bool {
     inside
 }
 
+#[derive(Clone, Copy)]
 struct Side {
     ring: usize,
     position: usize,
@@ -389,7 +390,11 @@ impl RTreeObject for Side {
     }
 }
 
-/// Every place at which two sides meet that are not neighbours, and every fold back of neighbours; at most 20.
+/// So many crossings of a polygon are listed.
+const MOST_CROSSINGS: usize = 20;
+
+/// The first places, in the order of the sides, at which two sides meet that are not neighbours, and folds back of
+/// neighbours.
 fn crossings(rings: &[Vec<(usize, Point)>]) -> Vec<Flaw> {
     let all: Vec<Side> = rings
         .iter()
@@ -408,9 +413,10 @@ fn crossings(rings: &[Vec<(usize, Point)>]) -> Vec<Flaw> {
             })
         })
         .collect();
-    let tree = RTree::bulk_load(all);
+    let tree = RTree::bulk_load(all.clone());
     let mut flaws = Vec::new();
-    for a in &tree {
+    for a in &all {
+        let before = flaws.len();
         for b in tree.locate_in_envelope_intersecting(a.envelope()) {
             if (a.ring, a.position) >= (b.ring, b.position) {
                 continue;
@@ -425,19 +431,21 @@ fn crossings(rings: &[Vec<(usize, Point)>]) -> Vec<Flaw> {
                 meeting(a.edge, b.edge)
             };
             if let Some(at) = at {
-                flaws.push((
-                    (a.ring, a.position, b.ring, b.position),
-                    Flaw::Crossing {
-                        rings: [a.ring, b.ring],
-                        corners: [a.corner, b.corner],
-                        at,
-                    },
-                ));
+                let crossing = Flaw::Crossing {
+                    rings: [a.ring, b.ring],
+                    corners: [a.corner, b.corner],
+                    at,
+                };
+                flaws.push(((b.ring, b.position), crossing));
             }
         }
+        // The tree has an order of its own.
+        flaws[before..].sort_by_key(|f| f.0);
+        if flaws.len() >= MOST_CROSSINGS {
+            flaws.truncate(MOST_CROSSINGS);
+            break;
+        }
     }
-    flaws.sort_by_key(|f| f.0);
-    flaws.truncate(20);
     flaws.into_iter().map(|f| f.1).collect()
 }
 

@@ -1,7 +1,7 @@
 //! The only epsilons of the crate that speak of lengths.
 //!
 //! Off a lattice, coordinates carry noise: a file written from 32-bit floats is off by 6·10⁻⁸ of the coordinate, a
-//! hand-rounded one by more. Two edges therefore *touch* when they lie within [`Tolerance::gap`] of each other, and a
+//! rounded one by more. A scene estimates that from how its coordinates are written. Two edges therefore *touch* when they lie within [`Tolerance::gap`] of each other, and a
 //! common stretch shorter than [`Tolerance::stretch`] is a corner that touches, not an interface.
 
 /// How close is close, in metres, for one scene.
@@ -18,8 +18,8 @@ pub struct Tolerance {
 impl Tolerance {
     /// Gap in parts of the scene's reach.
     pub const GAP: f64 = 1e-6;
-    /// Stretch in parts of the scene's reach: a quarter of the gap, four times the noise of a 32-bit float.
-    pub const STRETCH: f64 = 2.5e-7;
+    /// Stretch in parts of the gap.
+    pub const STRETCH: f64 = 0.25;
     /// The reach counts for at most so many typical block sizes, so that a far-flung scene keeps its small contacts.
     pub const REACH: f64 = 1000.0;
 
@@ -27,10 +27,14 @@ impl Tolerance {
     ///
     /// Both are lengths in metres; a scene without blocks has extent 0 and gets the tolerance 0.
     pub fn of(extent: f64, typical: f64) -> Tolerance {
-        let reach = extent.min(Self::REACH * typical);
+        Tolerance::within(Self::GAP * extent.min(Self::REACH * typical))
+    }
+
+    /// The tolerance by which edges within `gap` metres of each other touch.
+    pub fn within(gap: f64) -> Tolerance {
         Tolerance {
-            gap: Self::GAP * reach,
-            stretch: Self::STRETCH * reach,
+            gap,
+            stretch: Self::STRETCH * gap,
             angle: 0.01,
         }
     }

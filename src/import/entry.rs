@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::draft::{Draft, Kind};
 use super::name::Names;
 use super::outline::{Body, Outlines};
-use crate::geometry::{Point, Polygon};
+use crate::geometry::{Bounds, Point, Polygon};
 use crate::scene::format::{
     BlockEntry, GroundEntry, Map, MaterialEntry, Pair, RobotEntry, SceneFile,
 };
@@ -84,16 +84,23 @@ fn robots(
     draft: &mut Draft,
     round: &Rounding,
 ) -> Vec<RobotEntry> {
-    let polygons: Vec<(usize, Polygon)> = outlines
+    let polygons: Vec<(usize, Bounds, Polygon)> = outlines
         .bodies
         .iter()
         .enumerate()
         .filter(|(_, b)| b.kind == Kind::Block)
         .filter_map(|(i, b)| Some((i, b.polygon()?)))
+        .map(|(i, polygon)| (i, polygon.bounds(), polygon))
         .collect();
     let mut entries = Vec::new();
     for (robot, name) in outlines.robots.iter().zip(&names.robots) {
-        let held = polygons.iter().find(|(_, p)| p.contains(robot.at));
+        let held = polygons.iter().find(|(_, bounds, p)| {
+            let at = Bounds {
+                min: robot.at,
+                max: robot.at,
+            };
+            bounds.meets(at) && p.contains(robot.at)
+        });
         if held.is_none() {
             let message = format!(
                 "its centre ({}, {}) m lies in no block: the robot holds nothing",
@@ -108,7 +115,7 @@ fn robots(
         }
         entries.push(RobotEntry {
             id: Some(name.clone()),
-            holds: held.map(|(i, _)| names.bodies[*i].clone()),
+            holds: held.map(|(i, ..)| names.bodies[*i].clone()),
             at: held.map(|_| round.pair(robot.at)),
             ..RobotEntry::default()
         });

@@ -6,13 +6,13 @@
 //! materials, limits of robots, loads and steps, which no drawing holds.
 
 mod affine;
+mod crowd;
 mod draft;
 mod entry;
 mod geojson;
 mod name;
 mod outline;
 mod region;
-mod snap;
 mod svg;
 mod track;
 mod wkt;
@@ -193,6 +193,12 @@ fn made(mut draft: Draft, options: &Options) -> Result<Imported, Refusal> {
         };
         return Err(Refusal {
             problems: vec![empty],
+            remarks: draft.remarks,
+        });
+    }
+    if let Some(problem) = crowd::problem(&outlines) {
+        return Err(Refusal {
+            problems: vec![problem],
             remarks: draft.remarks,
         });
     }

@@ -1,6 +1,6 @@
 //! Names: one of its own for every block and robot.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::draft::Kind;
 use super::outline::Outlines;
@@ -15,7 +15,7 @@ pub(super) struct Names {
 /// Names as the drawing gives them; twins get numbers, and who has none is called by its number.
 pub(super) fn given(outlines: &mut Outlines) -> Names {
     // "ground" in a result is the ground.
-    let mut taken = Taken(BTreeSet::from(["ground".to_owned()]));
+    let mut taken = Taken::but("ground");
     let wanted: BTreeSet<&str> = outlines.bodies.iter().map(|b| b.name.as_str()).collect();
     let ground = outlines.ground();
     let mut bodies = Vec::new();
@@ -23,32 +23,46 @@ pub(super) fn given(outlines: &mut Outlines) -> Names {
         bodies.push(match (body.kind, body.name.as_str()) {
             (Kind::Ground, _) => format!("ground[{i}]"),
             (_, "") => taken.first_free("", i + 1 - ground, &wanted),
-            (_, name) if taken.0.insert(name.to_owned()) => name.to_owned(),
+            (_, name) if taken.names.insert(name.to_owned()) => name.to_owned(),
             (_, name) => taken.first_free(&format!("{name}-"), 2, &wanted),
         });
     }
-    let mut taken = Taken(BTreeSet::new());
+    let mut taken = Taken::default();
     let wanted: BTreeSet<&str> = outlines.robots.iter().map(|r| r.name.as_str()).collect();
     let mut robots = Vec::new();
     for (i, robot) in outlines.robots.iter().enumerate() {
         robots.push(match robot.name.as_str() {
             "" => taken.first_free("r", i, &wanted),
-            name if taken.0.insert(name.to_owned()) => name.to_owned(),
+            name if taken.names.insert(name.to_owned()) => name.to_owned(),
             name => taken.first_free(&format!("{name}-"), 2, &wanted),
         });
     }
     Names { bodies, robots }
 }
 
-struct Taken(BTreeSet<String>);
+#[derive(Default)]
+struct Taken {
+    names: BTreeSet<String>,
+    /// The last number that was found free for a stem: those below it stay taken, and are not tried again.
+    last: BTreeMap<String, usize>,
+}
 
 impl Taken {
+    fn but(name: &str) -> Taken {
+        Taken {
+            names: BTreeSet::from([name.to_owned()]),
+            ..Taken::default()
+        }
+    }
+
     /// The first number from `from` on with which a name is free and nobody's own.
     fn first_free(&mut self, stem: &str, from: usize, wanted: &BTreeSet<&str>) -> String {
-        let mut number = from;
+        let last = self.last.entry(stem.to_owned()).or_default();
+        let mut number = from.max(*last);
         loop {
             let name = format!("{stem}{number}");
-            if !wanted.contains(name.as_str()) && self.0.insert(name.clone()) {
+            if !wanted.contains(name.as_str()) && self.names.insert(name.clone()) {
+                *last = number + 1;
                 return name;
             }
             number += 1;

@@ -2,9 +2,10 @@
 
 use super::draft::{Draft, Form, Kind, Part, Values};
 use super::name::Names;
-use super::region::{Rings, polygon, regions};
-use super::track::{Corner, Track};
-use super::{Remark, Snapped, snap};
+use super::region::regions;
+use super::track::Track;
+use super::{Remark, Snapped, crowd};
+use crate::geometry::snap::{self, Corner, Rings, polygon};
 use crate::geometry::{Bounds, Flaw, Point, Polygon, Tolerance};
 use crate::scene::Problem;
 
@@ -87,6 +88,14 @@ impl Outlines {
                 }),
                 Form::Tracks(ref tracks, rule) => {
                     let rings = closed(draft, &part, tracks, flatten, close);
+                    if crowd::is_tangle(&rings) {
+                        let message = format!(
+                            "its {} outlines are too many to tell which lies in which; left out",
+                            rings.len()
+                        );
+                        draft.remark(&part.element, message, "break it apart into several paths");
+                        continue;
+                    }
                     for rings in regions(rings, rule) {
                         outlines.take(draft, &part, rings);
                     }
@@ -140,7 +149,8 @@ impl Outlines {
             return Vec::new();
         }
         let rings: Vec<Rings> = self.bodies.iter().map(|b| b.rings.clone()).collect();
-        let outcome = snap::snapped(&rings, gap, 0.5 * self.tolerance());
+        let (gaps, fixed) = (vec![gap; rings.len()], vec![false; rings.len()]);
+        let outcome = snap::snapped(&rings, &gaps, &fixed, 0.5 * self.tolerance() / gap);
         if outcome.kept.len() > MANY {
             let message = format!(
                 "{} bodies would lose their shape, or lie deeper in their neighbours, if they were snapped; left as they are drawn",
@@ -216,13 +226,17 @@ impl Outlines {
                 .and_then(|i| self.robots.get(i))
                 .map(|r| r.element.clone())
         };
-        let mut message = problem.message.clone();
-        for (i, body) in self.bodies[..ground].iter().enumerate() {
-            // The drawing knows no numbers.
-            message = message.replace(
-                &format!("ground[{i}]"),
-                &format!("the ground's {}", body.element),
-            );
+        // The drawing knows no numbers.
+        let mut message = String::new();
+        let mut pieces = problem.message.split("ground[");
+        message.extend(pieces.next());
+        for piece in pieces {
+            let named = piece.split_once(']').and_then(|(number, rest)| {
+                let number: usize = number.parse().ok()?;
+                let body = self.bodies[..ground].get(number)?;
+                Some(format!("the ground's {}{rest}", body.element))
+            });
+            message += &named.unwrap_or_else(|| format!("ground[{piece}"));
         }
         Remark {
             element: body.or_else(robot).unwrap_or_else(|| problem.path.clone()),

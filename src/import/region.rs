@@ -1,11 +1,8 @@
 //! Regions: what the closed outlines of one element enclose, each an outline with its holes.
 
 use super::draft::Rule;
-use super::track::Corner;
-use crate::geometry::{Bounds, Flaw, Point, Polygon, cross};
-
-/// An outline and its holes, either way round.
-pub(super) type Rings = Vec<Vec<Corner>>;
+use crate::geometry::snap::{Corner, Rings, area};
+use crate::geometry::{Bounds, Point};
 
 /// The regions that rings enclose under a fill rule.
 pub(super) fn regions(rings: Vec<Vec<Corner>>, rule: Rule) -> Vec<Rings> {
@@ -46,24 +43,6 @@ pub(super) fn regions(rings: Vec<Vec<Corner>>, rule: Rule) -> Vec<Rings> {
         }
     }
     kept
-}
-
-/// The polygon of an outline and its holes.
-pub(super) fn polygon(rings: &Rings) -> Result<Polygon, Vec<Flaw>> {
-    let points = |ring: &Vec<Corner>| ring.iter().map(|c| c.at).collect::<Vec<Point>>();
-    let mut rings = rings.iter().map(points);
-    let outline = rings.next().unwrap_or_default();
-    Polygon::new(outline, rings.collect())
-}
-
-/// Twice-signed area halved: positive anticlockwise.
-pub(super) fn area(ring: &[Corner]) -> f64 {
-    let Some(base) = ring.first() else { return 0.0 };
-    let pairs = ring.iter().zip(ring.iter().cycle().skip(1));
-    pairs
-        .map(|(a, b)| cross(a.at - base.at, b.at - base.at))
-        .sum::<f64>()
-        / 2.0
 }
 
 fn holds(outer: Option<Bounds>, inner: Option<Bounds>) -> bool {

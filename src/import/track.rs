@@ -6,6 +6,7 @@
 use core::f64::consts::{FRAC_PI_2, TAU};
 
 use super::affine::Affine;
+use crate::geometry::snap::Corner;
 use crate::geometry::{Point, Vector, cross};
 
 /// A curve is cut into at most so many pieces.
@@ -38,14 +39,6 @@ pub(super) struct Arc {
     pub(super) from: f64,
     pub(super) sweep: f64,
     pub(super) to: Point,
-}
-
-/// A corner of a flattened outline.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Corner {
-    pub(super) at: Point,
-    /// Whether the side that begins here stands for a piece of a curve.
-    pub(super) curved: bool,
 }
 
 impl Track {

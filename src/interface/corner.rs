@@ -48,14 +48,15 @@ impl RTreeObject for Place {
 /// All corner contacts beside the edge interfaces already known.
 pub(super) fn find(scene: &Scene, known: &[Interface]) -> Vec<Interface> {
     // On a lattice points are equal or at least half a side apart; any small length serves.
-    let near = match (&scene.lattice, scene.exact) {
+    let near_of = |a: BodyId, b: BodyId| match (&scene.lattice, scene.exact) {
         (Some(lattice), true) => 1e-6 * lattice.side,
-        _ => scene.tolerance.gap,
+        _ => scene.tolerance_between(a, b).gap,
     };
     let tree = RTree::bulk_load(places(scene));
     let mut found: Vec<Interface> = Vec::new();
     for place in tree.iter().filter(|p| p.tip.is_convex()) {
         let (tip, at) = (&place.tip, place.tip.at);
+        let near = near_of(tip.body, tip.body);
         let around = AABB::from_corners([at.x - near, at.y - near], [at.x + near, at.y + near]);
         for other in tree.locate_in_envelope_intersecting(around) {
             let Some(pair) =
@@ -63,6 +64,7 @@ pub(super) fn find(scene: &Scene, known: &[Interface]) -> Vec<Interface> {
             else {
                 continue;
             };
+            let near = near_of(pair[0], pair[1]);
             let Some(into_tip) = normal(tip, other, near) else {
                 continue;
             };

@@ -4,17 +4,22 @@ use std::collections::BTreeMap;
 
 use rstar::{AABB, RTree, RTreeObject};
 
-use super::{ContactKind, Interface, Interfaces, bodies, ordered};
-use crate::geometry::{Edge, Tolerance, Vector, cross, quarter_turn};
-use crate::scene::{BodyId, Scene};
+use super::{ContactKind, Interface, Interfaces, Near, bodies, ordered};
+use crate::geometry::{Edge, Point, Tolerance, Vector, cross, quarter_turn};
+use crate::scene::{BodyId, Scene, size};
 
 /// Edges farther apart than this many gaps are not worth a notice.
 const NEAR: f64 = 30.0;
+
+/// Edges of a block farther apart than this part of its size were not drawn to touch.
+const BESIDE: f64 = 0.01;
 
 struct Side {
     body: BodyId,
     number: usize,
     edge: Edge,
+    /// What is farther away than this, in metres, does not matter to it.
+    near: f64,
 }
 
 impl RTreeObject for Side {
@@ -33,26 +38,31 @@ enum Meeting {
     Stretch(Interface),
     /// They share a stretch too short to count, of this length.
     Short(f64),
-    /// They face each other along a stretch, but this far apart.
-    Apart(f64),
+    /// They face each other along a stretch around here, but this far apart.
+    Apart(f64, Point),
 }
 
 /// All edge interfaces, and what nearly is one.
 pub(super) fn find(scene: &Scene) -> Interfaces {
     let sides: Vec<Side> = bodies(scene)
         .flat_map(|body| {
-            scene
-                .body(body)
-                .polygon
-                .edges()
-                .enumerate()
-                .map(move |(number, edge)| Side { body, number, edge })
+            let (polygon, gap) = (&scene.body(body).polygon, scene.body(body).gap);
+            let near = match body {
+                BodyId::Block(_) => (BESIDE * size(polygon)).max(gap),
+                BodyId::Ground(_) => f64::INFINITY,
+            };
+            (polygon.edges().enumerate()).map(move |(number, edge)| Side {
+                body,
+                number,
+                edge,
+                near,
+            })
         })
         .collect();
     let tree = RTree::bulk_load(sides);
-    let reach = NEAR * scene.tolerance.gap;
     let mut pairs: BTreeMap<[BodyId; 2], Vec<(usize, usize, Meeting)>> = BTreeMap::new();
     for a in tree.iter().filter(|a| matches!(a.body, BodyId::Block(_))) {
+        let reach = a.near;
         let near = AABB::from_corners(
             [
                 a.edge.from.x.min(a.edge.to.x) - reach,
@@ -68,7 +78,7 @@ pub(super) fn find(scene: &Scene) -> Interfaces {
             else {
                 continue;
             };
-            if let Some(meeting) = meeting(scene, pair, a.edge, b.edge) {
+            if let Some(meeting) = meeting(scene, pair, a, b) {
                 pairs
                     .entry(pair)
                     .or_default()
@@ -77,40 +87,56 @@ pub(super) fn find(scene: &Scene) -> Interfaces {
         }
     }
     let mut notices = Notices::default();
-    let mut all = Vec::new();
+    let (mut all, mut near) = (Vec::new(), Vec::new());
     for (pair, mut meetings) in pairs {
+        let tolerance = scene.tolerance_between(pair[0], pair[1]);
         meetings.sort_by_key(|m| (m.0, m.1));
         let mut stretches = Vec::new();
         for (_, _, meeting) in meetings {
             match meeting {
                 Meeting::Stretch(interface) => stretches.push(interface),
                 Meeting::Short(length) => notices.short(length),
-                Meeting::Apart(distance) => notices.apart(scene, pair, distance),
+                Meeting::Apart(distance, at) => {
+                    if distance <= NEAR * tolerance.gap {
+                        notices.apart(scene, pair, distance);
+                    }
+                    near.push(Near {
+                        bodies: pair,
+                        at,
+                        distance,
+                    });
+                }
             }
         }
-        all.extend(joined(stretches, scene.tolerance));
+        all.extend(joined(stretches, tolerance));
     }
     Interfaces {
         all,
+        near,
         notices: notices.words(scene.tolerance),
     }
 }
 
 /// What edge `a` of the first body and edge `b` of the second have in common.
-fn meeting(scene: &Scene, bodies: [BodyId; 2], a: Edge, b: Edge) -> Option<Meeting> {
-    let tolerance = scene.tolerance;
+fn meeting(scene: &Scene, bodies: [BodyId; 2], a: &Side, b: &Side) -> Option<Meeting> {
+    let tolerance = scene.tolerance_between(bodies[0], bodies[1]);
+    let near = a.near.min(b.near);
+    let (a, b) = (a.edge, b.edge);
     let (va, vb) = (a.vector(), b.vector());
     let (la, lb) = (va.norm(), vb.norm());
     if va.dot(&vb) >= 0.0 {
         return None;
     }
     // Noise of one gap at either end turns a short edge more than a long one.
-    let angle = (2.0 * tolerance.gap / la.min(lb)).clamp(1e-9, tolerance.angle);
-    if cross(va, vb).abs() > angle * la * lb {
+    let within = |gap: f64| {
+        let angle = (2.0 * gap / la.min(lb)).clamp(1e-9, tolerance.angle);
+        cross(va, vb).abs() <= angle * la * lb
+    };
+    if !within(near) {
         return None;
     }
     let along = (va - vb).normalize();
-    let from_a = |p: crate::geometry::Point| along.dot(&(p - a.from));
+    let from_a = |p: Point| along.dot(&(p - a.from));
     let (a0, a1, b0, b1) = (0.0, from_a(a.to), from_a(b.to), from_a(b.from));
     let (s0, s1) = (f64::max(a0, b0), f64::min(a1, b1));
     let length = s1 - s0;
@@ -129,52 +155,147 @@ fn meeting(scene: &Scene, bodies: [BodyId; 2], a: Edge, b: Edge) -> Option<Meeti
     let (gap0, gap1) = (height(b, s0) - height(a, s0), height(b, s1) - height(a, s1));
     let distance = gap0.abs().max(gap1.abs());
     if distance > tolerance.gap {
-        let facing = gap0 > 0.0
-            && gap1 > 0.0
-            && distance <= NEAR * tolerance.gap
-            && length > NEAR * tolerance.gap;
-        return facing.then_some(Meeting::Apart(distance));
+        let facing = gap0.min(gap1) >= -tolerance.gap && distance <= near && length > distance;
+        let at = a.from + along * ((s0 + s1) / 2.0);
+        return facing.then_some(Meeting::Apart(distance, at));
+    }
+    if !within(tolerance.gap) {
+        return None;
     }
     if length <= tolerance.stretch {
         // Less than a thousandth of the limit is the rounding of a corner that touches, not a contact.
         return (length > 1e-3 * tolerance.stretch).then_some(Meeting::Short(length));
     }
     let middle = |s: f64| a.from + along * s + outward * ((height(a, s) + height(b, s)) / 2.0);
+    // The first body lies to the left of `along`, hence (−n_y, n_x) runs against it.
+    let ends = [middle(s1), middle(s0)];
     Some(Meeting::Stretch(Interface {
         bodies,
         kind: ContactKind::Edge,
-        // The first body lies to the left of `along`, hence (−n_y, n_x) runs against it.
-        ends: [middle(s1), middle(s0)],
-        normal: quarter_turn(along),
+        ends,
+        normal: square_to(ends),
         friction: scene.friction_between(bodies[0], bodies[1]),
     }))
 }
 
+/// The unit normal exactly square to a stretch whose ends run along (−n_y, n_x).
+///
+/// Friction is one force of an interface, wherever along it a program or a proof lets it act: both agree only where the
+/// line through the two ends is the line of friction.
+fn square_to(ends: [Point; 2]) -> Vector {
+    quarter_turn((ends[0] - ends[1]).normalize())
+}
+
 /// Stretches of one pair that continue each other along one line, joined: a corner set into a straight edge changes nothing.
-fn joined(mut stretches: Vec<Interface>, tolerance: Tolerance) -> Vec<Interface> {
-    let mut done = Vec::with_capacity(stretches.len());
-    while let Some(mut one) = stretches.pop() {
-        loop {
-            let next = stretches.iter().position(|other| {
-                let straight = cross(one.normal, other.normal).abs() <= 1e-6
-                    && one.normal.dot(&other.normal) > 0.0;
-                let touches = |p: crate::geometry::Point, q: crate::geometry::Point| {
-                    (p - q).norm() <= 4.0 * tolerance.gap
-                };
-                straight
-                    && (touches(one.ends[1], other.ends[0]) || touches(other.ends[1], one.ends[0]))
-            });
-            let Some(next) = next else { break };
-            let other = stretches.swap_remove(next);
-            if (one.ends[1] - other.ends[0]).norm() <= 4.0 * tolerance.gap {
+fn joined(stretches: Vec<Interface>, tolerance: Tolerance) -> Vec<Interface> {
+    let reach = 4.0 * tolerance.gap;
+    let mut left = Ends::of(stretches, reach);
+    let mut done = Vec::new();
+    while let Some(mut one) = left.last() {
+        while let Some(other) = left.next_to(&one) {
+            if (one.ends[1] - other.ends[0]).norm() <= reach {
                 one.ends[1] = other.ends[1];
             } else {
                 one.ends[0] = other.ends[0];
             }
+            one.normal = square_to(one.ends);
         }
         done.push(one);
     }
     done
+}
+
+/// Stretches that are still to be joined, found by where they begin and end: a joint may have a hundred thousand.
+struct Ends {
+    /// `None` once taken.
+    stretches: Vec<Option<Interface>>,
+    /// The numbers of stretches by the square of a grid in which they begin, and likewise end.
+    begin: BTreeMap<Square, Vec<usize>>,
+    end: BTreeMap<Square, Vec<usize>>,
+    /// How near ends have to be, and the grid's width.
+    reach: f64,
+}
+
+type Square = (i64, i64);
+
+impl Ends {
+    fn of(stretches: Vec<Interface>, reach: f64) -> Ends {
+        let mut ends = Ends {
+            stretches: Vec::with_capacity(stretches.len()),
+            begin: BTreeMap::new(),
+            end: BTreeMap::new(),
+            reach,
+        };
+        for (number, stretch) in stretches.into_iter().enumerate() {
+            let [from, to] = stretch.ends.map(|p| ends.square(p));
+            ends.begin.entry(from).or_default().push(number);
+            ends.end.entry(to).or_default().push(number);
+            ends.stretches.push(Some(stretch));
+        }
+        ends
+    }
+
+    /// A tolerance of zero makes one square of all places on either side of an axis, which is slow and no less right.
+    fn square(&self, p: Point) -> Square {
+        let number = |x: f64| (x / self.reach).floor() as i64;
+        (number(p.x), number(p.y))
+    }
+
+    /// Takes the last one.
+    fn last(&mut self) -> Option<Interface> {
+        while let Some(last) = self.stretches.pop() {
+            if last.is_some() {
+                return last;
+            }
+        }
+        None
+    }
+
+    /// Takes the first one that goes on where `one` ends or ends where it begins, in its line.
+    fn next_to(&mut self, one: &Interface) -> Option<Interface> {
+        let behind = self.near(StretchEnd::Begin, one.ends[1], one);
+        let before = self.near(StretchEnd::End, one.ends[0], one);
+        let next = behind.into_iter().chain(before).min()?;
+        self.stretches.get_mut(next)?.take()
+    }
+
+    fn near(&mut self, side: StretchEnd, p: Point, one: &Interface) -> Option<usize> {
+        let (x, y) = self.square(p);
+        let (table, which) = match side {
+            StretchEnd::Begin => (&mut self.begin, 0),
+            StretchEnd::End => (&mut self.end, 1),
+        };
+        let mut first: Option<usize> = None;
+        for dx in -1..=1 {
+            for dy in -1..=1 {
+                let square = (x.saturating_add(dx), y.saturating_add(dy));
+                let Some(numbers) = table.get_mut(&square) else {
+                    continue;
+                };
+                numbers.retain(|n| matches!(self.stretches.get(*n), Some(Some(_))));
+                let goes_on = |n: &usize| {
+                    let Some(Some(other)) = self.stretches.get(*n) else {
+                        return false;
+                    };
+                    let straight = cross(one.normal, other.normal).abs() <= 1e-6
+                        && one.normal.dot(&other.normal) > 0.0;
+                    straight && (p - other.ends[which]).norm() <= self.reach
+                };
+                first = first
+                    .into_iter()
+                    .chain(numbers.iter().copied().find(goes_on))
+                    .min();
+            }
+        }
+        first
+    }
+}
+
+/// Which end of a stretch.
+#[derive(Clone, Copy)]
+enum StretchEnd {
+    Begin,
+    End,
 }
 
 /// Gathers what did not count, to say it once.

@@ -66,9 +66,25 @@ impl Interface {
     /// assert_eq!(seam.application_points(0.5), [Point::new(3.0, 1.0), Point::new(1.0, 1.0)]);
     /// ```
     pub fn application_points(&self, kernel: f64) -> [Point; 2] {
-        let inward = (self.ends[1] - self.ends[0]) * (kernel / 2.0);
-        [self.ends[0] + inward, self.ends[1] - inward]
+        application_points(self.ends, kernel)
     }
+}
+
+/// The ends of a stretch, each moved inward by `kernel`/2 of its length.
+pub fn application_points(ends: [Point; 2], kernel: f64) -> [Point; 2] {
+    let inward = (ends[1] - ends[0]) * (kernel / 2.0);
+    [ends[0] + inward, ends[1] - inward]
+}
+
+/// Two edges that face each other with less than a hundredth of the smaller block's size between them, and do not touch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Near {
+    /// The two bodies, as an interface would name them.
+    pub bodies: [BodyId; 2],
+    /// Around where.
+    pub at: Point,
+    /// The widest gap along the stretch, metres.
+    pub distance: f64,
 }
 
 /// Everything that touches in a scene.
@@ -76,6 +92,8 @@ impl Interface {
 pub struct Interfaces {
     /// In the order of the bodies' numbers, then of the place along them.
     pub all: Vec<Interface>,
+    /// What nearly touches; a verdict may hinge on it.
+    pub near: Vec<Near>,
     /// What was too short or too far apart to count, in words.
     pub notices: Vec<String>,
 }
@@ -89,6 +107,7 @@ impl Interfaces {
         let mut found = match (&scene.lattice, scene.exact) {
             (Some(lattice), true) => Interfaces {
                 all: lattice::find(scene, lattice),
+                near: Vec::new(),
                 notices: Vec::new(),
             },
             _ => edge::find(scene),
@@ -122,22 +141,6 @@ impl Interfaces {
             .iter()
             .filter(|i| stands(i.bodies[0]) && stands(i.bodies[1]))
             .collect()
-    }
-
-    /// The median length of the edge interfaces, metres: the length by which torques are weighed against forces.
-    pub fn typical_length(&self) -> Option<f64> {
-        let mut lengths: Vec<f64> = self
-            .all
-            .iter()
-            .filter(|i| i.kind == ContactKind::Edge)
-            .map(Interface::length)
-            .collect();
-        if lengths.is_empty() {
-            return None;
-        }
-        let middle = (lengths.len() - 1) / 2;
-        lengths.sort_by(f64::total_cmp);
-        Some(lengths[middle])
     }
 }
 

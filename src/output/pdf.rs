@@ -18,6 +18,7 @@ use resvg::usvg;
 
 use super::{MM_PER_INCH, PIXELS_PER_INCH, svg, tree};
 use crate::drawing::{Drawing, Face};
+use crate::text::line;
 
 /// Why there is no PDF.
 #[derive(Debug, thiserror::Error)]
@@ -77,7 +78,7 @@ pub fn write(drawing: &Drawing, width_mm: Option<f64>) -> Result<Vec<u8>, PdfErr
     let mut document = Document::new();
     document.set_metadata(
         Metadata::new()
-            .title(drawing.title.clone())
+            .title(line(&drawing.title))
             .description(drawing.description.clone())
             .language("en".to_owned())
             .creator("drystone".to_owned())
@@ -97,7 +98,7 @@ pub fn write(drawing: &Drawing, width_mm: Option<f64>) -> Result<Vec<u8>, PdfErr
     surface.finish();
     page.finish();
 
-    let told = [drawing.title.as_str(), drawing.description.as_str()].join(". ");
+    let told = [line(&drawing.title), line(&drawing.description)].join(". ");
     let mut tags = TagTree::new();
     tags.push(TagGroup::with_children(
         Tag::Figure(Some(told)),

@@ -117,12 +117,16 @@ pub fn animate(svgs: &[String], size: Size, seconds: f64) -> Result<Vec<u8>, Png
     Ok(bytes)
 }
 
-fn raster(svg: &str, size: Size) -> Result<Pixmap, PngError> {
-    let tree = tree::read(svg).map_err(PngError::Svg)?;
-    let (natural_width, natural_height) = (
-        f64::from(tree.size().width()),
-        f64::from(tree.size().height()),
-    );
+/// Whether a drawing of a width and height in its own units becomes a PNG of a size that can be made, before any of it is.
+///
+/// # Errors
+/// [`PngError::Size`] where it does not.
+pub fn check(width: f64, height: f64, size: Size) -> Result<(), PngError> {
+    pixels(width, height, size).map(drop)
+}
+
+/// Width and height in whole pixels.
+fn pixels(natural_width: f64, natural_height: f64, size: Size) -> Result<(f64, f64), PngError> {
     let scale = match size {
         Size::Natural => 1.0,
         Size::Width(width) => f64::from(width) / natural_width,
@@ -134,15 +138,25 @@ fn raster(svg: &str, size: Size) -> Result<Pixmap, PngError> {
         (natural_height * scale).round(),
     );
     let fits = |side: f64| (1.0..=f64::from(MOST_ACROSS)).contains(&side);
-    let refused = PngError::Size {
-        width: natural_width * scale,
-        height: natural_height * scale,
-    };
-    if !(fits(width) && fits(height) && width * height <= MOST_PIXELS as f64) {
-        return Err(refused);
+    if fits(width) && fits(height) && width * height <= MOST_PIXELS as f64 {
+        Ok((width, height))
+    } else {
+        Err(PngError::Size {
+            width: natural_width * scale,
+            height: natural_height * scale,
+        })
     }
+}
+
+fn raster(svg: &str, size: Size) -> Result<Pixmap, PngError> {
+    let tree = tree::read(svg).map_err(PngError::Svg)?;
+    let (natural_width, natural_height) = (
+        f64::from(tree.size().width()),
+        f64::from(tree.size().height()),
+    );
+    let (width, height) = pixels(natural_width, natural_height, size)?;
     let Some(mut pixels) = Pixmap::new(width as u32, height as u32) else {
-        return Err(refused);
+        return Err(PngError::Size { width, height });
     };
     // Stretched to whole pixels, by less than one in all, so that no edge of the page is half covered.
     let transform = Transform::from_scale(

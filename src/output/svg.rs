@@ -14,6 +14,7 @@ use outline::{number, steps};
 
 use super::tree::{self, Run};
 use crate::drawing::{Anchor, Drawing, Face, Group, Item, Join, Path, Stroke, Text};
+use crate::text::xml;
 
 /// How words are written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -166,11 +167,11 @@ fn document(drawing: &Drawing, width_mm: Option<f64>, mark: &str, form: Form<'_>
     ));
     svg.put(&format!(
         "<title id=\"{mark}-title\">{}</title>\n",
-        escaped(&drawing.title)
+        xml(&drawing.title)
     ));
     svg.put(&format!(
         "<desc id=\"{mark}-desc\">{}</desc>\n",
-        escaped(&drawing.description)
+        xml(&drawing.description)
     ));
     if let Form::Embedded(sheet) = form {
         svg.put(&format!("<style>\n{sheet}</style>\n"));
@@ -230,11 +231,11 @@ impl Writer<'_> {
         }
         self.put("<g");
         if let Some(id) = &group.id {
-            let id = format!("{}-{}", self.mark, escaped(id));
+            let id = format!("{}-{}", self.mark, xml(id));
             self.attribute("id", &id);
         }
         if !group.class.is_empty() {
-            self.attribute("class", &escaped(&group.class));
+            self.attribute("class", &xml(&group.class));
         }
         if !group.title.is_empty() {
             // A group of titled things is for reading on into, any other is one picture.
@@ -265,10 +266,10 @@ impl Writer<'_> {
         }
         self.put(">");
         if !group.title.is_empty() {
-            self.put(&format!("<title>{}</title>", escaped(&group.title)));
+            self.put(&format!("<title>{}</title>", xml(&group.title)));
         }
         if !group.description.is_empty() {
-            self.put(&format!("<desc>{}</desc>", escaped(&group.description)));
+            self.put(&format!("<desc>{}</desc>", xml(&group.description)));
         }
         self.put("\n");
         for item in &group.items {
@@ -317,7 +318,7 @@ impl Writer<'_> {
             if let Some(steps) = outlines.get(&self.texts).filter(|steps| !steps.is_empty()) {
                 self.put("<path");
                 self.attribute("role", "img");
-                self.attribute("aria-label", &escaped(&text.words));
+                self.attribute("aria-label", &xml(&text.words));
                 self.attribute("d", steps);
                 self.ink(text);
                 self.put("/>\n");
@@ -348,7 +349,7 @@ impl Writer<'_> {
         }
         self.ink(text);
         self.put(">");
-        let words = escaped(&text.words);
+        let words = xml(&text.words);
         self.put(&words);
         self.put("</text>\n");
     }
@@ -374,30 +375,6 @@ fn holds_titles(items: &[Item]) -> bool {
     items
         .iter()
         .any(|item| matches!(item, Item::Group(g) if !g.title.is_empty() || holds_titles(&g.items)))
-}
-
-/// Text as XML holds it: marks replaced, and the code points that XML forbids left out.
-fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            '\'' => out.push_str("&#39;"),
-            '\t'
-            | '\n'
-            | '\r'
-            | ' '..='\u{7e}'
-            | '\u{a0}'..='\u{fdcf}'
-            | '\u{fdf0}'..='\u{fffd}' => out.push(c),
-            // Above the first plane the last two code points of each plane are no characters.
-            '\u{10000}'.. if u32::from(c) & 0xfffe != 0xfffe => out.push(c),
-            _ => {}
-        }
-    }
-    out
 }
 
 /// 32 bits that differ for different texts, as a rule (FNV-1a, the two halves folded).
@@ -454,7 +431,7 @@ mod tests {
         .with(text);
         let svg = write(&page(vec![group.into()]));
         assert!(
-            svg.contains("&lt;/text&gt;&lt;script&gt;&#39;&quot;&amp;石🪨</text>"),
+            svg.contains("&lt;/text&gt;&lt;script&gt;&#39;&quot;&amp;\u{fffd}\u{fffd}石🪨</text>"),
             "{svg}"
         );
         assert!(!svg.contains("<script") && !svg.contains('\u{fffe}') && !svg.contains('\u{1b}'));

@@ -7,6 +7,7 @@
 
 use super::{Contact, GripTerm, Program};
 use crate::geometry::{Vector, cross, quarter_turn};
+use crate::interface::ContactKind;
 
 /// Which force a column stands for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -135,6 +136,58 @@ impl Column {
                 self.values[self.count] = value;
                 self.count += 1;
             }
+        }
+    }
+}
+
+/// How many unknowns each effect has in a program.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Count {
+    /// Normal forces of edge contacts.
+    pub contact: usize,
+    /// Normal forces with full friction of edge contacts.
+    pub friction: usize,
+    /// All forces of corner contacts.
+    pub corner_contact: usize,
+    /// Forces of robots.
+    pub robot: usize,
+    /// Torques of robots.
+    pub robot_torque: usize,
+    /// Sticking forces.
+    pub sticking: usize,
+}
+
+impl Count {
+    /// Counts columns, `program`'s own.
+    pub fn of<'a>(program: &Program, columns: impl IntoIterator<Item = &'a Column>) -> Count {
+        let mut count = Count::default();
+        for column in columns {
+            let of = match column.force {
+                Force::Ray {
+                    contact, friction, ..
+                } => match (program.contacts[contact].kind, friction) {
+                    (ContactKind::Corner, _) => &mut count.corner_contact,
+                    (ContactKind::Edge, 0.0) => &mut count.contact,
+                    (ContactKind::Edge, _) => &mut count.friction,
+                },
+                Force::Grip { component: 2, .. } => &mut count.robot_torque,
+                Force::Grip { .. } => &mut count.robot,
+                _ => &mut count.sticking,
+            };
+            *of += 1;
+        }
+        count
+    }
+
+    /// The sum of two counts.
+    pub fn and(self, other: Count) -> Count {
+        Count {
+            contact: self.contact + other.contact,
+            friction: self.friction + other.friction,
+            corner_contact: self.corner_contact + other.corner_contact,
+            robot: self.robot + other.robot,
+            robot_torque: self.robot_torque + other.robot_torque,
+            sticking: self.sticking + other.sticking,
         }
     }
 }

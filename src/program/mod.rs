@@ -1,4 +1,4 @@
-//! [`Program`]: the balance of one group of blocks that influence each other, in pure numbers.
+//! [`Program`]: the balance of one component of an assembly, in pure numbers.
 //!
 //! For every block three rows (force x, force y, moment about its own centroid over L), for every force a column
 //! ([`Column`]). Invariant: lengths are in parts of the median interface length L, forces such that the heaviest load is
@@ -6,30 +6,27 @@
 //! `column` holds the only index arithmetic, `scale` the only units, `pose` the forms handed to the solver.
 
 mod column;
-mod group;
 mod pose;
 mod scale;
 
-pub use column::{Column, Force, columns, sticking_columns};
-pub use group::{Group, groups};
+pub use column::{Column, Count, Force, columns, sticking_columns};
 pub(crate) use pose::product;
 pub use pose::{
     Cap, Conic, Correction, elastic, force_form, kinematic, least_left, least_squares, most_of,
-    shortest, source,
+    shortest, smallest, source,
 };
 pub use scale::Scale;
 
-use crate::effect::Plan;
-use crate::geometry::{Point, Vector, cross};
-use crate::interface::{ContactKind, Interface};
-use crate::scene::{BodyId, Frame, Scene};
+use crate::assembly::Assembly;
+use crate::geometry::{Point, Vector};
+use crate::interface::ContactKind;
 
-/// The balance of one group of blocks, in pure numbers.
+/// The balance of one component of an assembly, in pure numbers.
 #[derive(Clone, Debug)]
 pub struct Program {
-    /// How many blocks; block k owns rows 3k, 3k+1, 3k+2.
+    /// How many bodies; body k owns rows 3k, 3k+1, 3k+2.
     pub blocks: usize,
-    /// What contacts and robots must give each block: minus its loads, as (x, y, moment).
+    /// What contacts and robots must give each body: minus its load vector, as (x, y, moment).
     pub need: Vec<f64>,
     /// The contacts.
     pub contacts: Vec<Contact>,
@@ -42,8 +39,8 @@ pub struct Program {
 /// One contact as the program sees it.
 #[derive(Clone, Debug)]
 pub struct Contact {
-    /// Its number among the frame's interfaces.
-    pub interface: usize,
+    /// Edge or corner.
+    pub kind: ContactKind,
     /// The pushed block and the arms of the application points about its centroid.
     pub on: (usize, [Vector; 2]),
     /// The partner, unless it is the ground.
@@ -59,8 +56,6 @@ pub struct Contact {
 /// One grip as the program sees it.
 #[derive(Clone, Debug)]
 pub struct GripTerm {
-    /// Its number among the frame's holds.
-    pub hold: usize,
     /// The held block.
     pub block: usize,
     /// Arm of the grip point about the block's centroid.
@@ -70,6 +65,46 @@ pub struct GripTerm {
 }
 
 impl Program {
+    /// Poses the balance of an assembly in the units of a scale; contacts and grips stay in their order.
+    pub fn of(assembly: &Assembly, scale: Scale) -> Program {
+        let arms = |body: usize, points: [Point; 2]| {
+            let centroid = assembly.bodies[body].centroid;
+            (body, points.map(|p| (p - centroid) / scale.length))
+        };
+        let mut need = Vec::with_capacity(3 * assembly.bodies.len());
+        for body in &assembly.bodies {
+            need.extend([
+                -body.load.force.x / scale.force,
+                -body.load.force.y / scale.force,
+                -body.load.moment / scale.moment(),
+            ]);
+        }
+        let contacts = assembly.contacts.iter().map(|contact| Contact {
+            kind: contact.kind,
+            on: arms(contact.on, contact.points),
+            from: contact.from.map(|body| arms(body, contact.points)),
+            normal: contact.normal,
+            friction: contact.friction,
+            points: contact.points_in_use(),
+        });
+        let grips = assembly.grips.iter().map(|grip| GripTerm {
+            block: grip.body,
+            arm: (grip.at - assembly.bodies[grip.body].centroid) / scale.length,
+            limits: [
+                grip.limits.fx / scale.force,
+                grip.limits.fy / scale.force,
+                grip.limits.torque / scale.moment(),
+            ],
+        });
+        Program {
+            blocks: assembly.bodies.len(),
+            need,
+            contacts: contacts.collect(),
+            grips: grips.collect(),
+            scale,
+        }
+    }
+
     /// A limit beyond so many times the sum of all loads is lavish.
     const LAVISH: f64 = 10.0;
 
@@ -103,99 +138,5 @@ impl Program {
                 .zip(given)
                 .all(|(limit, amount)| amount.abs() <= limit * (1.0 + 1e-9) + 1e-9)
         })
-    }
-}
-
-/// Load on a block about its centroid, (F_x, F_y, M) in newtons and N·m: its weight and what the scene lists for it.
-pub fn load_on(scene: &Scene, plan: &Plan, block: crate::scene::BlockId) -> (Vector, f64) {
-    let body = &scene.blocks[block.0];
-    let mut force = scene.down() * body.weight;
-    let mut moment = 0.0;
-    if plan.loads {
-        for load in scene.loads.iter().filter(|l| l.block == block) {
-            force += load.force;
-            moment += cross(load.at - body.centroid, load.force) + load.torque;
-        }
-    }
-    (force, moment)
-}
-
-/// Poses the balance of one group of blocks of a frame.
-///
-/// `interfaces` are those of the whole frame; `scale` is the frame's.
-pub fn assemble(
-    scene: &Scene,
-    frame: &Frame,
-    interfaces: &[&Interface],
-    plan: &Plan,
-    group: &Group,
-    scale: Scale,
-) -> Program {
-    let mut row = vec![usize::MAX; scene.blocks.len()];
-    let mut need = Vec::with_capacity(3 * group.blocks.len());
-    for (k, block) in group.blocks.iter().enumerate() {
-        row[block.0] = k;
-        let (force, moment) = load_on(scene, plan, *block);
-        need.extend([
-            -force.x / scale.force,
-            -force.y / scale.force,
-            -moment / scale.moment(),
-        ]);
-    }
-    let arms = |body: BodyId, points: [Point; 2]| match body {
-        BodyId::Ground(_) => None,
-        BodyId::Block(id) => Some((
-            row[id.0],
-            points.map(|p| (p - scene.blocks[id.0].centroid) / scale.length),
-        )),
-    };
-    let contacts = group
-        .interfaces
-        .iter()
-        .filter_map(|number| {
-            let interface = interfaces[*number];
-            let points = interface.application_points(plan.kernel);
-            Some(Contact {
-                interface: *number,
-                on: arms(interface.bodies[0], points)?,
-                from: arms(interface.bodies[1], points),
-                normal: interface.normal,
-                friction: if plan.friction {
-                    interface.friction
-                } else {
-                    0.0
-                },
-                points: if interface.kind == ContactKind::Edge {
-                    2
-                } else {
-                    1
-                },
-            })
-        })
-        .collect();
-    let grips = group
-        .holds
-        .iter()
-        .map(|number| {
-            let hold = frame.holds[*number];
-            let limits = scene.robots[hold.robot.0].limits;
-            GripTerm {
-                hold: *number,
-                block: row[hold.block.0],
-                arm: (hold.at - scene.blocks[hold.block.0].centroid) / scale.length,
-                limits: [
-                    limits.fx / scale.force,
-                    limits.fy / scale.force,
-                    limits.torque / scale.moment(),
-                ],
-            }
-        })
-        .collect();
-    Program {
-        blocks: group.blocks.len(),
-        need,
-        contacts,
-        grips,
-        scale,
     }
 }

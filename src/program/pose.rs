@@ -150,6 +150,21 @@ pub fn shortest(unknowns: usize, columns: &[(&Column, f64)], equalities: usize) 
     conic
 }
 
+/// The amounts of least Σ amount², of either sign, that give `need`.
+pub fn smallest(need: &[f64], columns: &[Column]) -> Conic {
+    let entries = columns.iter().enumerate();
+    Conic {
+        unknowns: columns.len(),
+        quadratic: (0..columns.len()).map(|i| (i, i, 1.0)).collect(),
+        linear: vec![0.0; columns.len()],
+        matrix: entries
+            .flat_map(|(j, column)| column.entries().map(move |(row, value)| (row, j, value)))
+            .collect(),
+        bound: need.to_vec(),
+        equalities: need.len(),
+    }
+}
+
 /// Amounts to be corrected by `size` times the unknowns.
 #[derive(Clone, Copy, Debug)]
 pub struct Correction<'a> {

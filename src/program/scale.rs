@@ -1,8 +1,10 @@
-//! [`Scale`]: the only place where metres and newtons become pure numbers.
+//! [`Scale`]: how many metres and newtons a pure number stands for.
 //!
 //! A conic solver's tolerances are absolute in parts of its data. On 3 000 towers with lengths about 1, heaviest loads
 //! of 0.1 to 10⁴ gave every verdict right; SI numbers of a large thing in small units called half of them infeasible.
 //! So lengths are counted in median interface lengths and forces such that the heaviest load is 300.
+
+use crate::assembly::Assembly;
 
 /// Metres and newtons per pure unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,6 +16,11 @@ pub struct Scale {
 }
 
 impl Scale {
+    /// The scale of an assembly: its L, and its heaviest load.
+    pub fn of_assembly(assembly: &Assembly) -> Scale {
+        Scale::of(assembly.length, assembly.heaviest())
+    }
+
     /// The heaviest load of a frame in pure units.
     pub const HEAVIEST: f64 = 300.0;
 

@@ -11,6 +11,7 @@ use crate::analysis::{Accuracy, Verdict};
 use crate::chart::{Point, Scatter, Series, Undrawn, scatter};
 use crate::report::result::word;
 use crate::study::{Case, Mark, Method, Run, Study, Summary, summary};
+use crate::text;
 
 /// Errors below this are drawn and told as this: nothing in f64 is nearer than its last bit.
 const LEAST: f64 = 1e-16;
@@ -115,10 +116,10 @@ pub fn csv(study: &Study) -> String {
                 text,
                 "{},{},{},{},{},{:e},{:e},{},{},{},{},{},{},{},{}",
                 env!("CARGO_PKG_VERSION"),
-                quoted(&case.name),
+                text::csv(&case.name),
                 case.blocks,
                 word(case.truth.verdict),
-                quoted(run.method.name()),
+                text::csv(run.method.name()),
                 run.tolerance,
                 run.seconds,
                 run.outcome.iterations,
@@ -133,10 +134,6 @@ pub fn csv(study: &Study) -> String {
         }
     }
     text
-}
-
-fn quoted(text: &str) -> String {
-    format!("\"{}\"", text.replace('"', "\"\""))
 }
 
 fn mark(mark: Mark) -> &'static str {
@@ -158,7 +155,7 @@ pub fn markdown(study: &Study) -> String {
         let _ = writeln!(
             text,
             "| {} | {:.0e} | {:.2} | {} | {} | {} | {} | {} | {} |",
-            line.method.name(),
+            text::markdown(line.method.name()),
             line.tolerance,
             line.time,
             line.iterations,
@@ -239,7 +236,7 @@ fn frame(case: &Case) -> maud::Markup {
     html! {
         details {
             summary {
-                (case.name) ": " (word(truth.verdict)) ", " (case.blocks) " blocks"
+                (text::line(&case.name)) ": " (word(truth.verdict)) ", " (case.blocks) " blocks"
                 @if truth.within_band { ", within the band" }
                 @if wrong > 0 { ", " (wrong) " wrong verdicts" }
             }

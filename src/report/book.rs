@@ -24,6 +24,7 @@ use crate::drawing::{Drawing, Theme};
 use crate::figure::{self, Kind};
 use crate::output::svg;
 use crate::scene::{BlockId, Scene};
+use crate::text;
 
 /// The word with which a block of ours begins.
 const WORD: &str = "drystone";
@@ -116,7 +117,10 @@ fn illustrated(content: &str, path: &Path, problems: &mut Vec<String>) -> String
                 drawn.push_str("\n\n");
                 done = place.end;
             }
-            Err(why) => problems.push(format!("{}, line {line}: {why}", path.display())),
+            Err(why) => {
+                let chapter = text::line(&path.display().to_string());
+                problems.push(format!("{chapter}, line {line}: {why}"));
+            }
         }
     }
     drawn.push_str(&content[done..]);
@@ -183,13 +187,14 @@ fn figure(words: &str, body: &str, chapter: &Path) -> Result<String, String> {
     let text = match &wanted.file {
         Some(file) => {
             let path = chapter.parent().unwrap_or(Path::new("")).join(file);
-            fs::read_to_string(&path).map_err(|e| format!("cannot read {}: {e}", path.display()))?
+            fs::read_to_string(&path)
+                .map_err(|e| text::line(&format!("cannot read {}: {e}", path.display())))?
         }
         None => body.to_owned(),
     };
     let scene = Scene::from_json(&text).map_err(|problems| {
         let whose = match &wanted.file {
-            Some(file) => format!("the scene {file} is wrong; lines are its own"),
+            Some(file) => text::line(&format!("the scene {file} is wrong; lines are its own")),
             None => "the scene is wrong; lines count from the block's first".to_owned(),
         };
         format!("{whose}:\n{problems}")
@@ -205,7 +210,7 @@ fn figure(words: &str, body: &str, chapter: &Path) -> Result<String, String> {
     // Markdown ends a block of HTML at an empty line.
     let lines: Vec<&str> = svg.lines().filter(|l| !l.trim().is_empty()).collect();
     let caption = if wanted.caption {
-        maud::html! { figcaption { (figure::caption(&analysis)) } }.into_string()
+        maud::html! { figcaption { (text::line(&figure::caption(&analysis))) } }.into_string()
     } else {
         String::new()
     };

@@ -25,7 +25,8 @@ use crate::analysis::{
 use crate::geometry::{Point, Vector};
 use crate::interface::ContactKind;
 use crate::scene::format::Lines;
-use crate::scene::{BlockId, BodyId, RobotId, Scene};
+use crate::scene::{BlockId, BodyId, RobotId, Scene, ToleranceSource};
+use crate::text;
 
 /// Whether a result tells how long it took.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,14 +78,27 @@ pub fn to_json(analysis: &Analysis, timing: Timing, layout: Layout) -> String {
     };
     written.expect("plain structures with text keys always serialise into memory");
     bytes.push(b'\n');
-    String::from_utf8(bytes).expect("serde_json writes UTF-8")
+    text::json(&String::from_utf8(bytes).expect("serde_json writes UTF-8"))
 }
 
 #[derive(Serialize)]
 struct Result<'a> {
     drystone: &'static str,
     scene: &'a str,
+    contact_tolerance: Tolerance,
     frames: Vec<Frame<'a>>,
+}
+
+/// Within how many metres edges touch and within how many they are made one, how that was found, and what was moved.
+#[derive(Serialize)]
+struct Tolerance {
+    gap: Number,
+    from: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    digits: Option<usize>,
+    healed_within: Number,
+    moved_corners: usize,
+    largest_move: Number,
 }
 
 #[derive(Serialize)]
@@ -93,6 +107,7 @@ struct Frame<'a> {
     verdict: &'static str,
     #[serde(skip_serializing_if = "str::is_empty")]
     doubt: &'a str,
+    length: Number,
     total_force: Number,
     total_sticking: Number,
     weight: Number,
@@ -193,7 +208,7 @@ enum ProofNumbers {
     },
 }
 
-/// Below which sum of forces, in heaviest loads, none balance: a number, or `"unbounded"` where none do at all.
+/// Below which sum of forces, in loads of what moves, none balance: a number, or `"unbounded"` where none do at all.
 #[derive(Serialize)]
 #[serde(untagged)]
 enum Below {
@@ -240,9 +255,32 @@ impl<'a> Result<'a> {
         Result {
             drystone: env!("CARGO_PKG_VERSION"),
             scene: &scene.title,
+            contact_tolerance: Tolerance::of(scene),
             frames: frames
                 .map(|(step, frame)| Frame::of(scene, &step.title, frame, timing))
                 .collect(),
+        }
+    }
+}
+
+impl Tolerance {
+    fn of(scene: &Scene) -> Tolerance {
+        let (from, digits) = match scene.healed.source {
+            ToleranceSource::Lattice => ("lattice", None),
+            ToleranceSource::Given => ("given", None),
+            ToleranceSource::Decimals(k) => ("decimals", Some(k)),
+            ToleranceSource::Digits(n) => ("significant_digits", Some(n)),
+            ToleranceSource::Float32 => ("float32", None),
+            ToleranceSource::Size => ("size", None),
+            ToleranceSource::Noise => ("noise", None),
+        };
+        Tolerance {
+            gap: Number(scene.tolerance.gap),
+            from,
+            digits,
+            healed_within: Number(scene.healed.within),
+            moved_corners: scene.healed.corners,
+            largest_move: Number(scene.healed.distance),
         }
     }
 }
@@ -254,6 +292,7 @@ impl<'a> Frame<'a> {
             title,
             verdict: word(frame.verdict),
             doubt: &frame.doubt,
+            length: Number(frame.length),
             total_force: Number(frame.total_force),
             total_sticking: Number(frame.total_sticking),
             weight: Number(frame.weight),
@@ -288,7 +327,7 @@ impl<'a> Frame<'a> {
                 .collect(),
             proof: ProofNumbers::of(frame.proof),
             solve: Solve {
-                method: frame.solve.method,
+                method: frame.solve.method.name(),
                 iterations: frame.solve.iterations,
                 programs: frame.solve.programs,
                 groups: frame.solve.groups,

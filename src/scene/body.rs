@@ -36,6 +36,8 @@ pub struct Body {
     pub friction: f64,
     /// The author's fill, of the body or of its material.
     pub fill: Option<Rgb>,
+    /// Another body within this touches it, metres; a small stone has a smaller one than the scene. 0 on a lattice.
+    pub gap: f64,
 }
 
 /// A part of the ground: carries anything, never moves.

@@ -1,4 +1,4 @@
-//! Bodies that lie in each other: exact by shared cells on a lattice, deeper than the tolerance elsewhere.
+//! Bodies that lie in each other: exact by shared cells on a lattice, deeper than their gaps elsewhere.
 //!
 //! Only bodies that stand together in some frame are compared, and never two parts of the ground.
 
@@ -10,17 +10,23 @@ use super::finding::Findings;
 use super::frame::Frame;
 use super::path::Trail;
 use super::problem;
-use super::{BlockId, Body, BodyId};
-use crate::geometry::{Bounds, Cell, Lattice, Pieces, Point, Tolerance, Vector, overlap};
+use super::{BlockId, Body, BodyId, size};
+use crate::geometry::{Bounds, Cell, Lattice, Pieces, Point, Polygon, Vector, overlap};
 
 /// So many overlaps are listed; a scene with more has one cause for them all.
 const MOST: usize = 1000;
+/// An overlap of less than this part of the smaller block's size may come from rounding.
+const SLIGHT: f64 = 0.01;
 
 /// Two bodies in the same place.
 struct Found {
     bodies: [BodyId; 2],
     area: f64,
+    /// How far one would have to move to be clear of the other, metres.
+    depth: f64,
     at: Point,
+    /// Whether they lie in each other by less than a hundredth of the smaller block's size.
+    may_be_meant: bool,
     /// The first frame in which they stand together.
     frame: usize,
 }
@@ -38,8 +44,6 @@ pub(super) struct Comparison<'s> {
     pub(super) frames: &'s [Frame],
     /// The lattice, where all bodies are cells of it.
     pub(super) lattice: Option<Lattice>,
-    /// How deep is too deep.
-    pub(super) tolerance: Tolerance,
 }
 
 /// Notes every pair of bodies that lie in each other while both stand.
@@ -53,7 +57,7 @@ pub(super) fn check(findings: &mut Findings, scene: &Comparison<'_>) {
         .collect();
     let mut found = match scene.lattice {
         Some(lattice) => on_lattice(&bodies, lattice, &presence),
-        None => off_lattice(&bodies, scene.tolerance, &presence),
+        None => off_lattice(&bodies, &presence),
     };
     found.sort_by_key(|f| (f.bodies[1], f.bodies[0]));
     let top = Trail::Top;
@@ -73,8 +77,12 @@ pub(super) fn check(findings: &mut Findings, scene: &Comparison<'_>) {
         let wording = problem::outline::overlap(
             &name(f.bodies[1]),
             &name(f.bodies[0]),
-            f.area,
-            f.at,
+            &problem::outline::Common {
+                depth: f.depth,
+                area: f.area,
+                at: f.at,
+                may_be_meant: f.may_be_meant,
+            },
             frame.as_deref(),
         );
         findings.add(&list.index(block.0), wording);
@@ -156,6 +164,9 @@ fn on_lattice(bodies: &[Numbered<'_>], lattice: Lattice, presence: &Presence) ->
             }
         }
     }
+    let polygons: BTreeMap<BodyId, &Polygon> = (bodies.iter())
+        .map(|(id, body)| (*id, &body.polygon))
+        .collect();
     shared
         .into_iter()
         .map(|(bodies, (frame, cells))| {
@@ -163,9 +174,15 @@ fn on_lattice(bodies: &[Numbered<'_>], lattice: Lattice, presence: &Presence) ->
                 .iter()
                 .fold(Vector::zeros(), |s, c| s + lattice.cell_centre(*c).coords);
             let count = cells.len() as f64;
+            let pieces = |id: BodyId| polygons.get(&id).map(|p| Pieces::of(p));
+            let deep = pieces(bodies[0])
+                .zip(pieces(bodies[1]))
+                .and_then(|(a, b)| overlap(&a, &b, 0.0));
             Found {
                 bodies,
                 area: count * lattice.cell_area(),
+                depth: deep.map_or(0.0, |o| o.depth),
+                may_be_meant: false,
                 at: Point::from(sum / count),
                 frame,
             }
@@ -183,7 +200,7 @@ impl RTreeObject for Boxed {
     }
 }
 
-fn off_lattice(bodies: &[Numbered<'_>], tolerance: Tolerance, presence: &Presence) -> Vec<Found> {
+fn off_lattice(bodies: &[Numbered<'_>], presence: &Presence) -> Vec<Found> {
     let boxes: Vec<Bounds> = bodies
         .iter()
         .map(|(_, body)| body.polygon.bounds())
@@ -209,12 +226,19 @@ fn off_lattice(bodies: &[Numbered<'_>], tolerance: Tolerance, presence: &Presenc
         near.sort_unstable();
         for j in near {
             let pair = [bodies[j].0, *id];
+            let gap = bodies[i].1.gap.min(bodies[j].1.gap);
             if let Some(frame) = presence.together(pair[0], pair[1])
-                && let Some(o) = overlap(&pieces[i], &pieces[j], tolerance.gap)
+                && let Some(o) = overlap(&pieces[i], &pieces[j], gap)
             {
+                let blocks = [bodies[i], bodies[j]].into_iter();
+                let sizes = blocks
+                    .filter(|b| matches!(b.0, BodyId::Block(_)))
+                    .map(|b| size(&b.1.polygon));
                 found.push(Found {
                     bodies: pair,
                     area: o.area,
+                    depth: o.depth,
+                    may_be_meant: o.depth < SLIGHT * sizes.fold(f64::INFINITY, f64::min),
                     at: o.at,
                     frame,
                 });

@@ -175,6 +175,11 @@ struct Walk<'s> {
 impl Walk<'_> {
     fn misfit(&mut self, at: &Trail<'_>, level: usize, mark: Mark, wording: problem::Wording) {
         self.level = self.level.min(level);
+        if self.findings.is_full() {
+            // A file with so many misfits is not examined further.
+            self.doubt.paths = vec![Trail::Top.path()];
+            return;
+        }
         self.doubt.paths.push(at.path());
         match mark {
             Mark::Key => self.findings.add_key(at, wording),
@@ -374,8 +379,15 @@ impl Walk<'_> {
                 if walk.level > level || choices.iter().filter(same_kind).count() == 1 =>
             {
                 self.level = self.level.min(walk.level);
-                self.findings.list.extend(walk.findings.list);
-                self.doubt.paths.extend(walk.doubt.paths);
+                let full = self.findings.is_full();
+                for finding in walk.findings.list {
+                    self.findings.keep(finding);
+                }
+                if full {
+                    self.doubt.paths = vec![Trail::Top.path()];
+                } else {
+                    self.doubt.paths.extend(walk.doubt.paths);
+                }
                 out.push_str(&text);
             }
             _ => {

@@ -3,8 +3,13 @@
 //! A block whose polygon could not be read is not also said to have no polygon, or to overlap its neighbour.
 
 use super::path::{Path, Segment, Trail};
-use super::problem::Wording;
+use super::problem::{self, Wording};
 use super::source::Mark;
+
+/// So many findings of a file are kept; a file with more has one cause, and it is among the first.
+const MOST: usize = 2000;
+/// For so many of them the nearest known name is looked for, which takes a walk through all names.
+const HINTED: usize = 50;
 
 /// One thing that is wrong, and where.
 pub(super) struct Finding {
@@ -40,27 +45,50 @@ impl Findings {
         !self.doubt.paths.is_empty() && self.doubt.touches(&at.path())
     }
 
+    /// Whether no more findings are kept.
+    pub(super) fn is_full(&self) -> bool {
+        self.list.len() > MOST
+    }
+
+    /// Whether a further finding is still to say what may have been meant.
+    pub(super) fn hints(&self) -> bool {
+        self.list.len() < HINTED
+    }
+
     /// Notes what is wrong at a value, unless it stands in a part in doubt.
     pub(super) fn add(&mut self, at: &Trail<'_>, wording: Wording) {
+        self.note(at, Mark::Value, wording);
+    }
+
+    /// Notes what is wrong at a key.
+    pub(super) fn add_key(&mut self, at: &Trail<'_>, wording: Wording) {
+        self.note(at, Mark::Key, wording);
+    }
+
+    fn note(&mut self, at: &Trail<'_>, mark: Mark, wording: Wording) {
+        if self.is_full() {
+            return;
+        }
         let path = at.path();
         if !self.doubt.touches(&path) {
-            self.list.push(Finding {
+            self.keep(Finding {
                 path,
-                mark: Mark::Value,
+                mark,
                 wording,
             });
         }
     }
 
-    /// Notes what is wrong at a key.
-    pub(super) fn add_key(&mut self, at: &Trail<'_>, wording: Wording) {
-        let path = at.path();
-        if !self.doubt.touches(&path) {
-            self.list.push(Finding {
-                path,
-                mark: Mark::Key,
-                wording,
-            });
+    /// Takes a finding; the first one too many becomes the notice that there are more.
+    pub(super) fn keep(&mut self, finding: Finding) {
+        match self.list.len() {
+            n if n < MOST => self.list.push(finding),
+            MOST => self.list.push(Finding {
+                path: Path::default(),
+                mark: Mark::Value,
+                wording: problem::text::more_problems(MOST),
+            }),
+            _ => {}
         }
     }
 }

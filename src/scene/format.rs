@@ -75,6 +75,11 @@ pub struct SceneFile {
     /// Loads on blocks, beside their weights.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub loads: Vec<LoadEntry>,
+    /// Edges within this many metres of each other touch, and bodies may overlap by as much; at least 0. Default: estimated
+    /// from how the coordinates are written.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub contact_tolerance: Option<f64>,
     /// Whether tips that touch edges or tips carry force. Default false.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("default" = false))]
@@ -101,7 +106,7 @@ impl SceneFile {
         self.serialize(&mut writer)
             .expect("plain structures with text keys always serialise into memory");
         bytes.push(b'\n');
-        String::from_utf8(bytes).expect("serde_json writes UTF-8")
+        crate::text::json(&String::from_utf8(bytes).expect("serde_json writes UTF-8"))
     }
 }
 

@@ -9,6 +9,7 @@ mod expectation;
 mod finding;
 pub mod format;
 mod frame;
+mod heal;
 mod name;
 mod number;
 mod outline;
@@ -17,6 +18,7 @@ mod play;
 mod problem;
 mod reading;
 mod resolution;
+mod rounding;
 pub mod shape;
 mod source;
 mod starter;
@@ -27,6 +29,8 @@ pub use body::{
 };
 pub use format::schema;
 pub use frame::{Frame, Hold, Plan};
+pub(crate) use heal::size;
+pub use heal::{Healed, ToleranceSource};
 pub(crate) use name::nearest;
 pub use problem::{Problem, Problems};
 pub use starter::starter;
@@ -48,6 +52,8 @@ pub struct Scene {
     pub exact: bool,
     /// How close is close in this scene; exact on a lattice.
     pub tolerance: Tolerance,
+    /// Where the tolerance comes from, and what was moved within it before anything was judged.
+    pub healed: Healed,
     /// The ground's parts.
     pub ground: Vec<Ground>,
     /// The blocks, in the file's order.

@@ -50,7 +50,8 @@ impl<'f> Names<'f> {
     ) -> Option<usize> {
         let number = self.get(name);
         if number.is_none() && !self.incomplete {
-            findings.add(at, problem::name::unknown_name(self.sort, name, &self.list));
+            let wording = self.unknown(findings, name);
+            findings.add(at, wording);
         }
         number
     }
@@ -64,9 +65,18 @@ impl<'f> Names<'f> {
     ) -> Option<usize> {
         let number = self.get(name);
         if number.is_none() && !self.incomplete {
-            findings.add_key(at, problem::name::unknown_name(self.sort, name, &self.list));
+            let wording = self.unknown(findings, name);
+            findings.add_key(at, wording);
         }
         number
+    }
+
+    fn unknown(&self, findings: &Findings, name: &str) -> problem::Wording {
+        if findings.hints() {
+            problem::name::unknown_name(self.sort, name, &self.list)
+        } else {
+            problem::name::another_unknown_name(self.sort, name)
+        }
     }
 }
 

@@ -1,4 +1,4 @@
-//! Which numbers a scene may hold: finite, not absurdly large, and not negative where that makes no sense.
+//! Which numbers a scene may hold: finite, neither absurdly large nor absurdly small, and not negative where that makes no sense.
 
 use super::finding::Findings;
 use super::path::Trail;
@@ -6,6 +6,13 @@ use super::problem;
 
 /// Largest amount of any number of a scene file, in whatever unit.
 pub(super) const LARGEST: f64 = 1e12;
+
+/// Smallest amount but 0, in whatever unit: a weight is a product of several, and its square is still to be a number.
+/// Coordinates may be smaller: beside others they are the noise of somebody's arithmetic.
+pub(super) const SMALLEST: f64 = 1e-30;
+
+/// Smallest extent of a body or a cell, in metres: its area and moments are products of several.
+pub(super) const SMALLEST_EXTENT: f64 = 1e-30;
 
 /// Whether all of some numbers are finite and within reason; notes the first that is not.
 pub(super) fn is_sane(findings: &mut Findings, at: &Trail<'_>, numbers: &[f64]) -> bool {
@@ -22,6 +29,19 @@ pub(super) fn is_sane(findings: &mut Findings, at: &Trail<'_>, numbers: &[f64]) 
     true
 }
 
+/// Whether an amount, or the components of one, are sane and either 0 or not too small to reckon with.
+pub(super) fn is_amount(findings: &mut Findings, at: &Trail<'_>, numbers: &[f64]) -> bool {
+    if !is_sane(findings, at, numbers) {
+        return false;
+    }
+    let largest = numbers.iter().fold(0.0, |most, x| f64::max(most, x.abs()));
+    if largest > 0.0 && largest < SMALLEST {
+        findings.add(at, problem::number::tiny(largest, SMALLEST));
+        return false;
+    }
+    true
+}
+
 /// An optional number of an entry that has to be sane and at least 0; `None` where it is absent or wrong.
 pub(super) fn at_least_zero(
     findings: &mut Findings,
@@ -31,7 +51,7 @@ pub(super) fn at_least_zero(
 ) -> Option<f64> {
     let x = number?;
     let at = entry.key(key);
-    if !is_sane(findings, &at, &[x]) {
+    if !is_amount(findings, &at, &[x]) {
         return None;
     }
     if x < 0.0 {

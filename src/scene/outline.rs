@@ -2,7 +2,7 @@
 
 use super::finding::Findings;
 use super::format::{CellEntry, CellHalf, Pair};
-use super::number::is_sane;
+use super::number::{SMALLEST_EXTENT, is_sane};
 use super::path::Trail;
 use super::problem;
 use crate::geometry::{Cell, Flaw, Half, Lattice, LatticeKind, Point, Polygon, Vector};
@@ -46,6 +46,14 @@ pub(super) fn polygon(
     };
     let flaws = match Polygon::new(points(corners), holes.iter().map(|h| points(h)).collect()) {
         Ok(polygon) => {
+            let extent = polygon.bounds().diagonal();
+            if extent < SMALLEST_EXTENT {
+                findings.add(
+                    &outer,
+                    problem::number::tiny_extent(extent, SMALLEST_EXTENT),
+                );
+                return None;
+            }
             let centroid = polygon.centroid();
             if centroid.x.is_finite() && centroid.y.is_finite() {
                 return Some(Outline::Polygon(polygon));

@@ -15,6 +15,10 @@ use super::problem;
 use super::{BlockId, RobotId};
 use crate::geometry::Point;
 
+/// In so many frames, counted once for each block that stands in one, a scene may be played: a wall of 4 000 blocks laid one
+/// by one.
+const MOST: usize = 8_000_000;
+
 /// What playing needs to know of the scene.
 pub(super) struct Cast<'s> {
     /// Block numbers by name.
@@ -58,8 +62,15 @@ pub(super) fn frames(findings: &mut Findings, steps: &[StepEntry], cast: &Cast<'
         holds: BTreeMap::new(),
     };
     let mut frames = Vec::with_capacity(steps.len());
+    let mut standings = 0;
     for (k, step) in steps.iter().enumerate() {
-        frames.push(standing.play(findings, &list.index(k), k, step, cast));
+        let frame = standing.play(findings, &list.index(k), k, step, cast);
+        standings += frame.placed.len();
+        frames.push(frame);
+        if standings > MOST {
+            findings.add(&list.index(k), problem::step::too_many(steps.len(), MOST));
+            break;
+        }
     }
     frames
 }

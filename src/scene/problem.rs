@@ -82,7 +82,7 @@ impl Problem {
             _ => (0, 0),
         };
         Problem {
-            path,
+            path: crate::text::line(&path),
             line,
             column,
             span,
@@ -132,9 +132,10 @@ pub(super) struct Wording {
 }
 
 fn say(message: impl Into<String>, help: impl Into<String>) -> Wording {
+    // Names and pieces of the file are quoted in these sentences; a line break in one would begin a sentence of its own.
     Wording {
-        message: message.into(),
-        help: help.into(),
+        message: crate::text::line(&message.into()),
+        help: crate::text::line(&help.into()),
     }
 }
 

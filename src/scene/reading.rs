@@ -31,10 +31,21 @@ impl Scene {
     /// # Ok::<(), drystone::scene::Problems>(())
     /// ```
     pub fn from_json(text: &str) -> Result<Scene, Problems> {
+        Scene::from_json_within(text, None)
+    }
+
+    /// Reads and checks a scene file, with a contact tolerance (metres, at least 0) in place of the file's own.
+    ///
+    /// # Errors
+    /// As [`Scene::from_json`].
+    pub fn from_json_within(text: &str, tolerance: Option<f64>) -> Result<Scene, Problems> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         match format::parse(text) {
-            Ok(file) => resolve(&file, Doubt::default())
-                .map_err(|findings| Problems::place(findings, Some(&Source::parse(text)))),
+            Ok(mut file) => {
+                file.contact_tolerance = tolerance.or(file.contact_tolerance);
+                resolve(&file, Doubt::default())
+                    .map_err(|findings| Problems::place(findings, Some(&Source::parse(text))))
+            }
             Err(refusal) if refusal.kind != RefusalKind::Data => {
                 Err(syntax::problem(text, &refusal))
             }
@@ -50,9 +61,18 @@ impl Scene {
     /// # Errors
     /// As [`Scene::from_json`], and bytes that are no UTF-8.
     pub fn from_slice(bytes: &[u8]) -> Result<Scene, Problems> {
+        Scene::from_slice_within(bytes, None)
+    }
+
+    /// Reads and checks a scene file as it lies on a disk, with a contact tolerance (metres, at least 0) in place of the
+    /// file's own.
+    ///
+    /// # Errors
+    /// As [`Scene::from_slice`].
+    pub fn from_slice_within(bytes: &[u8], tolerance: Option<f64>) -> Result<Scene, Problems> {
         let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
         match std::str::from_utf8(bytes) {
-            Ok(text) => Scene::from_json(text),
+            Ok(text) => Scene::from_json_within(text, tolerance),
             Err(error) => Err(syntax::not_utf8(bytes, error.valid_up_to())),
         }
     }

@@ -10,14 +10,16 @@ use super::collision::{self, Comparison};
 use super::finding::{Doubt, Finding, Findings};
 use super::format::{self, Pair, SceneFile};
 use super::frame::Hold;
+use super::heal::{self, Healed, Reach, ToleranceSource};
 use super::name::Names;
-use super::number::{at_least_zero, is_sane};
+use super::number::{SMALLEST_EXTENT, at_least_zero, is_amount, is_sane};
 use super::outline::Outline;
 use super::path::Trail;
 use super::play::{self, Cast};
 use super::problem;
+use super::rounding::{self, Rounding};
 use super::shape;
-use super::{BlockId, Body, BodyId, Material, Rgb, RobotId, Scene};
+use super::{Block, BlockId, Body, BodyId, Material, Rgb, RobotId, Scene};
 use crate::geometry::{Bounds, Lattice, LatticeKind, Point, Polygon, Tolerance, Vector};
 
 const FRICTION: f64 = 0.7;
@@ -74,7 +76,7 @@ impl<'f> Resolution<'f> {
             );
         }
         let gravity = file.gravity.unwrap_or(GRAVITY);
-        is_sane(findings, &top.key("gravity"), &gravity);
+        is_amount(findings, &top.key("gravity"), &gravity);
         let kernel = file.kernel.unwrap_or(0.0);
         if is_sane(findings, &top.key("kernel"), &[kernel]) && !(0.0..=1.0).contains(&kernel) {
             findings.add(&top.key("kernel"), problem::number::kernel(kernel));
@@ -134,7 +136,29 @@ impl<'f> Resolution<'f> {
 
     fn scene(&self, findings: &mut Findings) -> Option<Scene> {
         let top = Trail::Top;
-        let (ground, blocks) = (self.ground(findings), self.blocks(findings));
+        let (mut ground, mut blocks) = (self.ground(findings), self.blocks(findings));
+        let mut outlines = (ground.iter().flatten().map(|g| &g.body))
+            .chain(blocks.iter().flatten().map(|b| &b.body));
+        let exact = self.lattice.is_some() && outlines.all(|body| body.cells.is_some());
+        let given = at_least_zero(
+            findings,
+            &top,
+            "contact_tolerance",
+            self.file.contact_tolerance,
+        );
+        let reach = if exact {
+            Reach::EXACT
+        } else {
+            self.reach(given, &blocks)
+        };
+        let healed = if exact {
+            Healed {
+                source: ToleranceSource::Lattice,
+                ..Healed::default()
+            }
+        } else {
+            heal::heal(&mut ground, &mut blocks, reach)
+        };
         ids(
             findings,
             &top.key("blocks"),
@@ -204,12 +228,6 @@ impl<'f> Resolution<'f> {
                     .filter_map(|(i, b)| b.as_ref().map(|b| (BodyId::Block(BlockId(i)), &b.body))),
             )
             .collect();
-        let exact = self.lattice.is_some() && bodies.iter().all(|(_, body)| body.cells.is_some());
-        let tolerance = if exact {
-            Tolerance::EXACT
-        } else {
-            tolerance(&bodies)
-        };
         let steps_unknown = findings.doubt.touches_key("steps") && self.file.steps.is_empty();
         if !steps_unknown {
             let lattice = self.lattice.filter(|_| exact);
@@ -218,7 +236,6 @@ impl<'f> Resolution<'f> {
                 names: &self.ids,
                 frames: &frames,
                 lattice,
-                tolerance,
             };
             collision::check(findings, &comparison);
         }
@@ -228,7 +245,12 @@ impl<'f> Resolution<'f> {
             kernel: self.kernel,
             lattice: self.lattice,
             exact,
-            tolerance,
+            tolerance: if exact {
+                Tolerance::EXACT
+            } else {
+                Tolerance::within(reach.gap())
+            },
+            healed,
             ground: ground.into_iter().collect::<Option<_>>()?,
             blocks: blocks.into_iter().collect::<Option<_>>()?,
             robots,
@@ -244,6 +266,40 @@ impl<'f> Resolution<'f> {
             corner_contacts: self.file.corner_contacts.unwrap_or(false),
             frames,
         })
+    }
+
+    /// How close is close: as given, else from how the coordinates are written and how large the scene is.
+    fn reach(&self, given: Option<f64>, blocks: &[Option<Block>]) -> Reach {
+        if let Some(gap) = given {
+            return Reach {
+                source: ToleranceSource::Given,
+                usual: 0.0,
+                healing: gap,
+            };
+        }
+        let polygons = || blocks.iter().flatten().map(|b| &b.body.polygon);
+        let median = |mut sizes: Vec<f64>| {
+            sizes.sort_by(f64::total_cmp);
+            sizes.get(sizes.len() / 2).copied().unwrap_or(0.0)
+        };
+        let around = polygons().map(Polygon::bounds).reduce(Bounds::union);
+        let typical = median(polygons().map(|p| p.bounds().diagonal()).collect());
+        let usual = Tolerance::of(around.map_or(0.0, Bounds::diagonal), typical).gap;
+        let small = median(polygons().map(heal::size).collect());
+        // Both ends of an edge and a corner beside it, each off in both coordinates.
+        let misfit = |r: &Rounding| 3.0 * r.error;
+        match rounding::of(self.file).filter(|r| misfit(r) <= heal::FINE * small) {
+            Some(rounding) => Reach {
+                source: rounding.source,
+                usual,
+                healing: misfit(&rounding),
+            },
+            None => Reach {
+                source: ToleranceSource::Size,
+                usual,
+                healing: 0.0,
+            },
+        }
     }
 
     fn shape_outlines(&self, findings: &mut Findings) -> Vec<Option<Outline>> {
@@ -326,6 +382,10 @@ fn lattice(findings: &mut Findings, entry: Option<&format::GridEntry>) -> Option
         findings.add(&at, problem::number::side(side));
         return None;
     }
+    if side < SMALLEST_EXTENT {
+        findings.add(&at, problem::number::tiny_extent(side, SMALLEST_EXTENT));
+        return None;
+    }
     let kind = match entry.kind {
         format::GridKind::Triangular => LatticeKind::Triangular,
         format::GridKind::Square => LatticeKind::Square,
@@ -378,20 +438,4 @@ fn ids(
             first.insert(id, i);
         }
     }
-}
-
-/// How close is close: from the box around all blocks, and their median size.
-fn tolerance(bodies: &[(BodyId, &Body)]) -> Tolerance {
-    let blocks = bodies
-        .iter()
-        .filter(|(id, _)| matches!(id, BodyId::Block(_)));
-    let boxes: Vec<Bounds> = blocks
-        .map(|(_, body)| Polygon::bounds(&body.polygon))
-        .collect();
-    let Some(around) = boxes.iter().copied().reduce(Bounds::union) else {
-        return Tolerance::of(0.0, 0.0);
-    };
-    let mut sizes: Vec<f64> = boxes.iter().map(|b| b.diagonal()).collect();
-    sizes.sort_by(f64::total_cmp);
-    Tolerance::of(around.diagonal(), sizes[sizes.len() / 2])
 }

@@ -4,10 +4,41 @@
 //! 13.1 s against 4.6 s at 10⁴ blocks; tolerance 1e-9 because it is the loosest that decides every frame measured in [`doc::accuracy`](crate::doc::accuracy);
 //! presolve off because nothing here has infinite bounds. NaN in the data comes back as "solved", so it is refused here.
 
+use std::cell::Cell;
+use std::time::Instant;
+
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
 
 use crate::program::Conic;
+
+thread_local! {
+    /// When this thread's programs are to be given up.
+    static DEADLINE: Cell<Option<Instant>> = const { Cell::new(None) };
+}
+
+/// Programs that this thread solves for as long as this lives are given up at a deadline.
+///
+/// A deadline belongs to a run, not to a program: so it is not handed down through everything that poses one.
+#[derive(Debug)]
+pub(crate) struct Until {
+    before: Option<Instant>,
+}
+
+impl Until {
+    /// From now on; `None` is no deadline.
+    pub(crate) fn set(deadline: Option<Instant>) -> Until {
+        Until {
+            before: DEADLINE.replace(deadline),
+        }
+    }
+}
+
+impl Drop for Until {
+    fn drop(&mut self) {
+        DEADLINE.set(self.before);
+    }
+}
 
 /// How a conic problem ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,8 +68,24 @@ pub struct Answer {
     pub iterations: usize,
 }
 
+impl Answer {
+    /// The answer of a solver that was not begun.
+    fn none(problem: &Conic) -> Answer {
+        Answer {
+            status: Status::Unclear,
+            x: vec![0.0; problem.unknowns],
+            z: vec![0.0; problem.bound.len()],
+            s: vec![0.0; problem.bound.len()],
+            iterations: 0,
+        }
+    }
+}
+
 /// The tolerance of feasibility and gap the solver is asked for.
 pub const TOLERANCE: f64 = 1e-9;
+
+/// The most iterations of one program.
+pub const ITERATIONS: usize = 100;
 
 /// How a program is solved: how precisely, how carefully, and whether the one picture is sought.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,6 +133,14 @@ pub enum Care {
 /// # Panics
 /// If the data hold a number that is not finite: scenes are checked at the door, so that is our own mistake.
 pub fn solve(problem: &Conic, tolerance: f64, care: Care) -> Answer {
+    solve_within(problem, tolerance, care, ITERATIONS)
+}
+
+/// Solves a conic problem in a given number of iterations, or gives up.
+///
+/// # Panics
+/// As [`solve`].
+pub fn solve_within(problem: &Conic, tolerance: f64, care: Care, iterations: usize) -> Answer {
     let finite = |list: &[f64]| list.iter().all(|v| v.is_finite());
     let entries = problem
         .matrix
@@ -106,11 +161,18 @@ pub fn solve(problem: &Conic, tolerance: f64, care: Care) -> Answer {
     if rows > problem.equalities {
         cones.push(SupportedConeT::NonnegativeConeT(rows - problem.equalities));
     }
+    let left = DEADLINE
+        .get()
+        .map(|end| end.saturating_duration_since(Instant::now()));
+    if left.is_some_and(|left| left.is_zero()) {
+        return Answer::none(problem);
+    }
     let settings = DefaultSettings {
         verbose: false,
+        time_limit: left.map_or(f64::INFINITY, |left| left.as_secs_f64()),
         direct_solve_method: "qdldl".to_string(),
         presolve_enable: false,
-        max_iter: 100,
+        max_iter: u32::try_from(iterations).unwrap_or(u32::MAX),
         equilibrate_enable: care == Care::Full,
         iterative_refinement_enable: care == Care::Full,
         tol_gap_abs: tolerance,
@@ -127,13 +189,7 @@ pub fn solve(problem: &Conic, tolerance: f64, care: Care) -> Answer {
         settings,
     );
     let Ok(mut solver) = solver else {
-        return Answer {
-            status: Status::Unclear,
-            x: Vec::new(),
-            z: Vec::new(),
-            s: Vec::new(),
-            iterations: 0,
-        };
+        return Answer::none(problem);
     };
     solver.solve();
     let solution = solver.solution;

@@ -33,7 +33,7 @@ pub struct Outcome {
     pub largest: Option<f64>,
     /// Failure points.
     pub points: usize,
-    /// Worst imbalance relative to the heaviest load, where it stands.
+    /// Worst imbalance where it stands: of a level in parts of a block's own forces, else in parts of the heaviest load.
     pub imbalance: Option<f64>,
     /// Worst violation of the motion relative to its power, where it falls and a motion is proved.
     pub violation: Option<f64>,

@@ -17,12 +17,12 @@ pub use method::{Method, Outcome};
 pub use reference::Reference;
 pub use summary::{Summary, summary};
 
-use crate::analysis::{Analysis, Verdict};
-use crate::effect::{self, Plan, Situation};
+use crate::analysis::Verdict;
+use crate::effect::{self, Situation};
 use crate::interface::Interfaces;
-use crate::program::{Program, Scale, assemble, groups, load_on};
+use crate::program::{Program, Scale};
 use crate::proof::Proof;
-use crate::scene::{BlockId, Frame, Scene};
+use crate::scene::{Frame, Scene};
 
 /// The solver tolerances that are measured.
 pub const TOLERANCES: [f64; 6] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-9, 1e-12];
@@ -139,36 +139,19 @@ impl Task {
         scene.frames = vec![frame.clone()];
         let found = Interfaces::of(&scene);
         let interfaces = found.in_frame(&scene, frame);
-        let plan = effect::plan(&Situation {
+        let (assembly, _) = effect::assemble(&Situation {
             scene: &scene,
             frame,
             interfaces: &interfaces,
         });
-        let length = Analysis::length_of(&scene, &found);
-        let programs = groups(scene.blocks.len(), frame, &interfaces)
+        let programs = assembly
+            .split()
             .iter()
-            .filter_map(|group| {
-                let heaviest = heaviest(&scene, &plan, &group.blocks, length);
-                let scale = Scale::of(length, heaviest);
-                let program = assemble(&scene, frame, &interfaces, &plan, group, scale);
-                (heaviest > 0.0).then_some(program)
-            })
+            .filter(|component| component.heaviest() > 0.0)
+            .map(|component| Program::of(component, Scale::of_assembly(component)))
             .collect();
         Task { scene, programs }
     }
-}
-
-fn heaviest(scene: &Scene, plan: &Plan, blocks: &[BlockId], length: f64) -> f64 {
-    blocks
-        .iter()
-        .map(|block| {
-            let (force, moment) = load_on(scene, plan, *block);
-            force
-                .norm()
-                .max(moment.abs() / length)
-                .max(scene.blocks[block.0].weight)
-        })
-        .fold(0.0, f64::max)
 }
 
 fn truth(programs: &[Program]) -> Truth {

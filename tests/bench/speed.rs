@@ -7,9 +7,9 @@ use std::fs;
 use std::process::Command;
 
 use divan::{Bencher, black_box};
-use drystone::effect::{Situation, plan};
+use drystone::effect::{Situation, assemble};
 use drystone::interface::Interfaces;
-use drystone::program::{Program, Scale, assemble, groups, source};
+use drystone::program::{Program, Scale, source};
 use drystone::scene::format::{BlockEntry, GroundEntry, Pair, SceneFile};
 use drystone::solve::{Care, TOLERANCE, balance, solve};
 use drystone::{Analysis, Scene, figure, output};
@@ -90,25 +90,19 @@ fn figure_4_as_a_process(bencher: Bencher) {
     });
 }
 
-/// The whole wall hangs together, so it is one group and one program.
+/// The whole wall hangs together, so it is one component and one program.
 fn program(scene: &Scene) -> Program {
     let found = Interfaces::of(scene);
     let frame = &scene.frames[0];
     let interfaces = found.in_frame(scene, frame);
-    let plan = plan(&Situation {
+    let (assembly, _) = assemble(&Situation {
         scene,
         frame,
         interfaces: &interfaces,
     });
-    let groups = groups(scene.blocks.len(), frame, &interfaces);
-    assert_eq!(groups.len(), 1, "a wall is one group");
-    let heaviest = scene
-        .blocks
-        .iter()
-        .map(|block| block.weight)
-        .fold(0.0, f64::max);
-    let scale = Scale::of(found.typical_length().expect("bricks touch"), heaviest);
-    assemble(scene, frame, &interfaces, &plan, &groups[0], scale)
+    let components = assembly.split();
+    assert_eq!(components.len(), 1, "a wall is one component");
+    Program::of(&components[0], Scale::of_assembly(&components[0]))
 }
 
 fn wall(blocks: usize) -> Scene {

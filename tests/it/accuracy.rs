@@ -256,7 +256,7 @@ fn proved_answers_only_with_a_better_proof() {
         }
     }
     // Within the band it just falls, and is called stable; at this level nobody says so.
-    let barely = overhang(1e-9, true);
+    let barely = overhang(2e-9, true);
     assert_eq!(at(&barely, Accuracy::Standard).0, Verdict::Stable);
     let (found, proof, doubt) = at(&barely, Accuracy::Proved);
     assert_ne!(found, Verdict::Stable, "{proof:?}");

@@ -314,7 +314,7 @@ fn what_is_not_called_for_is_not_simulated() {
     }
     let contacts = analysis.frames[1].contacts.len();
     assert_eq!(effect("contact").unknowns, 2 * contacts);
-    assert_eq!(effect("friction").unknowns, 2 * contacts, "saved");
+    assert_eq!(effect("friction").unknowns, 4 * contacts, "saved");
     // The third frame is the first again.
     let last = &analysis.frames[2];
     assert_eq!(

@@ -9,16 +9,15 @@ use std::path::{Path, PathBuf};
 
 /// What each room may use, itself apart. A room that is not listed here has no place in the house.
 const ROOMS: &[(&str, &[&str])] = &[
+    ("text", &[]),
     ("geometry", &[]),
-    ("scene", &["geometry"]),
+    ("scene", &["text", "geometry"]),
     ("interface", &["geometry", "scene"]),
-    ("effect", &["geometry", "scene", "interface"]),
-    ("program", &["geometry", "scene", "interface", "effect"]),
-    (
-        "solve",
-        &["geometry", "scene", "interface", "effect", "program"],
-    ),
-    ("proof", &["geometry", "scene", "interface"]),
+    ("assembly", &["geometry", "scene", "interface"]),
+    ("effect", &["geometry", "scene", "interface", "assembly"]),
+    ("program", &["geometry", "interface", "assembly"]),
+    ("solve", &["geometry", "interface", "program"]),
+    ("proof", &["geometry", "scene", "interface", "assembly"]),
     ("resultant", &["geometry", "scene", "interface", "solve"]),
     (
         "analysis",
@@ -26,6 +25,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "geometry",
             "scene",
             "interface",
+            "assembly",
             "effect",
             "program",
             "solve",
@@ -33,20 +33,21 @@ const ROOMS: &[(&str, &[&str])] = &[
             "resultant",
         ],
     ),
-    ("import", &["geometry", "scene"]),
+    ("import", &["text", "geometry", "scene"]),
     ("drawing", &["geometry"]),
     (
         "figure",
         &["geometry", "scene", "interface", "analysis", "drawing"],
     ),
-    ("output", &["drawing"]),
-    ("chart", &["drawing"]),
+    ("output", &["text", "drawing"]),
+    ("chart", &["text", "drawing"]),
     (
         "study",
         &[
             "geometry",
             "scene",
             "interface",
+            "assembly",
             "effect",
             "program",
             "solve",
@@ -57,6 +58,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     (
         "report",
         &[
+            "text",
             "geometry",
             "scene",
             "interface",
@@ -72,6 +74,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     (
         "cli",
         &[
+            "text",
             "geometry",
             "scene",
             "interface",

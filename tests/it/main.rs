@@ -7,11 +7,15 @@
 )]
 
 mod accuracy;
+mod assembly;
 mod book;
+mod bound;
 mod edge;
+mod falls;
 mod freebody;
 mod gallery;
 mod hard;
+mod healing;
 mod import;
 mod labels;
 mod kinds;
@@ -24,8 +28,11 @@ mod mechanism;
 mod pictures;
 mod print;
 mod problems;
+mod mutant;
 mod program;
 mod scenes;
+mod sinks;
+mod small;
 mod statics;
 mod structure;
 mod wedging;

@@ -1,4 +1,4 @@
-//! [`Edge`]: between a value at which a group stands and one at which it falls.
+//! [`Edge`]: between a value at which a component stands and one at which it falls.
 //!
 //! A value from elsewhere is confirmed by judging just inside and just beyond it; without one, the edge is searched for
 //! by halving, to nine digits.
@@ -17,7 +17,7 @@ pub(super) enum Way {
     Least,
 }
 
-/// Whether a group's margin is worse than what is known of the frame.
+/// Whether a component's margin is worse than what is known of the frame.
 pub(super) fn worse(part: &Margin, whole: &Margin, way: Way) -> bool {
     match (part, whole) {
         (Margin::None, _) => *whole != Margin::None,
@@ -60,7 +60,7 @@ impl Edge {
     /// The largest step away from an edge within which it may stay undecided.
     const FAR: f64 = 5e-3;
 
-    /// A value, if the group stands just inside it and falls just beyond.
+    /// A value, if the component stands just inside it and falls just beyond.
     pub fn confirmed(
         &self,
         trial: &mut Trial,

@@ -1,6 +1,6 @@
 //! [`Margins`]: how far a frame is from the edge of standing, in every direction that is asked about.
 //!
-//! Makes one [`Margins`] per frame. A margin of a frame is the worst of its groups'. What is linear in the unknown (a
+//! Makes one [`Margins`] per frame. A margin of a frame is the worst of its components'. What is linear in the unknown (a
 //! load, a robot's limit) is one linear program; friction, the kernel and the turn of gravity beside loads that do not
 //! turn are searched for. Either way the value is believed only when the changed frame stands just inside it and falls
 //! just beyond it, by the same proofs as every verdict; the mechanism told is the one just beyond.
@@ -17,12 +17,10 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
-use super::group::Findings;
-use super::{Key, Verdict, key};
-use crate::interface::Interface;
-use crate::program::Group;
+use super::{Key, Verdict};
+use crate::assembly::Assembly;
 use crate::proof::Motion;
-use crate::scene::{Frame, RobotId, Scene};
+use crate::scene::RobotId;
 use crate::solve::{Limit, least, most};
 use edge::{Edge, Loads, Way};
 use trial::{Limited, Setting, Trial};
@@ -115,48 +113,28 @@ pub struct RobotMargins {
     pub torque: Margin,
 }
 
-/// Finds the margins of a frame, and how many changed frames were judged for it. A group whose margins were found in an
-/// earlier frame is not judged again.
+/// Finds the margins of a frame from its components, and how many changed components were judged for it. A component whose
+/// margins were found in an earlier frame is not judged again.
 pub(super) fn of(
-    scene: &Scene,
-    frame: &Frame,
-    interfaces: &[&Interface],
-    groups: &[Group],
-    found: &BTreeMap<Key, Findings>,
+    components: &[((&Assembly, &Key), Verdict)],
     known: &mut BTreeMap<Key, Margins>,
-    length: f64,
 ) -> (Margins, usize) {
-    let verdict = |g: &Group| {
-        found
-            .get(&key(frame, g))
-            .map_or(Verdict::Undecided, |f| f.verdict)
-    };
-    let fresh = |group: &&Group| !known.contains_key(&key(frame, group));
-    let fresh: Vec<&Group> = groups.iter().filter(fresh).collect();
+    let fresh = components.iter().filter(|c| !known.contains_key(c.0.1));
+    let fresh: Vec<&((&Assembly, &Key), Verdict)> = fresh.collect();
     let parts: Vec<(Key, Margins, usize)> = fresh
         .par_iter()
-        .map_init(
-            || scene.clone(),
-            |changed, group| {
-                let mut trial = Trial::of(scene, changed, frame, interfaces, group, length);
-                let margins = of_group(&mut trial, verdict(group) == Verdict::Stable);
-                (key(frame, group), margins, trial.judged)
-            },
-        )
+        .map(|((component, key), verdict)| {
+            let mut trial = Trial::of(component);
+            let margins = of_component(&mut trial, *verdict == Verdict::Stable);
+            ((*key).clone(), margins, trial.judged)
+        })
         .collect();
     let mut judged = 0;
     for (key, margins, tries) in parts {
         known.insert(key, margins);
         judged += tries;
     }
-    let parts = groups.iter().filter_map(|group| {
-        let margins = known.get(&key(frame, group))?;
-        Some((group, margins.clone()))
-    });
-    let falling = groups
-        .iter()
-        .filter(|g| verdict(g) != Verdict::Stable)
-        .count();
+    let falling = components.iter().filter(|c| c.1 != Verdict::Stable).count();
     let mut whole = Margins {
         friction: Margin::Value {
             at: 0.0,
@@ -174,7 +152,10 @@ pub(super) fn of(
         load_factor: Margin::Unbounded,
         robots: Vec::new(),
     };
-    for (group, part) in parts {
+    for ((_, key), verdict) in components {
+        let Some(part) = known.get(*key).cloned() else {
+            continue;
+        };
         let worse = |whole: &mut Margin, part: Margin, way: Way| {
             if edge::worse(&part, whole, way) {
                 *whole = part;
@@ -195,8 +176,8 @@ pub(super) fn of(
         );
         worse(&mut whole.kernel, part.kernel, Way::Most);
         worse(&mut whole.load_factor, part.load_factor, Way::Most);
-        // No robot can save a frame in which another group falls.
-        let others_fall = falling > usize::from(verdict(group) != Verdict::Stable);
+        // No robot can save a frame in which another component falls.
+        let others_fall = falling > usize::from(*verdict != Verdict::Stable);
         whole.robots.extend(part.robots.into_iter().map(|robot| {
             if others_fall {
                 RobotMargins {
@@ -210,20 +191,15 @@ pub(super) fn of(
             }
         }));
     }
-    whole.robots.sort_by_key(|r| {
-        frame
-            .holds
-            .iter()
-            .position(|h| h.robot == r.robot)
-            .unwrap_or(usize::MAX)
-    });
+    // Holds stand by robot number in a frame.
+    whole.robots.sort_by_key(|r| r.robot);
     (whole, judged)
 }
 
-fn of_group(trial: &mut Trial, stands: bool) -> Margins {
+fn of_component(trial: &mut Trial, stands: bool) -> Margins {
     let robots = trial.holds().into_iter().enumerate();
     let robots = robots.map(|(grip, robot)| {
-        let [fx, fy, torque] = [0, 1, 2].map(|component| limit(trial, grip, robot, component));
+        let [fx, fy, torque] = [0, 1, 2].map(|component| limit(trial, grip, component));
         RobotMargins {
             robot,
             fx,
@@ -341,10 +317,10 @@ fn linear(
     }
 }
 
-fn limit(trial: &mut Trial, grip: usize, robot: RobotId, component: usize) -> Margin {
+fn limit(trial: &mut Trial, grip: usize, component: usize) -> Margin {
     let setting = |most: f64| Setting {
         limits: Limited::One {
-            robot,
+            grip,
             component,
             most,
         },

@@ -1,15 +1,14 @@
-//! [`Trial`]: one group of a frame with something about it changed, judged as any other.
+//! [`Trial`]: one component with something about it changed, judged as any other.
 
 use crate::analysis::Verdict;
-use crate::analysis::group::{heaviest, judged};
-use crate::effect::Plan;
+use crate::analysis::component::judged;
+use crate::assembly::{Assembly, LoadVector};
 use crate::geometry::quarter_turn;
-use crate::interface::Interface;
-use crate::program::{Group, Program, Scale, assemble, load_on};
+use crate::program::{Program, Scale};
 use crate::proof::Motion;
-use crate::scene::{Frame, Load, RobotId, Scene};
+use crate::scene::{Limits, RobotId};
 
-/// What is changed about a group; by default nothing.
+/// What is changed about a component; by default nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Setting {
     /// One friction coefficient for every interface.
@@ -33,10 +32,10 @@ pub(super) enum Limited {
     AsGiven,
     /// Only what has no limit can give anything: what is left of the robots at loads without end.
     Unlimited,
-    /// One limit of one robot.
+    /// One limit of one grip.
     One {
-        /// The robot.
-        robot: RobotId,
+        /// The grip.
+        grip: usize,
         /// 0: force x, 1: force y, 2: torque.
         component: usize,
         /// The limit, N or N·m.
@@ -57,118 +56,68 @@ impl Default for Setting {
     }
 }
 
-/// One group of a frame, to be changed and judged as often as wanted.
+/// One component of a frame, to be changed and judged as often as wanted.
 pub(super) struct Trial<'a> {
-    given: &'a Scene,
-    /// The scene as changed; only what concerns the group is kept up to date.
-    changed: &'a mut Scene,
-    frame: &'a Frame,
-    /// The group's interfaces, and their friction as given.
-    interfaces: Vec<Interface>,
-    frictions: Vec<f64>,
-    /// The group, its interfaces counted in `interfaces`.
-    group: Group,
-    /// The loads on the group.
-    loads: Vec<Load>,
-    length: f64,
+    given: &'a Assembly,
     /// How many settings were judged.
     pub judged: usize,
 }
 
 impl<'a> Trial<'a> {
-    /// A group of a frame; `changed` is a copy of the scene to work in.
-    pub fn of(
-        given: &'a Scene,
-        changed: &'a mut Scene,
-        frame: &'a Frame,
-        interfaces: &[&Interface],
-        group: &Group,
-        length: f64,
-    ) -> Trial<'a> {
-        let interfaces: Vec<Interface> = group
-            .interfaces
-            .iter()
-            .map(|i| interfaces[*i].clone())
-            .collect();
-        let on_group = |l: &&Load| group.blocks.contains(&l.block);
-        Trial {
-            given,
-            changed,
-            frame,
-            frictions: interfaces.iter().map(|i| i.friction).collect(),
-            group: Group {
-                blocks: group.blocks.clone(),
-                interfaces: (0..interfaces.len()).collect(),
-                holds: group.holds.clone(),
-            },
-            interfaces,
-            loads: given.loads.iter().filter(on_group).copied().collect(),
-            length,
-            judged: 0,
-        }
+    pub fn of(given: &'a Assembly) -> Trial<'a> {
+        Trial { given, judged: 0 }
     }
 
-    /// The robots that hold a block of the group.
+    /// The robots that hold a body of the component, grip by grip.
     pub fn holds(&self) -> Vec<RobotId> {
-        self.group
-            .holds
-            .iter()
-            .map(|h| self.frame.holds[*h].robot)
-            .collect()
+        self.given.grips.iter().map(|grip| grip.robot).collect()
     }
 
-    /// Whether the scene lists a load on the group.
+    /// Whether the scene lists a load on the component.
     pub fn is_loaded(&self) -> bool {
-        !self.loads.is_empty()
+        self.given
+            .bodies
+            .iter()
+            .any(|b| b.listed != LoadVector::NONE)
     }
 
     /// Whether some robot's limit is neither none nor infinite, so that twice the loads is not twice the forces.
     pub fn is_limited(&self) -> bool {
-        self.holds().into_iter().any(|robot| {
-            let limits = self.given.robots[robot.0].limits;
-            [limits.fx, limits.fy, limits.torque]
+        self.given.grips.iter().any(|grip| {
+            [grip.limits.fx, grip.limits.fy, grip.limits.torque]
                 .into_iter()
                 .any(|l| l > 0.0 && l.is_finite())
         })
     }
 
-    /// Whether the changed group stands, and how it begins to move where it falls.
+    /// Whether the changed component stands, and how it begins to move where it falls.
     pub fn judge(&mut self, setting: &Setting) -> (Verdict, Vec<Motion>) {
         self.judged += 1;
-        let plan = self.change(setting);
-        let interfaces: Vec<&Interface> = self.interfaces.iter().collect();
-        judged(
-            self.changed,
-            self.frame,
-            &interfaces,
-            &plan,
-            &self.group,
-            self.length,
-        )
+        judged(&self.changed(setting))
     }
 
     /// The value up to which a motion is a mechanism, where the loads are linear in the value: there they do no work.
-    pub fn reach(&mut self, setting: &dyn Fn(f64) -> Setting, motion: &[Motion]) -> Option<f64> {
+    pub fn reach(&self, setting: &dyn Fn(f64) -> Setting, motion: &[Motion]) -> Option<f64> {
         let [without, with] = [0.0, 1.0].map(|value| self.power(&setting(value), motion));
         let at = without / (without - with);
         at.is_finite().then_some(at)
     }
 
     /// The power of the changed loads along a motion, less what limited robots can hold, in W.
-    fn power(&mut self, setting: &Setting, motion: &[Motion]) -> f64 {
-        let plan = self.change(setting);
+    fn power(&self, setting: &Setting, motion: &[Motion]) -> f64 {
+        let changed = self.changed(setting);
         let mut power = 0.0;
-        for m in motion {
-            let (force, moment) = load_on(self.changed, &plan, m.block);
-            power += force.dot(&m.velocity) + moment * m.spin;
-            let held = self.group.holds.iter().map(|h| self.frame.holds[*h]);
-            for hold in held.filter(|h| h.block == m.block) {
-                let limits = self.changed.robots[hold.robot.0].limits;
-                let speed = m.at(self.changed, hold.at);
+        for (number, body) in changed.bodies.iter().enumerate() {
+            let Some(m) = motion.iter().find(|m| m.block == body.block) else {
+                continue;
+            };
+            power += body.load.force.dot(&m.velocity) + body.load.moment * m.spin;
+            for grip in changed.grips.iter().filter(|grip| grip.body == number) {
+                let speed = m.about(body.centroid, grip.at);
                 for (speed, limit) in [
-                    (speed.x, limits.fx),
-                    (speed.y, limits.fy),
-                    (m.spin, limits.torque),
+                    (speed.x, grip.limits.fx),
+                    (speed.y, grip.limits.fy),
+                    (m.spin, grip.limits.torque),
                 ] {
                     if limit.is_finite() {
                         power -= speed.abs() * limit;
@@ -179,90 +128,65 @@ impl<'a> Trial<'a> {
         power
     }
 
-    /// The changed group's program.
-    pub fn program(&mut self, setting: &Setting) -> Program {
-        let plan = self.change(setting);
-        let heaviest = heaviest(self.changed, &plan, &self.group, self.length);
-        self.posed(&plan, Scale::of(self.length, heaviest))
+    /// The changed component's program.
+    pub fn program(&self, setting: &Setting) -> Program {
+        let changed = self.changed(setting);
+        Program::of(&changed, Scale::of_assembly(&changed))
     }
 
-    /// The program at one setting, and what must be added to its need for another.
-    pub fn direction(&mut self, from: &Setting, to: &Setting) -> (Program, Vec<f64>) {
-        let mut most: f64 = 0.0;
-        for setting in [from, to] {
-            let plan = self.change(setting);
-            most = most.max(heaviest(self.changed, &plan, &self.group, self.length));
-        }
-        let scale = Scale::of(self.length, most);
-        let [there, here] = [to, from].map(|setting| {
-            let plan = self.change(setting);
-            self.posed(&plan, scale)
-        });
+    /// The program at one setting, and what must be added to its load vector for another.
+    pub fn direction(&self, from: &Setting, to: &Setting) -> (Program, Vec<f64>) {
+        let [here, there] = [from, to].map(|setting| self.changed(setting));
+        let heaviest = here.heaviest().max(there.heaviest());
+        let scale = Scale::of(self.given.length, heaviest);
+        let [here, there] = [here, there].map(|assembly| Program::of(&assembly, scale));
         let toward = there.need.iter().zip(&here.need).map(|(a, b)| a - b);
         let toward = toward.collect();
         (here, toward)
     }
 
-    fn posed(&self, plan: &Plan, scale: Scale) -> Program {
-        let interfaces: Vec<&Interface> = self.interfaces.iter().collect();
-        assemble(
-            self.changed,
-            self.frame,
-            &interfaces,
-            plan,
-            &self.group,
-            scale,
-        )
-    }
-
-    fn change(&mut self, setting: &Setting) -> Plan {
-        let (given, changed) = (self.given, &mut *self.changed);
-        changed.kernel = setting.kernel.unwrap_or(given.kernel);
+    fn changed(&self, setting: &Setting) -> Assembly {
+        let mut changed = self.given.clone();
+        if let Some(kernel) = setting.kernel {
+            changed = changed.with_kernel(kernel);
+        }
+        if let Some(mu) = setting.friction {
+            changed = changed.with_friction(mu);
+        }
         // A weight along gravity and one across it are one weight along a turned gravity.
-        let turned = given.down() * setting.along + quarter_turn(given.down()) * setting.across;
-        changed.gravity = turned;
-        for block in &self.group.blocks {
-            changed.blocks[block.0].weight = given.blocks[block.0].weight
-                * if setting.across == 0.0 {
-                    setting.along.abs()
-                } else {
-                    libm::hypot(setting.along, setting.across)
-                };
+        let down = self.given.pull;
+        changed = changed
+            .with_gravity(down * setting.along + quarter_turn(down) * setting.across)
+            .with_load_factor(setting.loads);
+        for grip in 0..changed.grips.len() {
+            let limits = limits(changed.grips[grip].limits, grip, setting.limits);
+            changed = changed.with_limits(grip, limits);
         }
-        changed.loads.clear();
-        changed.loads.extend(self.loads.iter().map(|l| Load {
-            force: l.force * setting.loads,
-            torque: l.torque * setting.loads,
-            ..*l
-        }));
-        for hold in &self.group.holds {
-            let number = self.frame.holds[*hold].robot;
-            let limits = &mut changed.robots[number.0].limits;
-            *limits = given.robots[number.0].limits;
-            match setting.limits {
-                Limited::AsGiven => {}
-                Limited::Unlimited => {
-                    for limit in [&mut limits.fx, &mut limits.fy, &mut limits.torque] {
-                        if limit.is_finite() {
-                            *limit = 0.0;
-                        }
-                    }
-                }
-                Limited::One {
-                    robot,
-                    component,
-                    most,
-                } if robot == number => match component {
-                    0 => limits.fx = most,
-                    1 => limits.fy = most,
-                    _ => limits.torque = most,
-                },
-                Limited::One { .. } => {}
-            }
-        }
-        for (interface, given) in self.interfaces.iter_mut().zip(&self.frictions) {
-            interface.friction = setting.friction.unwrap_or(*given);
-        }
-        Plan::everything(changed.kernel)
+        changed
+    }
+}
+
+/// The limits of a grip as a setting has them.
+fn limits(given: Limits, number: usize, setting: Limited) -> Limits {
+    let or_none = |limit: f64| if limit.is_finite() { 0.0 } else { limit };
+    match setting {
+        Limited::Unlimited => Limits {
+            fx: or_none(given.fx),
+            fy: or_none(given.fy),
+            torque: or_none(given.torque),
+        },
+        Limited::One {
+            grip,
+            component,
+            most,
+        } if grip == number => match component {
+            0 => Limits { fx: most, ..given },
+            1 => Limits { fy: most, ..given },
+            _ => Limits {
+                torque: most,
+                ..given
+            },
+        },
+        _ => given,
     }
 }

@@ -121,7 +121,7 @@ fn rectangle(at: Point, size: Vector, radii: Vector) -> Track {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::import::region::area;
+    use crate::geometry::snap::area;
 
     fn shape(element: &str) -> Result<Vec<Track>, String> {
         let document = roxmltree::Document::parse(element).expect("XML");

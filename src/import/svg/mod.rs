@@ -20,6 +20,7 @@ use self::name::Lines;
 use self::style::{Fill, Style};
 use self::viewport::Viewport;
 use super::affine::Affine;
+use super::crowd::{MOST_BODIES, too_many};
 use super::draft::{Draft, Form, Kind, Part, Values};
 use super::entry;
 
@@ -29,6 +30,8 @@ const XLINK: &str = "http://www.w3.org/1999/xlink";
 const DEEPEST: usize = 100;
 /// So many elements are looked at, copies included: copies of copies can make any number.
 const MOST: usize = 500_000;
+/// So many rules are held against elements, once for each rule and element.
+const MOST_MATCHES: usize = 150_000_000;
 /// So many elements of one kind are told one by one.
 const TOLD: usize = 20;
 
@@ -54,6 +57,14 @@ pub(super) fn read(text: &str, scale: Option<f64>, frame: Option<usize>) -> Resu
             css.push('\n');
         }
     }
+    let sheet = StyleSheet::parse(&css);
+    let elements = document.descendants().filter(Node::is_element).count();
+    let rules = sheet.rules.len();
+    if rules.saturating_mul(elements) > MOST_MATCHES {
+        return Err(format!(
+            "its {rules} style rules and {elements} elements are more than can be matched; simplify its styles"
+        ));
+    }
     let mut ids = BTreeMap::new();
     for node in document.descendants() {
         if let Some(id) = node.attribute("id") {
@@ -61,11 +72,13 @@ pub(super) fn read(text: &str, scale: Option<f64>, frame: Option<usize>) -> Resu
         }
     }
     let mut walk = Walk {
-        sheet: StyleSheet::parse(&css),
+        sheet,
+        styled: 0,
         ids,
         lines: Lines::of(text),
         draft: Draft::default(),
         seen: 0,
+        more: 0,
         told: BTreeMap::new(),
     };
     if let Some(title) = root.children().find(|n| is(*n, "title")) {
@@ -79,6 +92,9 @@ pub(super) fn read(text: &str, scale: Option<f64>, frame: Option<usize>) -> Resu
         walk.drawing(root, scale);
     }
     walk.count_untold();
+    if walk.more > 0 {
+        return Err(too_many(walk.draft.parts.len() + walk.more).message);
+    }
     Ok(walk.draft)
 }
 
@@ -109,6 +125,10 @@ struct Walk<'a, 'd> {
     draft: Draft,
     /// Elements looked at.
     seen: usize,
+    /// Style rules held against them.
+    styled: usize,
+    /// Shapes that were not taken any more.
+    more: usize,
     /// How often each thing was remarked on.
     told: BTreeMap<&'static str, usize>,
 }
@@ -173,8 +193,12 @@ impl<'a, 'd> Walk<'a, 'd> {
             return;
         }
         self.seen += 1;
-        if self.seen > MOST {
-            let why = format!("there are more than {MOST} elements, copies included; left out");
+        self.styled = self.styled.saturating_add(self.sheet.rules.len());
+        if self.seen > MOST || self.styled > MOST_MATCHES {
+            let why = format!(
+                "there are more than {} elements, copies included; left out",
+                self.seen - 1
+            );
             self.remark("many", node, around, &why, "");
             return;
         }
@@ -329,6 +353,10 @@ impl<'a, 'd> Walk<'a, 'd> {
             .or_else(|| around.group.clone())
             .or_else(|| name::any(node))
             .unwrap_or_default();
+        if self.draft.parts.len() >= MOST_BODIES {
+            self.more += 1;
+            return;
+        }
         let mapped = tracks.iter().map(|t| t.mapped(&around.map)).collect();
         let part = Part {
             kind: around.kind.unwrap_or(Kind::Block),

@@ -235,7 +235,7 @@ mod tests {
                 assert!((reach - 1.0).abs() < 1e-12, "{d}: {p:?}");
             }
             // A quarter of an ellipse, or three.
-            let area = crate::import::region::area(
+            let area = crate::geometry::snap::area(
                 &tracks(&d).expect("data")[0]
                     .flattened(1e-4, 1e-9)
                     .expect("closed"),

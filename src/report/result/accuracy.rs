@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::{Number, word};
 use crate::study::{Case, Mark, Study};
+use crate::text::json;
 
 #[derive(Serialize)]
 struct Page<'a> {
@@ -79,5 +80,5 @@ pub fn accuracy_json(study: &Study) -> String {
     let mut text = serde_json::to_string_pretty(&page)
         .expect("plain structures with text keys always serialise into memory");
     text.push('\n');
-    text
+    json(&text)
 }

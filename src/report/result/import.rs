@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use crate::import::Imported;
 use crate::scene::format::Lines;
+use crate::text;
 
 /// What an import did as one JSON object: how the drawing was understood, what was not taken, and what was moved so that it
 /// touches. Ends with a line feed.
@@ -48,7 +49,7 @@ pub fn import_json(imported: &Imported) -> String {
     done.serialize(&mut writer)
         .expect("plain structures with text keys always serialise into memory");
     bytes.push(b'\n');
-    String::from_utf8(bytes).expect("serde_json writes UTF-8")
+    text::json(&String::from_utf8(bytes).expect("serde_json writes UTF-8"))
 }
 
 #[derive(Serialize)]

@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::analysis::{EffectReport, Resultant as Sum, SolveReport};
-use crate::geometry::{Polygon, Tolerance};
-use crate::scene::{Block, Body, Frame as Step, Limits, Robot as Arm};
+use crate::geometry::{Polygon, Tolerance as Closeness};
+use crate::scene::{Block, Body, Frame as Step, Healed, Limits, Robot as Arm};
 
 fn scene() -> Scene {
     let corners = vec![
@@ -17,6 +17,7 @@ fn scene() -> Scene {
         material: None,
         friction: 0.5,
         fill: None,
+        gap: 3e-6,
     };
     let block = |id: &str| Block {
         id: id.into(),
@@ -30,7 +31,8 @@ fn scene() -> Scene {
         kernel: 0.0,
         lattice: None,
         exact: false,
-        tolerance: Tolerance::of(3.0, 3.0),
+        tolerance: Closeness::of(3.0, 3.0),
+        healed: Healed::default(),
         ground: vec![],
         blocks: vec![block("a"), block("b")],
         robots: vec![Arm {
@@ -62,7 +64,9 @@ fn frame() -> FrameAnalysis {
     FrameAnalysis {
         verdict: Verdict::Unstable,
         doubt: String::new(),
+        length: 1.5,
         total_force: 43.372,
+        least_force: true,
         total_sticking: 4.125,
         weight: 24.0,
         contacts: vec![Contact {
@@ -134,7 +138,7 @@ fn frame() -> FrameAnalysis {
             worst_violation: 1e-12,
         },
         solve: SolveReport {
-            method: "kinematic",
+            method: crate::analysis::Method::LeastForce,
             iterations: 9,
             programs: 2,
             groups: 1,
@@ -148,10 +152,18 @@ fn frame() -> FrameAnalysis {
 const LINES: &str = r#"{
   "drystone": "VERSION",
   "scene": "A \"wedge\"",
+  "contact_tolerance": {
+    "gap": 3e-6,
+    "from": "size",
+    "healed_within": 0.0,
+    "moved_corners": 0,
+    "largest_move": 0.0
+  },
   "frames": [
     {
       "title": "Only",
       "verdict": "unstable",
+      "length": 1.5,
       "total_force": 43.372,
       "total_sticking": 4.125,
       "weight": 24.0,
@@ -185,7 +197,6 @@ fn the_names_are_the_contract_and_stay() {
     let scene = scene();
     let analysis = Analysis {
         scene: &scene,
-        length: 1.0,
         frames: vec![frame()],
     };
     let expected = LINES.replace("VERSION", env!("CARGO_PKG_VERSION"));
@@ -213,7 +224,6 @@ fn what_is_worth_saying_is_said() {
     let json = to_json(
         &Analysis {
             scene: &scene,
-            length: 1.0,
             frames: vec![frame],
         },
         Timing::LeftOut,

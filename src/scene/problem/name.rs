@@ -25,6 +25,13 @@ pub(in crate::scene) fn unknown_name(sort: &str, name: &str, known: &[&str]) -> 
     say(format!("unknown {sort} `{}`", shortened(name)), help)
 }
 
+pub(in crate::scene) fn another_unknown_name(sort: &str, name: &str) -> Wording {
+    say(
+        format!("unknown {sort} `{}`", shortened(name)),
+        "see the first of these for the known names",
+    )
+}
+
 pub(in crate::scene) fn id_twice(sort: &str, id: &str, first: &str) -> Wording {
     say(
         format!(

@@ -20,6 +20,28 @@ pub(in crate::scene) fn absurd(x: f64, largest: f64) -> Wording {
     )
 }
 
+pub(in crate::scene) fn tiny(x: f64, smallest: f64) -> Wording {
+    say(
+        format!(
+            "the number {} is within ±{} of 0",
+            digits(x),
+            digits(smallest)
+        ),
+        "write 0, or check the units: metres, kilograms, newtons",
+    )
+}
+
+pub(in crate::scene) fn tiny_extent(extent: f64, smallest: f64) -> Wording {
+    say(
+        format!(
+            "it extends over {} m, less than {} m",
+            digits(extent),
+            digits(smallest)
+        ),
+        "check the units: lengths are in metres",
+    )
+}
+
 pub(in crate::scene) fn negative(what: &str, x: f64) -> Wording {
     say(
         format!("negative {what} {}", digits(x)),

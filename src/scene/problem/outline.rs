@@ -153,21 +153,38 @@ pub(in crate::scene) fn angle_off_lattice(angle: f64, turn: f64) -> Wording {
     )
 }
 
-pub(in crate::scene) fn overlap(
-    a: &str,
-    b: &str,
-    area: f64,
-    at: Point,
-    frame: Option<&str>,
-) -> Wording {
+/// What two bodies have in common.
+pub(in crate::scene) struct Common {
+    /// How far one would have to move to be clear of the other, metres.
+    pub(in crate::scene) depth: f64,
+    /// The common area, m².
+    pub(in crate::scene) area: f64,
+    /// Its centroid.
+    pub(in crate::scene) at: Point,
+    /// Whether it is so slight that it may be meant for a contact.
+    pub(in crate::scene) may_be_meant: bool,
+}
+
+pub(in crate::scene) fn overlap(a: &str, b: &str, common: &Common, frame: Option<&str>) -> Wording {
     let when = frame.map_or(String::new(), |f| format!(" in {f}"));
+    let Common {
+        depth, area, at, ..
+    } = common;
+    let help = "move them apart until they only touch".to_owned();
+    // Rounded up, so that the number given is enough.
+    let enough = format!("{:.1e}", 1.06 * depth);
     say(
         format!(
-            "{a} and {b} overlap by {} m² around {}{when}",
-            digits(area),
-            point(at)
+            "{a} and {b} overlap {} m deep, {} m² in all, around {}{when}",
+            digits(*depth),
+            digits(*area),
+            point(*at)
         ),
-        "move them apart until they only touch",
+        if common.may_be_meant {
+            format!("{help}, or give \"contact_tolerance\": {enough} if that is what is meant")
+        } else {
+            help
+        },
     )
 }
 

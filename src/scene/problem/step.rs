@@ -2,6 +2,13 @@
 
 use super::{Wording, say, shortened};
 
+pub(in crate::scene) fn too_many(steps: usize, most: usize) -> Wording {
+    say(
+        format!("{steps} steps show their blocks more than {most} times in all"),
+        "take steps out, or give several scenes",
+    )
+}
+
 pub(in crate::scene) fn placed_twice(block: &str, since: usize, now: usize) -> Wording {
     let when = if since == now {
         "earlier in this step".into()

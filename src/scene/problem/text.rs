@@ -11,6 +11,13 @@ pub(in crate::scene) fn not_utf8(byte: u8, utf16: bool) -> Wording {
     say(format!("the byte 0x{byte:02X} is not UTF-8 text"), help)
 }
 
+pub(in crate::scene) fn more_problems(listed: usize) -> Wording {
+    say(
+        format!("there are more problems than the {listed} listed"),
+        "correct these first; many may have one cause",
+    )
+}
+
 pub(in crate::scene) fn empty_text() -> Wording {
     say(
         "the file is empty",

@@ -115,6 +115,7 @@ impl Resolution<'_> {
                 .or(values.and_then(|v| v.friction))
                 .unwrap_or(self.friction),
             fill: fill.or(values.and_then(|v| v.fill)),
+            gap: 0.0,
         })
     }
 

@@ -5,7 +5,7 @@ use crate::geometry::{Point, Vector};
 use crate::scene::finding::Findings;
 use crate::scene::format::LimitsEntry;
 use crate::scene::name::Names;
-use crate::scene::number::{at_least_zero, is_sane};
+use crate::scene::number::{at_least_zero, is_amount, is_sane};
 use crate::scene::path::Trail;
 use crate::scene::{BlockId, Grip, Limits, Load, Robot};
 
@@ -59,8 +59,8 @@ impl Resolution<'_> {
             let at = list.index(i);
             let force = entry.force.unwrap_or([0.0, 0.0]);
             let torque = entry.torque.unwrap_or(0.0);
-            is_sane(findings, &at.key("force"), &force);
-            is_sane(findings, &at.key("torque"), &[torque]);
+            is_amount(findings, &at.key("force"), &force);
+            is_amount(findings, &at.key("torque"), &[torque]);
             if let Some(point) = entry.at {
                 is_sane(findings, &at.key("at"), &point);
             }

@@ -3,6 +3,8 @@
 //! A contact's normal is the stretch turned by a quarter, not brought to length 1, since a unit normal is irrational;
 //! pressing and friction are both counted in lengths of that normal, so |T| ≤ μ(N1 + N2) stays what it is.
 
+use std::collections::BTreeMap;
+
 use dashu_ratio::RBig;
 use drystone::proof::Proof;
 use drystone::scene::{Hold, Scene};
@@ -146,13 +148,20 @@ impl<'a> Balance<'a> {
         program.least().map_or(f64::INFINITY, |v| v.to_f64_fast())
     }
 
-    /// Whether it stands and goes on standing when any block's load changes by `share` of the heaviest.
+    /// Whether it stands and goes on standing when any block's load changes by `share` of itself, any way.
     pub fn stands_with_margin(&self, share: f64) -> bool {
         self.stands()
             && (0..3 * self.blocks.len()).all(|row| {
+                let block = self.blocks[row / 3];
+                let own = self.gross_load(block)
+                    * if row % 3 == 2 {
+                        self.radius(block)
+                    } else {
+                        1.0
+                    };
                 [share, -share].iter().all(|share| {
                     let mut program = self.admissible();
-                    program.rows[row].bound += exact(share * self.size(row));
+                    program.rows[row].bound += exact(share * own);
                     program.is_feasible()
                 })
             })
@@ -160,12 +169,95 @@ impl<'a> Balance<'a> {
 
     /// Whether the verdict hangs on less than the stated band, either way.
     pub fn is_borderline(&self) -> bool {
-        let distance = self.distance();
-        if distance > 0.0 {
-            distance <= Proof::BAND
-        } else {
-            !self.stands_with_margin(Proof::BAND)
+        match self.stands() {
+            true => !self.stands_with_margin(Proof::BAND),
+            false => self.stands_within(Proof::BAND),
         }
+    }
+
+    /// Whether it stands once each force on a block may change by `band` of its own amount, on one side of a contact and
+    /// not the other, and be moved by `band` of the block's radius.
+    ///
+    /// All linear: a change z of a force x has |z| ≤ band · x, and moving forces gives a moment of band · R · Σ |F| at most.
+    pub fn stands_within(&self, band: f64) -> bool {
+        let mut program = self.admissible();
+        let band = exact(band);
+        for (place, block) in self.blocks.iter().enumerate() {
+            let first = 3 * place;
+            // What acts on this block: its columns, unknown by unknown.
+            let mut columns: BTreeMap<usize, [RBig; 3]> = BTreeMap::new();
+            for row in 0..3 {
+                for (unknown, value) in &program.rows[first + row].entries {
+                    let column = columns
+                        .entry(*unknown)
+                        .or_insert_with(|| [RBig::ZERO, RBig::ZERO, RBig::ZERO]);
+                    column[row] += value;
+                }
+            }
+            let radius = exact(self.radius(*block));
+            let load = self.load(*block);
+            let size = |column: &[RBig; 3]| exact(norm(&[column[0].clone(), column[1].clone()]));
+            let mut moved = Row {
+                entries: Vec::new(),
+                bound: &band * &radius * exact(self.gross_load(*block)),
+                equality: false,
+            };
+            for sign in [RBig::ONE, -RBig::ONE] {
+                let moment = program.unknown(RBig::ZERO);
+                program.rows[first + 2].entries.push((moment, sign));
+                moved.entries.push((moment, RBig::ONE));
+            }
+            for (unknown, column) in &columns {
+                moved
+                    .entries
+                    .push((*unknown, -(&band * &radius * size(column))));
+            }
+            program.rows.push(moved);
+            let forces = columns.into_iter().map(|(u, column)| (Some(u), column));
+            for (unknown, column) in forces.chain([(None, load)]) {
+                let mut changed = Row {
+                    entries: Vec::new(),
+                    bound: if unknown.is_none() {
+                        band.clone()
+                    } else {
+                        RBig::ZERO
+                    },
+                    equality: false,
+                };
+                for sign in [RBig::ONE, -RBig::ONE] {
+                    let change = program.unknown(RBig::ZERO);
+                    for (row, value) in column.iter().enumerate() {
+                        program.rows[first + row]
+                            .entries
+                            .push((change, value * &sign));
+                    }
+                    changed.entries.push((change, RBig::ONE));
+                }
+                changed.entries.extend(unknown.map(|u| (u, -band.clone())));
+                program.rows.push(changed);
+            }
+        }
+        program.is_feasible()
+    }
+
+    /// Distance of a block's farthest corner from its centroid.
+    fn radius(&self, block: usize) -> f64 {
+        let corners = corners(&self.scene.blocks[block].body);
+        let reach = corners
+            .iter()
+            .map(|c| norm(&minus(c, &self.centroids[block])));
+        reach.fold(0.0, f64::max)
+    }
+
+    /// Sum of the sizes of all loads on a block, a moment over its radius.
+    fn gross_load(&self, block: usize) -> f64 {
+        let listed = self.scene.loads.iter().filter(|l| l.block.0 == block);
+        let listed = listed.map(|l| {
+            let at = minus(&pair(l.at.x, l.at.y), &self.centroids[block]);
+            let moment = cross(&at, &pair(l.force.x, l.force.y)).to_f64_fast() + l.torque;
+            libm::hypot(l.force.x, l.force.y) + moment.abs() / self.radius(block)
+        });
+        self.scene.blocks[block].weight + listed.sum::<f64>()
     }
 
     /// What an imbalance in a row is measured by: the heaviest load, times L for moments.

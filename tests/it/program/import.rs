@@ -117,9 +117,9 @@ fn what_is_wrong_writes_nothing_and_ends_with_2() {
     let overlap = bench.run("import overlap.svg -o scene.json");
     assert_eq!(overlap.code, 2);
     assert!(
-        overlap
-            .err
-            .contains("overlap.svg: rect \"b\": block `b` and block `a` overlap by 150 m²"),
+        overlap.err.contains(
+            "overlap.svg: rect \"b\": block `b` and block `a` overlap 5 m deep, 150 m² in all"
+        ),
         "{}",
         overlap.err
     );

@@ -1,7 +1,8 @@
-//! Snapping: what nearly touches is made to touch.
+//! Snapping: what nearly touches is made to touch. A drawing that is imported and a scene whose coordinates are rounded are
+//! healed by the same code.
 //!
-//! Corners of different bodies that lie within a gap of each other become one place. Then corners within a gap of another
-//! body's side come onto it: a straight side, with all that lies along it, becomes one line and draws the corners there; a
+//! Every body has its own gap; between two bodies the smaller one counts. Corners of different bodies that lie within
+//! that gap of each other become one place. Then corners within a gap of another body's side come onto it: a straight side, with all that lies along it, becomes one line and draws the corners there; a
 //! side that stands for a piece of a curve takes the corner in. Invariant: no body loses its shape, and no two bodies lie
 //! deeper in each other than they were drawn; a body that would is left as it was drawn.
 
@@ -12,46 +13,84 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use rstar::{AABB, RTree, RTreeObject};
 
-use super::region::{Rings, area, polygon};
-use super::track::Corner;
-use crate::geometry::{Bounds, Pieces, Polygon, overlap};
+use super::{Bounds, Flaw, Pieces, Point, Polygon, cross, overlap};
 use line::Lines;
 use node::Nodes;
+
+/// A corner of an outline, metres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Corner {
+    /// Where it lies.
+    pub(crate) at: Point,
+    /// Whether the side that begins here stands for a piece of a curve.
+    pub(crate) curved: bool,
+}
+
+/// An outline and its holes, either way round.
+pub(crate) type Rings = Vec<Vec<Corner>>;
+
+/// The polygon of an outline and its holes.
+pub(crate) fn polygon(rings: &Rings) -> Result<Polygon, Vec<Flaw>> {
+    let points = |ring: &Vec<Corner>| ring.iter().map(|c| c.at).collect::<Vec<Point>>();
+    let mut rings = rings.iter().map(points);
+    let outline = rings.next().unwrap_or_default();
+    Polygon::new(outline, rings.collect())
+}
+
+/// Signed area in square metres: positive anticlockwise.
+pub(crate) fn area(ring: &[Corner]) -> f64 {
+    let Some(base) = ring.first() else { return 0.0 };
+    let pairs = ring.iter().zip(ring.iter().cycle().skip(1));
+    pairs
+        .map(|(a, b)| cross(a.at - base.at, b.at - base.at))
+        .sum::<f64>()
+        / 2.0
+}
 
 /// So many times bodies that came out wrong are put back and the rest is tried again.
 const ROUNDS: usize = 12;
 
-/// What became of the bodies of a drawing.
-pub(super) struct Outcome {
-    pub(super) bodies: Vec<Rings>,
-    pub(super) moved: Vec<Moved>,
+/// What became of some bodies.
+pub(crate) struct Outcome {
+    /// Their outlines.
+    pub(crate) bodies: Vec<Rings>,
+    /// Which of them changed.
+    pub(crate) moved: Vec<Moved>,
     /// Bodies that had to stay as they were drawn.
-    pub(super) kept: Vec<usize>,
+    pub(crate) kept: Vec<usize>,
 }
 
 /// A body that was changed.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Moved {
-    pub(super) body: usize,
+pub(crate) struct Moved {
+    /// Its number.
+    pub(crate) body: usize,
     /// How many of its corners moved or came in.
-    pub(super) corners: usize,
+    pub(crate) corners: usize,
     /// How far the farthest moved, in metres.
-    pub(super) distance: f64,
+    pub(crate) distance: f64,
     /// What it touches now.
-    pub(super) to: BTreeSet<usize>,
+    pub(crate) to: BTreeSet<usize>,
 }
 
-/// The bodies with what lies within `gap` of each other brought together. The earlier body stays where two meet. An
-/// overlap of up to `noise` is none.
-pub(super) fn snapped(bodies: &[Rings], gap: f64, noise: f64) -> Outcome {
-    let mut kept = vec![false; bodies.len()];
+/// The bodies with what lies within their gaps of each other brought together. The earlier body stays where two meet.
+///
+/// `gaps` holds each body's gap in metres, 0 for one that takes no part in it. A body of `fixed` stays as it is, and
+/// others come to it. An overlap of up to `noise`, in parts of the gap between two bodies, is none.
+pub(crate) fn snapped(bodies: &[Rings], gaps: &[f64], fixed: &[bool], noise: f64) -> Outcome {
+    let mut kept = fixed.to_vec();
     for _ in 0..ROUNDS {
-        let outcome = attempt(bodies, gap, &kept);
-        let wrong = spoilt(bodies, &outcome.bodies, noise);
+        let mut outcome = attempt(bodies, gaps, &kept);
+        if outcome.moved.is_empty() {
+            // To the last bit.
+            outcome.bodies = bodies.to_vec();
+        }
+        let wrong = spoilt(bodies, &outcome.bodies, gaps, noise);
         let fresh: Vec<usize> = wrong.into_iter().filter(|b| !kept[*b]).collect();
-        if fresh.is_empty() {
-            let kept = (0..bodies.len()).filter(|b| kept[*b]).collect();
-            return Outcome { kept, ..outcome };
+        if fresh.is_empty() || outcome.moved.is_empty() {
+            let kept = (0..bodies.len()).filter(|b| kept[*b] && !fixed[*b]);
+            outcome.kept = kept.collect();
+            return outcome;
         }
         for body in fresh {
             kept[body] = true;
@@ -60,7 +99,7 @@ pub(super) fn snapped(bodies: &[Rings], gap: f64, noise: f64) -> Outcome {
     Outcome {
         bodies: bodies.to_vec(),
         moved: Vec::new(),
-        kept: (0..bodies.len()).collect(),
+        kept: (0..bodies.len()).filter(|b| !fixed[*b]).collect(),
     }
 }
 
@@ -85,8 +124,8 @@ fn envelope(b: Bounds) -> AABB<[f64; 2]> {
     AABB::from_corners([b.min.x, b.min.y], [b.max.x, b.max.y])
 }
 
-fn attempt(bodies: &[Rings], gap: f64, kept: &[bool]) -> Outcome {
-    let mut nodes = Nodes::of(bodies, gap, kept);
+fn attempt(bodies: &[Rings], gaps: &[f64], kept: &[bool]) -> Outcome {
+    let mut nodes = Nodes::of(bodies, gaps, kept);
     let sides = sides(bodies, &nodes);
     let tree = RTree::bulk_load(sides);
     let mut touching: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); bodies.len()];
@@ -103,7 +142,7 @@ fn attempt(bodies: &[Rings], gap: f64, kept: &[bool]) -> Outcome {
             min: node.at,
             max: node.at,
         }
-        .grown(gap);
+        .grown(node.gap);
         for side in tree.locate_in_envelope_intersecting(envelope(around)) {
             if node.bodies.contains(&side.body) {
                 continue;
@@ -114,6 +153,7 @@ fn attempt(bodies: &[Rings], gap: f64, kept: &[bool]) -> Outcome {
             let reach = (node.at - from).dot(&along) / length;
             let foot = from + along * (reach / length);
             // Written so that a side of no length takes nothing.
+            let gap = node.gap.min(gaps[side.body]);
             let beside = reach > 0.0 && reach < length && (node.at - foot).norm() <= gap;
             if !beside || (side.curved && kept[side.body]) {
                 continue;
@@ -131,9 +171,9 @@ fn attempt(bodies: &[Rings], gap: f64, kept: &[bool]) -> Outcome {
             }
         }
     }
-    let lines = Lines::of(&nodes, &on, gap);
-    lines.settle(&mut nodes, gap);
-    rebuilt(bodies, &nodes, taken, touching, gap)
+    let lines = Lines::of(&nodes, &on);
+    lines.settle(&mut nodes);
+    rebuilt(bodies, &nodes, taken, touching, gaps)
 }
 
 fn sides(bodies: &[Rings], nodes: &Nodes) -> Vec<Side> {
@@ -167,7 +207,7 @@ fn rebuilt(
     nodes: &Nodes,
     mut taken: BTreeMap<(usize, usize, usize), Vec<(f64, usize)>>,
     mut touching: Vec<BTreeSet<usize>>,
-    gap: f64,
+    gaps: &[f64],
 ) -> Outcome {
     let mut moved = Vec::new();
     let mut out = Vec::new();
@@ -180,7 +220,7 @@ fn rebuilt(
                 let at = nodes.all[nodes.number(body, ring, i)].at;
                 let by = (at - corner.at).norm();
                 // Less than a millionth of the gap is the rounding of numbers.
-                if by > 1e-6 * gap {
+                if by > 1e-6 * gaps[body] {
                     corners += 1;
                     distance = distance.max(by);
                 }
@@ -215,7 +255,7 @@ fn rebuilt(
 }
 
 /// Bodies that came out worse than they were drawn.
-fn spoilt(before: &[Rings], after: &[Rings], noise: f64) -> BTreeSet<usize> {
+fn spoilt(before: &[Rings], after: &[Rings], gaps: &[f64], noise: f64) -> BTreeSet<usize> {
     let mut wrong = BTreeSet::new();
     let mut polygons: Vec<Option<Polygon>> = Vec::new();
     for (body, (old, new)) in before.iter().zip(after).enumerate() {
@@ -248,6 +288,7 @@ fn spoilt(before: &[Rings], after: &[Rings], noise: f64) -> BTreeSet<usize> {
             let (Some(one), Some(two)) = (&pieces[*a], &pieces[*b]) else {
                 continue;
             };
+            let noise = noise * gaps[*a].min(gaps[*b]);
             let Some(now) = overlap(one, two, noise) else {
                 continue;
             };

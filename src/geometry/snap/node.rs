@@ -3,14 +3,16 @@
 use rstar::primitives::GeomWithData;
 use rstar::{AABB, RTree};
 
+use super::Rings;
 use crate::geometry::Point;
-use crate::import::region::Rings;
 
 /// A place and the corners there.
 pub(super) struct Node {
     pub(super) at: Point,
     /// Bodies with a corner here, each once, in their order.
     pub(super) bodies: Vec<usize>,
+    /// The smallest gap of these bodies, metres.
+    pub(super) gap: f64,
     /// Whether it may not move, because a body has to stay as it was drawn.
     pub(super) fixed: bool,
 }
@@ -29,9 +31,9 @@ struct Loose {
 }
 
 impl Nodes {
-    /// Corners of different bodies, no farther than `gap` from each other, become one node, the nearest first. It lies
+    /// Corners of different bodies, no farther than their gaps from each other, become one node, the nearest first. It lies
     /// at the corner of the earliest body, or of one that has to stay.
-    pub(super) fn of(bodies: &[Rings], gap: f64, kept: &[bool]) -> Nodes {
+    pub(super) fn of(bodies: &[Rings], gaps: &[f64], kept: &[bool]) -> Nodes {
         let mut corners: Vec<Loose> = Vec::new();
         let mut starts = Vec::new();
         for (body, rings) in bodies.iter().enumerate() {
@@ -44,7 +46,7 @@ impl Nodes {
         }
         let mut clusters: Vec<Vec<usize>> = (0..corners.len()).map(|i| vec![i]).collect();
         let mut cluster_of: Vec<usize> = (0..corners.len()).collect();
-        for (_, i, j) in near(&corners, gap) {
+        for (_, i, j) in near(&corners, gaps) {
             let (a, b) = (
                 cluster_of[i].min(cluster_of[j]),
                 cluster_of[i].max(cluster_of[j]),
@@ -56,7 +58,7 @@ impl Nodes {
                 clusters[b].iter().all(|l| {
                     let (k, l) = (&corners[*k], &corners[*l]);
                     k.body != l.body
-                        && (k.at - l.at).norm() <= gap
+                        && (k.at - l.at).norm() <= gaps[k.body].min(gaps[l.body])
                         && !(kept[k.body] && kept[l.body] && k.at != l.at)
                 })
             });
@@ -80,6 +82,10 @@ impl Nodes {
             all.push(Node {
                 at: corners[*fixed.unwrap_or(first)].at,
                 bodies: members.iter().map(|k| corners[*k].body).collect(),
+                gap: members
+                    .iter()
+                    .map(|k| gaps[corners[*k].body])
+                    .fold(f64::INFINITY, f64::min),
                 fixed: fixed.is_some(),
             });
         }
@@ -96,8 +102,8 @@ impl Nodes {
     }
 }
 
-/// Pairs of corners of different bodies within `gap` of each other, the nearest first.
-fn near(corners: &[Loose], gap: f64) -> Vec<(f64, usize, usize)> {
+/// Pairs of corners of different bodies within their gaps of each other, the nearest first.
+fn near(corners: &[Loose], gaps: &[f64]) -> Vec<(f64, usize, usize)> {
     let points = corners
         .iter()
         .enumerate()
@@ -106,10 +112,12 @@ fn near(corners: &[Loose], gap: f64) -> Vec<(f64, usize, usize)> {
     let mut pairs = Vec::new();
     for (i, corner) in corners.iter().enumerate() {
         let (x, y) = (corner.at.x, corner.at.y);
+        let gap = gaps[corner.body];
         let around = AABB::from_corners([x - gap, y - gap], [x + gap, y + gap]);
         for other in tree.locate_in_envelope(around) {
             let j = other.data;
             let distance = (corners[j].at - corner.at).norm();
+            let gap = gap.min(gaps[corners[j].body]);
             if j < i && corners[j].body != corner.body && distance <= gap {
                 pairs.push((distance, i, j));
             }

@@ -2,9 +2,9 @@
 //!
 //! Three unknowns N1, N2, T and three rows: the forces are what they are, and either admissible or not.
 
-use super::Amounts;
 use crate::geometry::{Vector, cross, quarter_turn};
 use crate::program::Program;
+use crate::solve::Amounts;
 
 /// The forces of one block on one edge interface with the ground and nothing else, where they are admissible.
 pub fn single(program: &Program) -> Option<Amounts> {

@@ -39,10 +39,17 @@ struct Fit {
     normal: Vector,
 }
 
+impl Fit {
+    /// How far a place lies from the line, metres.
+    fn distance(&self, at: Point) -> f64 {
+        self.normal.dot(&(at - self.through)).abs()
+    }
+}
+
 impl Lines {
     /// The lines of sides and the nodes on them; sides that share two nodes are one line where all of it is straight to
-    /// within `gap`.
-    pub(super) fn of(nodes: &Nodes, on: &BTreeMap<[usize; 2], BTreeSet<usize>>, gap: f64) -> Lines {
+    /// within the nodes' gaps.
+    pub(super) fn of(nodes: &Nodes, on: &BTreeMap<[usize; 2], BTreeSet<usize>>) -> Lines {
         let sides: Vec<[usize; 2]> = on.keys().copied().collect();
         let sets: Vec<BTreeSet<usize>> = on
             .iter()
@@ -79,7 +86,7 @@ impl Lines {
                 let all: BTreeSet<usize> =
                     members.iter().flat_map(|m| &sets[*m]).copied().collect();
                 let sides: Vec<[usize; 2]> = members.iter().map(|m| sides[*m]).collect();
-                Line::of(nodes, all.into_iter().collect(), &sides, gap)
+                Line::of(nodes, all.into_iter().collect(), &sides)
             };
             match line(&members) {
                 Some(whole) => lines.push(whole),
@@ -90,7 +97,7 @@ impl Lines {
     }
 
     /// Moves the nodes onto their lines; a node that would have to go farther than two gaps stays.
-    pub(super) fn settle(&self, nodes: &mut Nodes, gap: f64) {
+    pub(super) fn settle(&self, nodes: &mut Nodes) {
         let mut lines_of: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for (i, line) in self.0.iter().enumerate() {
             for node in &line.nodes {
@@ -107,15 +114,15 @@ impl Lines {
                 let at = nodes.all[*node].at;
                 let step = towards(at, lines.iter().map(|l| &fits[*l]));
                 nodes.all[*node].at = at + step;
-                farthest = farthest.max(step.norm());
+                farthest = farthest.max(step.norm() / nodes.all[*node].gap);
             }
-            if farthest <= 1e-9 * gap {
+            if farthest <= 1e-9 {
                 break;
             }
         }
         for (node, at) in begun {
             // Written so that NaN stays too.
-            if !((nodes.all[node].at - at).norm() <= 2.0 * gap) {
+            if !((nodes.all[node].at - at).norm() <= 2.0 * nodes.all[node].gap) {
                 nodes.all[node].at = at;
             }
         }
@@ -123,8 +130,8 @@ impl Lines {
 }
 
 impl Line {
-    /// `None` where no line passes all nodes within `gap`.
-    fn of(nodes: &Nodes, members: Vec<usize>, sides: &[[usize; 2]], gap: f64) -> Option<Line> {
+    /// `None` where no line passes all nodes within their gaps.
+    fn of(nodes: &Nodes, members: Vec<usize>, sides: &[[usize; 2]]) -> Option<Line> {
         let place = |n: usize| nodes.all[n].at;
         let length = |s: &[usize; 2]| (place(s[1]) - place(s[0])).norm();
         let longest = *sides
@@ -134,27 +141,30 @@ impl Line {
             nodes: members.clone(),
             course,
         };
+        // Written so that NaN does not fit.
         let fits = |line: &Line| {
             let fit = line.fit(nodes);
-            let off = |n: &usize| fit.normal.dot(&(place(*n) - fit.through)).abs();
-            line.nodes.iter().map(off).fold(0.0, f64::max)
+            (line.nodes.iter()).all(|n| fit.distance(place(*n)) <= nodes.all[*n].gap)
         };
         let side = line(Course::Side(longest));
         let along = (place(longest[1]) - place(longest[0])) / length(&longest);
         let reaches = |n: &usize| {
             let s = along.dot(&(place(*n) - place(longest[0])));
+            let gap = nodes.all[*n].gap;
             s >= -gap && s <= length(&longest) + gap
         };
-        if members.iter().all(reaches) && fits(&side) <= gap {
+        if members.iter().all(reaches) && fits(&side) {
             return Some(side);
         }
         let closest = line(Course::Closest);
-        let off = fits(&closest);
-        if !(off <= gap) {
+        if !fits(&closest) {
             return None;
         }
         // Level or upright as far as the corners can tell is level or upright.
-        let normal = closest.fit(nodes).normal;
+        let fit = closest.fit(nodes);
+        let normal = fit.normal;
+        let distances = members.iter().map(|n| fit.distance(place(*n)));
+        let off = distances.fold(0.0, f64::max);
         let spread = |axis: usize| {
             let all = members.iter().map(|n| place(*n)[axis]);
             let (low, high) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {

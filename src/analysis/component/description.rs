@@ -1,0 +1,85 @@
+//! What belongs to a verdict: the forces of least sum where it stands, what fails and how it moves where it falls.
+
+use super::Case;
+use super::ladder::{Decision, same_sum};
+use super::local::Outcome;
+use crate::analysis::Verdict;
+use crate::program::Program;
+use crate::solve::{Choice, balance_in, stick_in};
+
+impl Case<'_> {
+    /// A decision with its description.
+    pub fn described(&self, program: &Program, decision: Decision) -> Decision {
+        match decision.verdict {
+            Verdict::Stable if !decision.least_force => self.with_least_force(program, decision),
+            Verdict::Unstable if !decision.in_part => self.with_failures(program, decision),
+            _ => decision,
+        }
+    }
+
+    /// The forces of least sum in place of some that balance, where a more precise solution has them.
+    fn with_least_force(&self, program: &Program, mut decision: Decision) -> Decision {
+        // What ended without a status was tried at full precision already; and a draft is content with any forces.
+        if decision.no_status || self.settings.iter().any(|s| s.choice == Choice::Any) {
+            return decision;
+        }
+        for settings in self.settings.iter().skip(1) {
+            let solved = balance_in(program, *settings);
+            decision.effort = decision.effort.and(solved.effort);
+            if let Some(amounts) = solved.forces {
+                let proof = self.carried(&amounts).proof;
+                let good = match self.believes(&proof) {
+                    true => Outcome::Stands(amounts.clone(), proof),
+                    false => self.made_good(program, &amounts, &mut decision.effort),
+                };
+                if let Outcome::Stands(good, proof) = good
+                    && same_sum(&amounts, &good)
+                {
+                    return Decision {
+                        amounts: good,
+                        least_force: true,
+                        proof,
+                        ..decision
+                    };
+                }
+            }
+        }
+        decision
+    }
+
+    /// What would have to stick, sought as long as there is a way, and the mechanism that goes with it.
+    fn with_failures(&self, program: &Program, mut decision: Decision) -> Decision {
+        let mut ready = decision.stuck.take().filter(|s| s.balanced.is_some());
+        for settings in &self.settings {
+            let stuck = ready.take().unwrap_or_else(|| {
+                let stuck = stick_in(program, *settings);
+                decision.effort = decision.effort.and(stuck.effort);
+                stuck
+            });
+            let forces = self.carried(&stuck.forces).proof;
+            if stuck.balanced == Some(true) && self.believes(&forces) {
+                // Both proofs hold: the forces win.
+                return Decision {
+                    verdict: Verdict::Stable,
+                    amounts: stuck.forces,
+                    proof: forces,
+                    ..decision
+                };
+            }
+            let own = stuck
+                .motion
+                .and_then(|y| self.falling(program, &y, &mut decision.effort));
+            // At a price on forces the motion violates contacts a little: then the one that decided is shown.
+            if let (Some((mechanism, proof)), false) = (own, stuck.priced) {
+                (decision.mechanism, decision.proof) = (mechanism, proof);
+            }
+            decision.beyond_sticking = stuck.balanced == Some(false);
+            decision.amounts = stuck.forces;
+            decision.sticking = (stuck.balanced == Some(true)).then_some(stuck.sticking);
+            if stuck.balanced.is_some() {
+                break;
+            }
+        }
+        decision
+    }
+}

@@ -1,0 +1,136 @@
+//! Forces of a component in newtons, made admissible to the last bit, with their proof.
+
+use super::Case;
+use crate::geometry::Vector;
+use crate::proof::{self, Forces, Held, Pressed, Proof, gross_load};
+use crate::solve::Amounts;
+
+/// By what it is measured how little of a force is noise.
+#[derive(Clone, Copy)]
+enum Noise {
+    /// By the heaviest load.
+    OfTheWhole,
+    /// By the lighter of the two bodies.
+    OfEachBody,
+    /// Nothing is noise.
+    None,
+}
+
+/// Forces in newtons with their proof.
+pub(super) struct Carried {
+    pub forces: Forces,
+    pub proof: Proof,
+}
+
+impl Case<'_> {
+    /// Newtons from pure numbers, made admissible to the last bit, with their proof.
+    ///
+    /// Noise becomes 0 and friction is cut to μN, so that what is left of the solver's error shows as imbalance alone, where
+    /// the proof measures it. What is noise among heavy blocks may be all that holds a light one: where the proof fails,
+    /// less is dropped.
+    pub fn carried(&self, amounts: &Amounts) -> Carried {
+        // Of several that have no proof, the forces that balance most bodies.
+        let mut best: Option<(usize, Carried)> = None;
+        for noise in [Noise::OfTheWhole, Noise::OfEachBody, Noise::None] {
+            let forces = self.in_newtons(amounts, noise);
+            let proof = proof::forces(self.assembly, &forces);
+            let carried = Carried { forces, proof };
+            if self.believes(&proof) {
+                return carried;
+            }
+            let off = proof::imbalances(self.assembly, &carried.forces);
+            let fail = off.iter().filter(|off| **off > self.demand.imbalance);
+            let fail = fail.count();
+            if best.as_ref().is_none_or(|best| fail < best.0) {
+                best = Some((fail, carried));
+            }
+        }
+        match best {
+            Some((_, carried)) => carried,
+            None => {
+                let forces = Forces::none(self.assembly);
+                let proof = proof::forces(self.assembly, &forces);
+                Carried { forces, proof }
+            }
+        }
+    }
+
+    /// Newtons from pure numbers: normal and robot forces below 1e-13 and friction below 1e-10 of what acts there dropped,
+    /// and never more than a tenth of what is demanded of the heaviest load, or of the lightest beside.
+    fn in_newtons(&self, amounts: &Amounts, noise: Noise) -> Forces {
+        let unit = self.scale.force;
+        let demand = 0.1 * self.demand.imbalance;
+        let heaviest = match self.assembly.heaviest() {
+            0.0 => 1.0,
+            heaviest => heaviest,
+        };
+        let acting = match noise {
+            Noise::OfEachBody => self.acting(amounts),
+            _ => Vec::new(),
+        };
+        // The largest normal or robot force, and the largest friction, that a body does not miss.
+        let limits = |body: usize| match noise {
+            Noise::OfTheWhole => (1e-13 * heaviest, demand * heaviest),
+            Noise::OfEachBody => {
+                let load = gross_load(self.assembly, &self.assembly.bodies[body]);
+                let missed = demand
+                    * if load > 0.0 {
+                        load
+                    } else {
+                        1e-7 * acting[body]
+                    };
+                ((1e-13 * acting[body]).min(missed), missed)
+            }
+            Noise::None => (0.0, 0.0),
+        };
+        let clean = |v: f64, noise: f64| if v.abs() <= noise { 0.0 } else { v };
+        let contacts = self.assembly.contacts.iter().enumerate();
+        let contacts = contacts.map(|(k, contact)| {
+            let (on, from) = (limits(contact.on), contact.from.map(limits));
+            let from = from.unwrap_or((f64::INFINITY, f64::INFINITY));
+            let (least, still) = (on.0.min(from.0), on.1.min(from.1));
+            let normal = amounts.normal[k].map(|v| clean(v * unit, least).max(0.0));
+            let pressed = normal[0] + normal[1];
+            let most = contact.friction * pressed;
+            let friction = (amounts.friction[k] * unit).clamp(-most, most);
+            let still = still.min(1e-10 * most.min(pressed));
+            Pressed {
+                normal,
+                friction: clean(friction, still),
+            }
+        });
+        let grips = self.assembly.grips.iter().zip(&amounts.grip);
+        let grips = grips.map(|(grip, [x, y, m])| {
+            let length = self.scale.length;
+            let (noise, _) = limits(grip.body);
+            let cut = |v: f64, limit: f64| clean(v, noise).clamp(-limit, limit);
+            Held {
+                force: Vector::new(cut(x * unit, grip.limits.fx), cut(y * unit, grip.limits.fy)),
+                torque: cut(m * unit, grip.limits.torque / length) * length,
+            }
+        });
+        Forces {
+            contacts: contacts.collect(),
+            grips: grips.collect(),
+        }
+    }
+
+    /// Σ |force| on each body, N.
+    fn acting(&self, amounts: &Amounts) -> Vec<f64> {
+        let bodies = self.assembly.bodies.iter();
+        let mut sums: Vec<f64> = bodies.map(|b| gross_load(self.assembly, b)).collect();
+        let contacts = amounts.normal.iter().zip(&amounts.friction);
+        for (contact, (normal, friction)) in self.assembly.contacts.iter().zip(contacts) {
+            let own = (normal[0].abs() + normal[1].abs() + friction.abs()) * self.scale.force;
+            sums[contact.on] += own;
+            if let Some(from) = contact.from {
+                sums[from] += own;
+            }
+        }
+        for (grip, given) in self.assembly.grips.iter().zip(&amounts.grip) {
+            let own = given.iter().map(|v| v.abs()).sum::<f64>();
+            sums[grip.body] += own * self.scale.force;
+        }
+        sums
+    }
+}

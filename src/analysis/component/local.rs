@@ -1,0 +1,243 @@
+//! Forces made good for every body for itself, or the motion of those that have none.
+//!
+//! A program balances its bodies to some digits of the heaviest load. Light bodies may be far off then, and what is off may
+//! be all that would tell that they fall. So where forces balance the whole but not every body:
+//!
+//! 1. all forces are changed a little, each in parts of its own amount ([`relative`]);
+//! 2. of each connected set of bodies that still do not balance the others are held still, as if they were ground, and the
+//!    forces on the set change as little as may be, in the set's own scale ([`corrected`]);
+//! 3. where there is no such change, the ladder is climbed for the set alone. If it falls, so does the whole: its motion
+//!    with all others at rest is a mechanism. If it stands, its forces take the place of the old ones.
+//!
+//! Each round brings bodies of smaller weight within the digits; sets within a set are treated alike.
+
+use super::Case;
+use super::forces::Carried;
+use crate::analysis::Verdict;
+use crate::assembly::Part;
+use crate::geometry::Vector;
+use crate::program::{Program, Scale};
+use crate::proof::{self, Motion, Proof};
+use crate::solve::{Amounts, Effort, corrected, relative};
+
+/// Rounds of making forces good.
+const ROUNDS: usize = 8;
+
+/// So many bodies are judged as a part, whatever the size of the whole.
+const SMALL: usize = 12;
+
+/// Forces that leave more than this of the heaviest load are no balance of the whole.
+const WHOLE: f64 = 1e-6;
+
+/// What becomes of forces that balance the whole.
+pub(super) enum Outcome {
+    /// They balance every body for itself.
+    Stands(Amounts, Proof),
+    /// Some bodies fall by themselves.
+    Falls(Falling),
+    /// Neither is proved.
+    Open,
+}
+
+/// Bodies that fall while all others rest.
+pub(super) struct Falling {
+    /// The motion of every body of the whole.
+    pub mechanism: Vec<Motion>,
+    pub proof: Proof,
+    /// The forces of the others, and those that the sticking leaves to contacts and grips.
+    pub amounts: Amounts,
+    /// What would have to stick, where anything helps.
+    pub sticking: Option<Amounts>,
+}
+
+impl Case<'_> {
+    /// Makes forces good for every body for itself.
+    pub fn made_good(&self, program: &Program, amounts: &Amounts, effort: &mut Effort) -> Outcome {
+        let most = program.need.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+        if amounts.unbalanced(program) > WHOLE * most {
+            return Outcome::Open;
+        }
+        let mut amounts = amounts.clone();
+        let failing = |carried: &Carried| -> Vec<bool> {
+            let off = proof::imbalances(self.assembly, &carried.forces);
+            off.iter().map(|off| *off > self.demand.imbalance).collect()
+        };
+        let count = |fails: &[bool]| fails.iter().filter(|fails| **fails).count();
+        for _ in 0..ROUNDS {
+            let carried = self.carried(&amounts);
+            if self.believes(&carried.proof) {
+                return Outcome::Stands(amounts, carried.proof);
+            }
+            let fails = failing(&carried);
+            if let Some(better) = relative(program, &amounts, effort)
+                && count(&failing(&self.carried(&better))) < count(&fails)
+            {
+                amounts = better;
+                continue;
+            }
+            let mut falling = Vec::new();
+            let mut better = false;
+            for set in self.assembly.connected(&fails) {
+                let part = self.assembly.part(&set);
+                match self.part_made_good(&part, &amounts, effort) {
+                    PartOutcome::Changed(changed) => {
+                        self.enter(&mut amounts, &part, &changed);
+                        better = true;
+                    }
+                    PartOutcome::Falls(found) => falling.push((part, found)),
+                    PartOutcome::Open => {}
+                }
+            }
+            if !falling.is_empty() {
+                return self.fallen(program, amounts, &falling);
+            }
+            if !better {
+                break;
+            }
+        }
+        Outcome::Open
+    }
+
+    fn part_made_good(&self, part: &Part, amounts: &Amounts, effort: &mut Effort) -> PartOutcome {
+        let case = Case {
+            assembly: &part.assembly,
+            scale: Scale::of_assembly(&part.assembly),
+            settings: self.settings.clone(),
+            demand: self.demand,
+        };
+        let program = Program::of(&part.assembly, case.scale);
+        let given = self.taken(amounts, part, case.scale);
+        let off = |amounts: &Amounts| {
+            let off = proof::imbalances(&part.assembly, &case.carried(amounts).forces);
+            off.into_iter().fold(0.0, f64::max)
+        };
+        if let Some(better) = corrected(&program, &given, effort)
+            && off(&better) < 0.5 * off(&given)
+        {
+            return PartOutcome::Changed(in_units(&better, case.scale, self.scale));
+        }
+        // The whole is on the ladder already, and what is nearly the whole costs as much again.
+        let (own, all) = (part.bodies.len(), self.assembly.bodies.len());
+        if own == all || (own > SMALL && 2 * own > all) {
+            return PartOutcome::Open;
+        }
+        if let Some(found) = case.in_closed_form(&program) {
+            return match found.verdict {
+                Verdict::Unstable => PartOutcome::Falls(PartFall {
+                    mechanism: found.mechanism,
+                    amounts: None,
+                    sticking: None,
+                }),
+                _ => PartOutcome::Open,
+            };
+        }
+        let decision = case.described(&program, case.decided(&program));
+        *effort = effort.and(decision.effort);
+        let whole = |amounts: &Amounts| in_units(amounts, case.scale, self.scale);
+        match decision.verdict {
+            Verdict::Stable => PartOutcome::Changed(whole(&decision.amounts)),
+            Verdict::Unstable => PartOutcome::Falls(PartFall {
+                amounts: Some(whole(&decision.amounts)),
+                sticking: decision.sticking.as_ref().map(whole),
+                mechanism: decision.mechanism,
+            }),
+            Verdict::Undecided => PartOutcome::Open,
+        }
+    }
+
+    /// The fall of some parts while the others rest, with its proof in the whole.
+    fn fallen(
+        &self,
+        program: &Program,
+        mut amounts: Amounts,
+        falling: &[(Part, PartFall)],
+    ) -> Outcome {
+        let mut mechanism: Vec<Motion> = self
+            .assembly
+            .bodies
+            .iter()
+            .map(|body| Motion {
+                block: body.block,
+                velocity: Vector::zeros(),
+                spin: 0.0,
+            })
+            .collect();
+        let mut sticking = Some(Amounts::none(program));
+        for (part, fall) in falling {
+            for (body, motion) in part.bodies.iter().zip(&fall.mechanism) {
+                mechanism[*body] = *motion;
+            }
+            if let Some(held) = &fall.amounts {
+                self.enter(&mut amounts, part, held);
+            }
+            match (&mut sticking, &fall.sticking) {
+                (Some(sticking), Some(own)) => self.enter(sticking, part, own),
+                _ => sticking = None,
+            }
+        }
+        let proof = self.mechanism(&mechanism);
+        if !self.convinces(&mechanism, &proof) {
+            return Outcome::Open;
+        }
+        Outcome::Falls(Falling {
+            mechanism,
+            proof,
+            amounts,
+            sticking,
+        })
+    }
+
+    /// The forces of a part, in the units of its scale.
+    fn taken(&self, amounts: &Amounts, part: &Part, scale: Scale) -> Amounts {
+        let own = Amounts {
+            normal: part.contacts.iter().map(|k| amounts.normal[*k]).collect(),
+            friction: part.contacts.iter().map(|k| amounts.friction[*k]).collect(),
+            grip: part.grips.iter().map(|k| amounts.grip[*k]).collect(),
+        };
+        in_units(&own, self.scale, scale)
+    }
+
+    /// Enters the forces of a part, in the units of the whole.
+    fn enter(&self, amounts: &mut Amounts, part: &Part, own: &Amounts) {
+        for (place, number) in part.contacts.iter().enumerate() {
+            amounts.normal[*number] = own.normal[place];
+            amounts.friction[*number] = own.friction[place];
+        }
+        for (place, number) in part.grips.iter().enumerate() {
+            amounts.grip[*number] = own.grip[place];
+        }
+    }
+}
+
+/// What becomes of a part's forces, in the units of the whole.
+enum PartOutcome {
+    Changed(Amounts),
+    Falls(PartFall),
+    Open,
+}
+
+struct PartFall {
+    /// One motion for each body of the part.
+    mechanism: Vec<Motion>,
+    amounts: Option<Amounts>,
+    sticking: Option<Amounts>,
+}
+
+/// Amounts in the units of another scale.
+fn in_units(amounts: &Amounts, from: Scale, to: Scale) -> Amounts {
+    let force = from.force / to.force;
+    let torque = force * from.length / to.length;
+    Amounts {
+        normal: amounts
+            .normal
+            .iter()
+            .map(|pair| pair.map(|v| v * force))
+            .collect(),
+        friction: amounts.friction.iter().map(|v| v * force).collect(),
+        grip: amounts
+            .grip
+            .iter()
+            .map(|[x, y, m]| [x * force, y * force, m * torque])
+            .collect(),
+    }
+}

@@ -1,0 +1,23 @@
+//! Least residual: the forces that leave least unbalanced, and the motion of most power. It has an optimum on either side
+//! of the edge of standing, where the program of least force may end without a status.
+
+use super::Attempt;
+use crate::program::Program;
+use crate::solve::{Effort, leftover};
+
+pub(super) fn attempt(program: &Program) -> Attempt {
+    match leftover(program) {
+        Some(left) => Attempt {
+            forces: Some(left.forces),
+            motion: Some(left.motion),
+            stuck: None,
+            effort: left.effort,
+        },
+        None => Attempt {
+            forces: None,
+            motion: None,
+            stuck: None,
+            effort: Effort::default(),
+        },
+    }
+}

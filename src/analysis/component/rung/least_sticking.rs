@@ -1,0 +1,16 @@
+//! Least sticking: the least that a mortar, or stronger robots, would have to give for a balance. Its optimum is the
+//! physical residual, which tells 0 from next to nothing nearer to the edge than a solver's status does.
+
+use super::Attempt;
+use crate::program::Program;
+use crate::solve::{Manner, stick_in};
+
+pub(super) fn attempt(program: &Program, settings: Manner) -> Attempt {
+    let stuck = stick_in(program, settings);
+    Attempt {
+        forces: (stuck.balanced == Some(true)).then(|| stuck.forces.clone()),
+        motion: stuck.motion.clone(),
+        effort: stuck.effort,
+        stuck: Some(stuck),
+    }
+}

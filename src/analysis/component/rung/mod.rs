@@ -1,0 +1,111 @@
+//! The rungs of the ladder, one file each: what is posed, and why there.
+
+mod closed_form;
+mod least_force;
+mod least_residual;
+mod least_sticking;
+
+pub(super) use closed_form::single;
+
+use crate::program::Program;
+use crate::solve::{Amounts, Care, Effort, Manner, Stuck};
+
+/// How a component was decided, in the order of trust.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Method {
+    /// Without a solver.
+    ClosedForm,
+    /// By the program of least force, through its dual, the kinematic program.
+    LeastForce,
+    /// By the same, with the solver's own scaling and refinement.
+    LeastForceRefined,
+    /// By the program of least residual.
+    LeastResidual,
+    /// By the program of least sticking.
+    LeastSticking,
+}
+
+impl Method {
+    /// Its name in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Method::ClosedForm => "closed form",
+            Method::LeastForce => "kinematic",
+            Method::LeastForceRefined => "kinematic, refined",
+            Method::LeastResidual => "least residual",
+            Method::LeastSticking => "least sticking",
+        }
+    }
+}
+
+/// One program that may decide: the program of the least …
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Rung {
+    Force(Manner),
+    Residual,
+    Sticking(Manner),
+}
+
+/// What a rung found, in pure numbers and without a proof.
+pub(super) struct Attempt {
+    /// Forces that should balance.
+    pub forces: Option<Amounts>,
+    /// A motion that should be a mechanism.
+    pub motion: Option<Vec<f64>>,
+    /// What the program of least sticking gave, where it was posed.
+    pub stuck: Option<Stuck>,
+    pub effort: Effort,
+}
+
+impl Attempt {
+    /// The forces, of the least sticking too.
+    pub fn unproved_forces(&self) -> Option<&Amounts> {
+        let stuck = self.stuck.as_ref().map(|stuck| &stuck.forces);
+        self.forces.as_ref().or(stuck)
+    }
+}
+
+impl Rung {
+    /// From the quickest to the one that decides nearest to the edge.
+    ///
+    /// Least force first, as nearly every component is decided there; then the least residual, which has an optimum on
+    /// either side of the edge; then least force with full precision; last the least sticking, whose optimum is the
+    /// physical residual.
+    pub fn ladder(settings: &[Manner]) -> Vec<Rung> {
+        let mut rungs: Vec<Rung> = settings.iter().copied().map(Rung::Force).collect();
+        rungs.insert(1.min(rungs.len()), Rung::Residual);
+        rungs.extend(settings.iter().copied().map(Rung::Sticking));
+        rungs
+    }
+
+    pub fn attempt(&self, program: &Program) -> Attempt {
+        match self {
+            Rung::Force(settings) => least_force::attempt(program, *settings),
+            Rung::Residual => least_residual::attempt(program),
+            Rung::Sticking(settings) => least_sticking::attempt(program, *settings),
+        }
+    }
+
+    /// Whether its forces are those of least sum.
+    pub fn is_least(&self) -> bool {
+        matches!(self, Rung::Force(_))
+    }
+
+    /// Whether its forces come so near to a balance that, where they have no proof, none have.
+    pub fn excludes_balance(&self, attempt: &Attempt) -> bool {
+        match self {
+            Rung::Force(_) => false,
+            Rung::Residual => attempt.forces.is_some(),
+            Rung::Sticking(_) => attempt.stuck.is_some(),
+        }
+    }
+
+    pub fn method(&self) -> Method {
+        match self {
+            Rung::Force(settings) if settings.care == Care::Quick => Method::LeastForce,
+            Rung::Force(_) => Method::LeastForceRefined,
+            Rung::Residual => Method::LeastResidual,
+            Rung::Sticking(_) => Method::LeastSticking,
+        }
+    }
+}

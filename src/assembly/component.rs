@@ -1,0 +1,63 @@
+//! Components: bodies that can influence each other, found by following contacts that avoid the ground.
+
+use super::{Assembly, Contact, Grip};
+
+impl Assembly {
+    /// Parts the assembly into components, in the order of their first bodies.
+    ///
+    /// Two bodies are in one component when a chain of contacts leads from one to the other without passing the ground.
+    /// L stays that of the whole, so that torques weigh alike everywhere.
+    pub fn split(&self) -> Vec<Assembly> {
+        let mut parent: Vec<usize> = (0..self.bodies.len()).collect();
+        for contact in &self.contacts {
+            if let Some(from) = contact.from {
+                let (a, b) = (root(&mut parent, contact.on), root(&mut parent, from));
+                parent[a.max(b)] = a.min(b);
+            }
+        }
+        let mut parts: Vec<Assembly> = Vec::new();
+        // By root the component's number; by body its component and its number there.
+        let mut part_of_root: Vec<Option<usize>> = vec![None; self.bodies.len()];
+        let mut place = Vec::with_capacity(self.bodies.len());
+        for (number, body) in self.bodies.iter().enumerate() {
+            let root = root(&mut parent, number);
+            let part = *part_of_root[root].get_or_insert_with(|| {
+                parts.push(Assembly {
+                    bodies: Vec::new(),
+                    contacts: Vec::new(),
+                    grips: Vec::new(),
+                    ..*self
+                });
+                parts.len() - 1
+            });
+            place.push((part, parts[part].bodies.len()));
+            parts[part].bodies.push(body.clone());
+        }
+        for contact in &self.contacts {
+            let (part, on) = place[contact.on];
+            parts[part].contacts.push(Contact {
+                on,
+                from: contact.from.map(|body| place[body].1),
+                ..*contact
+            });
+        }
+        for grip in &self.grips {
+            let (part, body) = place[grip.body];
+            parts[part].grips.push(Grip { body, ..*grip });
+        }
+        parts
+    }
+
+    /// Whether it touches no ground and nobody holds it.
+    pub fn is_free(&self) -> bool {
+        self.grips.is_empty() && self.contacts.iter().all(|c| c.from.is_some())
+    }
+}
+
+fn root(parent: &mut [usize], mut i: usize) -> usize {
+    while parent[i] != i {
+        parent[i] = parent[parent[i]];
+        i = parent[i];
+    }
+    i
+}

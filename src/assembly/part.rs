@@ -1,0 +1,107 @@
+//! Parts: some bodies of an assembly, all others held still.
+
+use super::{Assembly, Contact, Grip};
+
+/// Some bodies of an assembly with all others held still, as if they were ground.
+#[derive(Clone, Debug)]
+pub struct Part {
+    /// The bodies as an assembly of their own. L is the median length of its contacts.
+    pub assembly: Assembly,
+    /// The number of each of its bodies in the whole.
+    pub bodies: Vec<usize>,
+    /// The number of each of its contacts in the whole.
+    ///
+    /// Forces are the same numbers in both, even where the part's contact is seen from the other side: what one body
+    /// gives to the other along the normal and along the tangent turns round together with them.
+    pub contacts: Vec<usize>,
+    /// The number of each of its grips in the whole.
+    pub grips: Vec<usize>,
+}
+
+impl Assembly {
+    /// The part of the bodies with these numbers, which are in ascending order.
+    pub fn part(&self, bodies: &[usize]) -> Part {
+        let mut place = vec![None; self.bodies.len()];
+        for (number, body) in bodies.iter().enumerate() {
+            place[*body] = Some(number);
+        }
+        let (mut contacts, mut grips) = (Vec::new(), Vec::new());
+        let mut part = Assembly {
+            bodies: bodies.iter().map(|k| self.bodies[*k].clone()).collect(),
+            contacts: Vec::new(),
+            grips: Vec::new(),
+            ..*self
+        };
+        for (number, contact) in self.contacts.iter().enumerate() {
+            let from = contact.from.and_then(|body| place[body]);
+            let seen = match (place[contact.on], from) {
+                (Some(on), from) => Contact {
+                    on,
+                    from,
+                    ..*contact
+                },
+                (None, Some(from)) => Contact {
+                    on: from,
+                    from: None,
+                    bodies: [contact.bodies[1], contact.bodies[0]],
+                    normal: -contact.normal,
+                    ..*contact
+                },
+                (None, None) => continue,
+            };
+            part.contacts.push(seen);
+            contacts.push(number);
+        }
+        for (number, grip) in self.grips.iter().enumerate() {
+            if let Some(body) = place[grip.body] {
+                part.grips.push(Grip { body, ..*grip });
+                grips.push(number);
+            }
+        }
+        let lengths = part.contacts.iter().map(|c| (c.ends[1] - c.ends[0]).norm());
+        let lengths: Vec<f64> = lengths.filter(|length| *length > 0.0).collect();
+        let radii = part.bodies.iter().map(|body| body.radius());
+        part.length = super::median(lengths)
+            .or_else(|| super::median(radii.collect()))
+            .unwrap_or(self.length);
+        Part {
+            assembly: part,
+            bodies: bodies.to_vec(),
+            contacts,
+            grips,
+        }
+    }
+
+    /// The connected sets of bodies for which `member` holds, each in ascending order.
+    pub fn connected(&self, member: &[bool]) -> Vec<Vec<usize>> {
+        let mut beside: Vec<Vec<usize>> = vec![Vec::new(); self.bodies.len()];
+        for contact in &self.contacts {
+            if let Some(from) = contact.from {
+                beside[contact.on].push(from);
+                beside[from].push(contact.on);
+            }
+        }
+        let mut seen = vec![false; self.bodies.len()];
+        let mut sets = Vec::new();
+        for first in (0..self.bodies.len()).filter(|k| member[*k]) {
+            if seen[first] {
+                continue;
+            }
+            seen[first] = true;
+            let mut set = vec![first];
+            let mut next = 0;
+            while let Some(body) = set.get(next).copied() {
+                next += 1;
+                for other in &beside[body] {
+                    if member[*other] && !seen[*other] {
+                        seen[*other] = true;
+                        set.push(*other);
+                    }
+                }
+            }
+            set.sort_unstable();
+            sets.push(set);
+        }
+        sets
+    }
+}

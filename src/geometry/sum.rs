@@ -1,0 +1,51 @@
+//! Sums of which little is left: large terms that cancel, kept with twice the digits.
+//!
+//! The rounding of every addition and product is itself a floating-point number; it is added up beside the sum
+//! (Knuth's two-sum, and the fused product).
+
+/// A sum kept with twice the digits of a number.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Sum {
+    high: f64,
+    low: f64,
+}
+
+impl Sum {
+    /// Adds a number.
+    pub fn add(&mut self, value: f64) {
+        let sum = self.high + value;
+        let part = sum - self.high;
+        self.low += (self.high - (sum - part)) + (value - part);
+        self.high = sum;
+    }
+
+    /// Adds the product of two numbers.
+    pub fn add_product(&mut self, a: f64, b: f64) {
+        let product = a * b;
+        self.add(product);
+        self.low += a.mul_add(b, -product);
+    }
+
+    /// The sum, rounded once.
+    pub fn value(self) -> f64 {
+        self.high + self.low
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sums_keep_what_large_forces_hide() {
+        let mut sum = Sum::default();
+        for value in [1e16, 1.0, -1e16, 1e-16] {
+            sum.add(value);
+        }
+        assert_eq!(sum.value(), 1.0 + 1e-16);
+        let mut sum = Sum::default();
+        sum.add_product(1.0 + f64::EPSILON, 1.0 - f64::EPSILON);
+        sum.add(-1.0);
+        assert_eq!(sum.value(), -f64::EPSILON * f64::EPSILON);
+    }
+}

@@ -1,0 +1,346 @@
+//! How far a point of space is from being a bounded combination of given directions.
+//!
+//! The zonotope of generators g₁ … gₘ is the set { Σ aᵢ gᵢ : |aᵢ| ≤ 1 }. [`least_scale`] finds the smallest τ for which a
+//! point lies in τ times it. A convex body is the intersection of the half-spaces of its facets, a zonotope's facets are
+//! spanned by pairs of its generators, and its half-width along n is Σ |n·gᵢ|; so
+//!
+//! ```text
+//! τ = max |n·r| / Σ |n·gᵢ|   over n = gᵢ × gⱼ
+//! ```
+//!
+//! A zonotope that is flat or a single line has no such facets; the normals that bound it within its plane or line are
+//! tried as well. Any direction n gives a lower bound of τ, so more of them never harm.
+
+/// A point or direction of space.
+pub type Triple = [f64; 3];
+
+/// Generators beyond this number are added up in pairs of like direction, which makes the zonotope smaller.
+const MOST: usize = 40;
+
+/// Beyond this number they are first added up by cells of direction, so that the work stays bounded.
+const MANY: usize = 120;
+
+/// So few generators are tested at once; for more a combination of least squares may do.
+const FEW: usize = 12;
+
+/// Several times the rounding of a sum of three products.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// The smallest τ for which `point` lies in τ times the zonotope of the generators; infinite where there is none.
+///
+/// Exact to rounding for up to 40 generators that are not parallel, and never too small: with more of them, those of like
+/// direction are added up, and the answer may be larger than the smallest.
+///
+/// ```
+/// use drystone::geometry::least_scale;
+/// let box_of = [[2.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 4.0]];
+/// assert!((least_scale(&box_of, [1.0, -3.0, 0.0]) - 1.0).abs() < 1e-12);
+/// assert_eq!(least_scale(&box_of[..2], [1.0, -3.0, 0.1]), f64::INFINITY);
+/// ```
+pub fn least_scale(generators: &[Triple], point: Triple) -> f64 {
+    if norm(point) == 0.0 {
+        return 0.0;
+    }
+    let size = generators.iter().map(|g| norm(*g)).fold(0.0, f64::max);
+    if size == 0.0 || !size.is_finite() || !norm(point).is_finite() {
+        return f64::INFINITY;
+    }
+    let unit = |v: &Triple| v.map(|x| x / size);
+    let all: Vec<Triple> = generators.iter().map(unit).collect();
+    let few = merged(all);
+    exact(&few, unit(&point))
+}
+
+/// An upper bound of [`least_scale`], found without looking at facets: the largest |aᵢ| of the combination Σ aᵢ gᵢ of least
+/// squares that gives the point. `None` where the generators do not span space well enough to tell.
+pub fn scale_at_most(generators: &[Triple], point: Triple) -> Option<f64> {
+    if generators.len() <= FEW {
+        return Some(least_scale(generators, point));
+    }
+    let size = generators.iter().map(|g| norm(*g)).fold(0.0, f64::max);
+    let mut gram = [[0.0; 3]; 3];
+    for g in generators {
+        for (row, a) in gram.iter_mut().zip(g) {
+            for (sum, b) in row.iter_mut().zip(g) {
+                *sum += (a / size) * (b / size);
+            }
+        }
+    }
+    let [a, b, c] = gram;
+    let minors = [cross(b, c), cross(c, a), cross(a, b)];
+    let volume = dot(a, minors[0]);
+    let trace = a[0] + b[1] + c[2];
+    // Below this the digits of the combination are not enough to believe it.
+    if !(volume > 1e-9 * trace * trace * trace) {
+        return None;
+    }
+    let unit = point.map(|v| v / size);
+    let mut y = [0.0; 3];
+    for (row, part) in minors.iter().zip(unit) {
+        for (sum, v) in y.iter_mut().zip(row) {
+            *sum += v * part / volume;
+        }
+    }
+    let most = generators
+        .iter()
+        .map(|g| dot(g.map(|v| v / size), y).abs())
+        .fold(0.0, f64::max);
+    Some(most * (1.0 + 1e-5))
+}
+
+/// The test itself, on generators of size up to 1.
+fn exact(generators: &[Triple], point: Triple) -> f64 {
+    let longest = generators
+        .iter()
+        .copied()
+        .max_by(|a, b| norm(*a).total_cmp(&norm(*b)));
+    let Some(longest) = longest else {
+        return f64::INFINITY;
+    };
+    let mut worst: f64 = 0.0;
+    let mut along = |normal: Triple| {
+        let length = norm(normal);
+        if length > 0.0 {
+            worst = worst.max(ratio(generators, point, normal.map(|v| v / length)));
+        }
+    };
+    for (k, a) in generators.iter().enumerate() {
+        for b in &generators[..k] {
+            along(cross(*a, *b));
+        }
+    }
+    // What bounds a flat zonotope within its plane, and a line along and beside itself.
+    let widest = generators
+        .iter()
+        .map(|g| cross(longest, *g))
+        .max_by(|a, b| norm(*a).total_cmp(&norm(*b)))
+        .filter(|n| norm(*n) > ROUNDING * norm(longest) * norm(longest));
+    let plane = widest.unwrap_or_else(|| {
+        let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let across = axes.map(|axis| cross(longest, axis));
+        across
+            .into_iter()
+            .max_by(|a, b| norm(*a).total_cmp(&norm(*b)))
+            .unwrap_or_default()
+    });
+    along(plane);
+    along(longest);
+    for g in generators {
+        let beside = cross(plane, *g);
+        along(beside);
+        along(cross(beside, *g));
+    }
+    worst
+}
+
+/// |n·r| / Σ |n·gᵢ|, its rounding counted against the generators.
+fn ratio(generators: &[Triple], point: Triple, normal: Triple) -> f64 {
+    let off = dot(normal, point).abs();
+    if off <= ROUNDING * norm(point) {
+        return 0.0;
+    }
+    let (mut width, mut size) = (0.0, 0.0);
+    for g in generators {
+        width += dot(normal, *g).abs();
+        size += norm(*g);
+    }
+    let sure = width - ROUNDING * size;
+    if sure > 0.0 {
+        off / sure
+    } else {
+        f64::INFINITY
+    }
+}
+
+/// Generators that differ: parallel ones added up, and those of like direction where they are many.
+///
+/// The sum of two generators stands for them within their zonotope, never beyond it.
+fn merged(generators: Vec<Triple>) -> Vec<Triple> {
+    let mut all: Vec<Triple> = Vec::with_capacity(generators.len().min(MANY));
+    let cells = generators.len() > MANY;
+    let mut bins: Vec<Triple> = vec![[0.0; 3]; if cells { 3 * CELLS * CELLS } else { 0 }];
+    for g in generators.into_iter().filter(|g| norm(*g) > 0.0) {
+        if cells {
+            let bin = &mut bins[cell(g)];
+            *bin = sum(*bin, g);
+            continue;
+        }
+        let parallel = |a: &Triple| norm(cross(*a, g)) <= ROUNDING * norm(*a) * norm(g);
+        match all.iter_mut().find(|a| parallel(a)) {
+            Some(a) => *a = sum(*a, g),
+            None => all.push(g),
+        }
+    }
+    all.extend(bins.into_iter().filter(|g| norm(*g) > 0.0));
+    while all.len() > MOST {
+        let mut best = (f64::INFINITY, 0, 1);
+        for i in 0..all.len() {
+            for j in i + 1..all.len() {
+                // What is lost: the part of the smaller one across the larger.
+                let lost = norm(cross(all[i], all[j])) / norm(all[i]).max(norm(all[j]));
+                if lost < best.0 {
+                    best = (lost, i, j);
+                }
+            }
+        }
+        let (_, i, j) = best;
+        all[i] = sum(all[i], all[j]);
+        all.swap_remove(j);
+    }
+    all
+}
+
+/// Cells along each side of a face of the cube of directions.
+const CELLS: usize = 6;
+
+/// The cell of a direction, the same for its opposite.
+fn cell(g: Triple) -> usize {
+    let axis = (0..3)
+        .max_by(|i, j| g[*i].abs().total_cmp(&g[*j].abs()))
+        .unwrap_or(0);
+    let place = |k: usize| {
+        let share = 0.5 * (g[(axis + k) % 3] / g[axis] + 1.0);
+        ((share * CELLS as f64) as usize).min(CELLS - 1)
+    };
+    (axis * CELLS + place(1)) * CELLS + place(2)
+}
+
+/// The sum of two generators, the second turned to point as the first does.
+fn sum(a: Triple, b: Triple) -> Triple {
+    let sign = if dot(a, b) < 0.0 { -1.0 } else { 1.0 };
+    [a[0] + sign * b[0], a[1] + sign * b[1], a[2] + sign * b[2]]
+}
+
+fn dot(a: Triple, b: Triple) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: Triple, b: Triple) -> Triple {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+fn norm(a: Triple) -> f64 {
+    dot(a, a).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// SplitMix64, from −1 to 1.
+    fn chance(seed: &mut u64) -> f64 {
+        *seed = seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (*seed ^ (*seed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+
+    fn triple(seed: &mut u64) -> Triple {
+        [chance(seed), chance(seed), chance(seed)]
+    }
+
+    fn combined(generators: &[Triple], amounts: &[f64]) -> Triple {
+        let mut point = [0.0; 3];
+        for (g, a) in generators.iter().zip(amounts) {
+            for k in 0..3 {
+                point[k] += a * g[k];
+            }
+        }
+        point
+    }
+
+    #[test]
+    fn combinations_lie_within_their_largest_amount_and_supports_reach_it() {
+        let mut seed = 7;
+        for count in [1, 2, 3, 4, 8, 20, 39] {
+            for _ in 0..50 {
+                let g: Vec<Triple> = (0..count).map(|_| triple(&mut seed)).collect();
+                let amounts: Vec<f64> = g.iter().map(|_| 0.3 * chance(&mut seed)).collect();
+                let scale = least_scale(&g, combined(&g, &amounts));
+                assert!(scale <= 0.3 * (1.0 + 1e-9), "{count}: {scale}");
+                // The point farthest along any direction lies on the surface.
+                let n = triple(&mut seed);
+                let far: Vec<f64> = g.iter().map(|v| 0.3 * dot(n, *v).signum()).collect();
+                let scale = least_scale(&g, combined(&g, &far));
+                assert!((scale / 0.3 - 1.0).abs() < 1e-9, "{count}: {scale}");
+            }
+        }
+    }
+
+    #[test]
+    fn scale_rotation_and_mirror_change_nothing() {
+        let mut seed = 11;
+        for _ in 0..100 {
+            let g: Vec<Triple> = (0..7).map(|_| triple(&mut seed)).collect();
+            let point = triple(&mut seed);
+            let scale = least_scale(&g, point);
+            let angle = 3.0 * chance(&mut seed);
+            let (sin, cos) = libm::sincos(angle);
+            let turned = |v: Triple| [cos * v[0] - sin * v[1], sin * v[0] + cos * v[1], v[2]];
+            let mirrored = |v: Triple| [-v[0], v[1], -v[2]];
+            let larger = |v: Triple| v.map(|x| 1e150 * x);
+            let smaller = |v: Triple| v.map(|x| 1e-120 * x);
+            let ways: [&dyn Fn(Triple) -> Triple; 4] = [&turned, &mirrored, &larger, &smaller];
+            for way in ways {
+                let changed: Vec<Triple> = g.iter().map(|v| way(*v)).collect();
+                let other = least_scale(&changed, way(point));
+                assert!(
+                    (other / scale - 1.0).abs() < 1e-9,
+                    "{other} against {scale}"
+                );
+            }
+            let quick = scale_at_most(&g, point).expect("seven are few");
+            assert!(quick >= scale * (1.0 - 1e-9));
+        }
+    }
+
+    /// A pebble of weight 1 between two frictionless upright faces that press it with 10⁸: nothing holds it up.
+    #[test]
+    fn a_pebble_between_smooth_faces_is_not_balanced_by_their_thrust() {
+        let forces = [
+            [1e8, 0.0, 3e7],
+            [-1e8, 0.0, -3e7],
+            [0.0, -1.0, 0.0],
+            [0.0, 0.0, 2e8],
+        ];
+        assert!((least_scale(&forces, [0.0, -1.0, 0.0]) - 1.0).abs() < 1e-5);
+        // With friction of half its weight on either side, and a ten-millionth missing, it is.
+        let mut held = forces.to_vec();
+        held.extend([[0.0, 0.5, 0.5], [0.0, 0.5, -0.5]]);
+        let scale = least_scale(&held, [0.0, -1e-7, 0.0]);
+        assert!((scale / 0.5e-7 - 1.0).abs() < 1e-5, "{scale}");
+    }
+
+    #[test]
+    fn flat_and_straight_ones() {
+        let line = [[3.0, 4.0, 0.0], [-6.0, -8.0, 0.0]];
+        assert!((least_scale(&line, [0.9, 1.2, 0.0]) - 0.1).abs() < 1e-12);
+        assert_eq!(least_scale(&line, [0.9, 1.2, 1e-9]), f64::INFINITY);
+        let plane = [[1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [1.0, 1.0, 0.0]];
+        assert!((least_scale(&plane, [2.0, 3.0, 0.0]) - 1.0).abs() < 1e-12);
+        assert!((least_scale(&plane, [2.0, -2.0, 0.0]) - 4.0 / 3.0).abs() < 1e-12);
+        assert_eq!(least_scale(&plane, [0.0, 0.0, 1e-12]), f64::INFINITY);
+        assert_eq!(least_scale(&[], [1.0, 0.0, 0.0]), f64::INFINITY);
+        assert_eq!(least_scale(&[[0.0; 3]], [0.0; 3]), 0.0);
+        assert_eq!(least_scale(&[[f64::NAN; 3]], [1.0; 3]), f64::INFINITY);
+    }
+
+    #[test]
+    fn hundreds_of_generators_are_judged_more_strictly_never_less() {
+        let mut seed = 5;
+        for count in [60, 200, 900] {
+            let g: Vec<Triple> = (0..count).map(|_| triple(&mut seed)).collect();
+            let n = triple(&mut seed);
+            let far: Vec<f64> = g.iter().map(|v| dot(n, *v).signum()).collect();
+            let point = combined(&g, &far);
+            let scale = least_scale(&g, point);
+            assert!((1.0..1.2).contains(&scale), "{count}: {scale}");
+            let quick = scale_at_most(&g, point).expect("random ones span space");
+            assert!((1.0..3.0).contains(&quick), "{count}: {quick}");
+        }
+    }
+}

@@ -1,0 +1,284 @@
+//! Healing: the structure that was meant, once, before anything is judged.
+//!
+//! Rounded coordinates leave wedges of 10⁻⁴ rad and slits between stones that were drawn to touch. Corners and edges
+//! within a body's reach of each other are brought together here, by the code that also heals imported drawings; contacts,
+//! centroids and proofs all come from the healed outlines. A block's weight stays that of its outline as written. Invariant:
+//! where everything fits already, nothing changes by a single bit.
+
+use std::collections::BTreeMap;
+
+use super::{Block, Body, BodyId, Ground, Scene};
+use crate::geometry::snap::{Corner, Rings, polygon, snapped};
+use crate::geometry::{Point, Polygon, Tolerance};
+
+/// A block rounded more coarsely than this part of its size is taken as it is written.
+pub(super) const FINE: f64 = 1.0 / 200.0;
+/// A body counts for touching within this part of its size at most, where its coordinates are given in full.
+const SLIGHT: f64 = 1e-3;
+/// A body comes to another within this part of its size at most, whatever tolerance is asked for.
+const MOST: f64 = 1.0 / 20.0;
+/// An overlap that healing makes deeper by less than this part of the gap is none.
+const NOISE: f64 = 0.25;
+/// Where this part of all corners, and at least so many, lie within a millionth of the scene's reach of what they touch and
+/// not on it, the coordinates are noisy however many digits they have.
+const NOISY: (f64, usize) = (0.2, 8);
+/// Coordinates are off by so many units in the last place of the largest, whatever else is said of them.
+const LAST: f64 = 16.0;
+
+/// Where the contact tolerance of a scene comes from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ToleranceSource {
+    /// The bodies are cells of a lattice: contacts are exact.
+    Lattice,
+    /// The scene or the command line gives it.
+    Given,
+    /// The coordinates are written with so many decimals.
+    Decimals(usize),
+    /// The coordinates are written with so many significant digits.
+    Digits(usize),
+    /// The coordinates are 32-bit floats.
+    Float32,
+    /// The coordinates are written in full: a millionth of the scene's reach.
+    #[default]
+    Size,
+    /// Most corners lie up to a millionth of the scene's reach off what they touch.
+    Noise,
+}
+
+/// What healing has moved.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Healed {
+    /// Where the tolerance comes from.
+    pub source: ToleranceSource,
+    /// Corners and edges within this have become one, metres; 0 where coordinates are taken as they are written.
+    pub within: f64,
+    /// How many bodies have changed.
+    pub bodies: usize,
+    /// How many of their corners moved.
+    pub corners: usize,
+    /// How far the farthest moved, metres.
+    pub distance: f64,
+    /// How many bodies would have lost their shape, or come to lie deeper in others, and stayed as they are written.
+    pub kept: usize,
+}
+
+/// How close is close, and how far corners may move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Reach {
+    pub(super) source: ToleranceSource,
+    /// A millionth of the scene's reach, metres: within this edges touch however their coordinates are written.
+    pub(super) usual: f64,
+    /// Corners and edges within this are brought together, metres; 0 for none.
+    pub(super) healing: f64,
+}
+
+impl Reach {
+    /// Of a lattice.
+    pub(super) const EXACT: Reach = Reach {
+        source: ToleranceSource::Lattice,
+        usual: 0.0,
+        healing: 0.0,
+    };
+
+    /// Two edges within this touch, metres.
+    pub(super) fn gap(self) -> f64 {
+        self.usual.max(self.healing)
+    }
+
+    /// How far a body of some size comes to another; metres both.
+    fn healing_of(self, size: f64) -> f64 {
+        let part = match self.source {
+            ToleranceSource::Given => MOST,
+            ToleranceSource::Size | ToleranceSource::Noise => SLIGHT,
+            _ => FINE,
+        };
+        self.healing.min(part * size)
+    }
+
+    /// Within what a body of some size, with coordinates up to `farthest`, touches another; metres all.
+    fn gap_of(self, size: f64, farthest: f64) -> f64 {
+        let usual = self.usual.min(SLIGHT * size);
+        let last = LAST * f64::EPSILON * farthest;
+        usual.max(self.healing_of(size)).max(last)
+    }
+}
+
+/// The size of a body, metres: four times its area over the length of its boundary, the side of a square.
+///
+/// Of a long thin stone it is twice the thickness.
+pub(crate) fn size(polygon: &Polygon) -> f64 {
+    let around: f64 = polygon.edges().map(|e| e.length()).sum();
+    4.0 * polygon.area() / around
+}
+
+/// Brings together what lies within reach, and notes every body's own gap.
+pub(super) fn heal(
+    ground: &mut [Option<Ground>],
+    blocks: &mut [Option<Block>],
+    mut reach: Reach,
+) -> Healed {
+    let parts = ground.len();
+    let (mut numbers, mut sizes) = (Vec::new(), Vec::new());
+    let (mut drawn, mut fixed) = (Vec::new(), Vec::new());
+    for (number, body) in bodies(ground, blocks) {
+        numbers.push(number);
+        sizes.push(size(&body.polygon));
+        drawn.push(rings(&body.polygon));
+        fixed.push(body.cells.is_some());
+    }
+    // A part of the ground is as large as the largest block, however thin it is drawn.
+    let own = numbers.iter().zip(&sizes).filter(|(n, _)| **n >= parts);
+    let largest = own.map(|(_, size)| *size).fold(0.0, f64::max);
+    for (_, size) in numbers.iter().zip(&mut sizes).filter(|(n, _)| **n < parts) {
+        *size = largest;
+    }
+    let brought = |reach: Reach, outlines: &[Rings]| {
+        let gaps: Vec<f64> = sizes.iter().map(|s| reach.healing_of(*s)).collect();
+        snapped(outlines, &gaps, &fixed, NOISE)
+    };
+    let mut kept = 0;
+    let mut outlines = drawn.clone();
+    if reach.healing > 0.0 {
+        let outcome = brought(reach, &outlines);
+        (outlines, kept) = (outcome.bodies, outcome.kept.len());
+    }
+    if reach.usual > reach.healing {
+        let noisy = Reach {
+            source: ToleranceSource::Noise,
+            usual: reach.usual,
+            healing: reach.usual,
+        };
+        let outcome = brought(noisy, &outlines);
+        let all: usize = drawn.iter().flatten().map(Vec::len).sum();
+        let moved: usize = outcome.moved.iter().map(|m| m.corners).sum();
+        let (share, least) = NOISY;
+        if moved >= least && moved as f64 >= share * all as f64 {
+            (outlines, kept) = (outcome.bodies, outcome.kept.len());
+            reach = noisy;
+        }
+    }
+    let mut healed = Healed {
+        source: reach.source,
+        within: reach.healing,
+        kept,
+        ..Healed::default()
+    };
+    let mut changed = BTreeMap::new();
+    for (((number, old), new), size) in numbers.into_iter().zip(&drawn).zip(&outlines).zip(&sizes) {
+        let corners = old.iter().flatten().zip(new.iter().flatten());
+        // Less than a millionth of the gap is the rounding of numbers.
+        let rounding = 1e-6 * reach.healing_of(*size);
+        let moves = corners.map(|(a, b)| (b.at - a.at).norm());
+        let moves: Vec<f64> = moves.filter(|by| *by > rounding).collect();
+        if moves.is_empty() {
+            continue;
+        }
+        healed.bodies += 1;
+        healed.corners += moves.len();
+        healed.distance = moves.into_iter().fold(healed.distance, f64::max);
+        changed.insert(number, new);
+    }
+    for ((number, body), size) in bodies(ground, blocks).zip(&sizes) {
+        if let Some(Ok(polygon)) = changed.get(&number).map(|new| polygon(new)) {
+            body.polygon = polygon;
+        }
+        let bounds = body.polygon.bounds();
+        let farthest = bounds.min.coords.amax().max(bounds.max.coords.amax());
+        body.gap = reach.gap_of(*size, farthest);
+    }
+    for block in blocks.iter_mut().flatten() {
+        block.centroid = block.body.polygon.centroid();
+    }
+    healed
+}
+
+/// The sound bodies, the ground's parts first, with their numbers among all.
+fn bodies<'b>(
+    ground: &'b mut [Option<Ground>],
+    blocks: &'b mut [Option<Block>],
+) -> impl Iterator<Item = (usize, &'b mut Body)> {
+    let ground = (ground.iter_mut()).map(|g| g.as_mut().map(|g| &mut g.body));
+    let blocks = (blocks.iter_mut()).map(|b| b.as_mut().map(|b| &mut b.body));
+    let all = ground.chain(blocks).enumerate();
+    all.filter_map(|(number, body)| Some((number, body?)))
+}
+
+fn rings(polygon: &Polygon) -> Rings {
+    let corner = |at: &Point| Corner {
+        at: *at,
+        curved: false,
+    };
+    let ring = |ring: &Vec<Point>| ring.iter().map(corner).collect::<Vec<Corner>>();
+    polygon.rings().iter().map(ring).collect()
+}
+
+impl Scene {
+    /// How close two bodies have to be to touch: the smaller of their own gaps.
+    pub(crate) fn tolerance_between(&self, a: BodyId, b: BodyId) -> Tolerance {
+        Tolerance::within(self.body(a).gap.min(self.body(b).gap))
+    }
+
+    /// The scene with everything within `gap` metres brought together, and a contact where that cannot be done.
+    pub(crate) fn closed(&self, gap: f64) -> Scene {
+        let mut scene = self.clone();
+        let reach = Reach {
+            source: ToleranceSource::Given,
+            usual: 0.0,
+            healing: gap,
+        };
+        let mut ground: Vec<Option<Ground>> = scene.ground.into_iter().map(Some).collect();
+        let mut blocks: Vec<Option<Block>> = scene.blocks.into_iter().map(Some).collect();
+        scene.healed = heal(&mut ground, &mut blocks, reach);
+        scene.ground = ground.into_iter().flatten().collect();
+        scene.blocks = blocks.into_iter().flatten().collect();
+        scene.tolerance = Tolerance::within(gap);
+        scene
+    }
+
+    /// How close two edges have to be to touch, where that length comes from, and what was moved to make them; `None` on
+    /// a lattice, where contacts are exact.
+    pub fn tolerance_words(&self) -> Option<String> {
+        let from: String = match self.healed.source {
+            ToleranceSource::Lattice => return None,
+            ToleranceSource::Given => "as asked for".into(),
+            ToleranceSource::Decimals(1) => "coordinates with 1 decimal".into(),
+            ToleranceSource::Decimals(k) => format!("coordinates with {k} decimals"),
+            ToleranceSource::Digits(n) => format!("coordinates with {n} digits"),
+            ToleranceSource::Float32 => "coordinates of 32-bit floats".into(),
+            ToleranceSource::Size | ToleranceSource::Noise => {
+                "most corners lie off what they touch, by less than a millionth of the scene's reach".into()
+            }
+        };
+        let Healed {
+            within,
+            bodies,
+            corners,
+            distance,
+            kept,
+            ..
+        } = self.healed;
+        let gap = self.tolerance.gap;
+        let mut words = if within <= 0.0 {
+            format!("edges touch within {gap:.2e} m, a millionth of the scene's reach")
+        } else if within < gap {
+            format!(
+                "edges touch within {gap:.2e} m, a millionth of the scene's reach, and are one within {within:.2e} m ({from})"
+            )
+        } else {
+            format!("edges touch within {gap:.2e} m ({from})")
+        };
+        if corners > 0 {
+            let of = if bodies == 1 { "body" } else { "bodies" };
+            let corner = if corners == 1 { "corner" } else { "corners" };
+            words += &format!(
+                "; {corners} {corner} of {bodies} {of} moved onto what they touch, by up to {distance:.1e} m"
+            );
+        }
+        if kept > 0 {
+            words += &format!(
+                "; {kept} stayed as written, because moved they would lie deeper in others"
+            );
+        }
+        Some(words)
+    }
+}

@@ -1,0 +1,214 @@
+//! How far the coordinates of a file may be off, judged by how they are written.
+//!
+//! Only the digits count here: a file whose coordinates mostly end at the same decimal was rounded there, one whose
+//! numbers are all 32-bit floats came through such floats. Where nothing of the kind shows, nothing is claimed.
+
+use super::ToleranceSource;
+use super::format::{Pair, SceneFile};
+
+/// This share of the coordinates has to end at the last decimal, or the file was not rounded there.
+const SHARE: f64 = 0.25;
+/// Nine in ten numbers rounded to a decimal end there; of 32-bit floats far fewer end at the last that occurs.
+const MOSTLY: f64 = 0.6;
+/// Numbers with more digits than this behind the point, or in all, were not rounded by anybody.
+const FULL: usize = 12;
+/// Sixteen decimals of the smallest double are more than a table has to hold.
+const MOST: usize = 40;
+
+/// What rounding a file shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Rounding {
+    /// How it was rounded.
+    pub(super) source: ToleranceSource,
+    /// Each coordinate may be off by so much, metres.
+    pub(super) error: f64,
+}
+
+/// The rounding a file's coordinates show, `None` where they are given in full.
+pub(super) fn of(file: &SceneFile) -> Option<Rounding> {
+    let mut digits = Digits::default();
+    let mut reach = 0.0_f64;
+    let mut turns = Digits::default();
+    let mut ring = |points: &[Pair]| {
+        for x in points.iter().flatten() {
+            digits.take(*x);
+            reach = reach.max(x.abs());
+        }
+    };
+    let entries = (file.ground.iter())
+        .map(|g| (&g.polygon, &g.holes, g.at, g.angle))
+        .chain((file.blocks.iter()).map(|b| (&b.polygon, &b.holes, b.at, b.angle)))
+        .chain((file.shapes.0.iter()).map(|s| (&s.1.polygon, &s.1.holes, None, None)));
+    for (polygon, holes, at, angle) in entries {
+        ring(polygon.as_deref().unwrap_or_default());
+        holes.iter().for_each(|hole| ring(hole));
+        // Places on a lattice are counted in steps and seldom rounded.
+        if file.grid.is_none() {
+            ring(at.as_slice());
+        }
+        turns.take(angle.unwrap_or(0.0));
+    }
+    let mut found = digits.rounding()?;
+    // Whoever rounds places to three decimals may turn by whole degrees; a turn with more decimals is rounded itself.
+    if let Some(k) = (turns.decimals.last(SHARE, turns.count)).filter(|k| *k >= 3) {
+        found.error += (0.5 * power(k)).to_radians() * reach;
+    }
+    Some(found)
+}
+
+/// How many numbers end where.
+#[derive(Default)]
+struct Digits {
+    count: usize,
+    /// Largest amount.
+    largest: f64,
+    /// How many have so many decimals, and so many significant digits.
+    decimals: Table,
+    significant: Table,
+    /// Whether some are no 32-bit floats, neither written out in full nor as shortly as such floats can be.
+    wide: bool,
+}
+
+struct Table([usize; MOST]);
+
+impl Default for Table {
+    fn default() -> Table {
+        Table([0; MOST])
+    }
+}
+
+impl Table {
+    fn add(&mut self, digits: usize) {
+        self.0[digits.min(MOST - 1)] += 1;
+    }
+
+    /// The largest number of digits, where at least a share of `count` numbers have as many.
+    fn last(&self, share: f64, count: usize) -> Option<usize> {
+        let last = self.0.iter().rposition(|n| *n > 0)?;
+        let enough = self.0[last] as f64 >= share * count as f64;
+        (enough && last <= FULL).then_some(last)
+    }
+
+    fn at_least(&self, digits: usize) -> usize {
+        self.0[digits..].iter().sum()
+    }
+}
+
+impl Digits {
+    /// Zeros are left out: they are exact in every notation.
+    fn take(&mut self, x: f64) {
+        if x == 0.0 || !x.is_finite() {
+            return;
+        }
+        let text = format!("{x:e}");
+        let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+        let digits = mantissa.bytes().filter(u8::is_ascii_digit).count();
+        let exponent: i64 = exponent.parse().unwrap_or(0);
+        let behind = digits as i64 - 1 - exponent;
+        self.decimals
+            .add(usize::try_from(behind.max(0)).unwrap_or(MOST));
+        self.significant.add(digits);
+        let narrow = x as f32;
+        let is_narrow = f64::from(narrow) == x || format!("{narrow:e}") == text;
+        self.wide |= !is_narrow;
+        self.count += 1;
+        self.largest = self.largest.max(x.abs());
+    }
+
+    fn rounding(&self) -> Option<Rounding> {
+        let decimals = |k: usize| Rounding {
+            source: ToleranceSource::Decimals(k),
+            error: 0.5 * power(k),
+        };
+        let float = 0.5 * f64::from(f32::EPSILON) * self.largest;
+        if let Some(k) = self.decimals.last(MOSTLY, self.count) {
+            let mut found = decimals(k);
+            if !self.wide {
+                found.error = found.error.max(float);
+            }
+            return Some(found);
+        }
+        // Any number of seven digits is a 32-bit float written shortly; numbers of eight hardly ever all are by chance.
+        let long = self.significant.at_least(7) as f64 >= SHARE * self.count as f64;
+        if !self.wide && long && self.significant.at_least(8) > 0 {
+            return Some(Rounding {
+                source: ToleranceSource::Float32,
+                // As much again for what was computed in such floats before.
+                error: 2.0 * float,
+            });
+        }
+        if let Some(k) = self.decimals.last(SHARE, self.count) {
+            return Some(decimals(k));
+        }
+        let n = self.significant.last(SHARE, self.count)?;
+        let text = format!("{:e}", self.largest);
+        let exponent: i32 = text.split_once('e')?.1.parse().ok()?;
+        let unit = libm::pow(10.0, f64::from(exponent + 1) - n as f64);
+        Some(Rounding {
+            source: ToleranceSource::Digits(n),
+            error: 0.5 * unit,
+        })
+    }
+}
+
+/// 10 to the power −k.
+fn power(k: usize) -> f64 {
+    libm::pow(10.0, -(k as f64))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rounding(numbers: impl IntoIterator<Item = f64>) -> Option<Rounding> {
+        let mut digits = Digits::default();
+        numbers.into_iter().for_each(|x| digits.take(x));
+        digits.rounding()
+    }
+
+    /// Numbers between −20 and 20 that look like chance.
+    fn numbers() -> impl Iterator<Item = f64> {
+        (1..200).map(|i| 20.0 * libm::sin(f64::from(i * i)))
+    }
+
+    #[test]
+    fn decimals_are_counted() {
+        for k in 0..=9 {
+            let unit = power(k);
+            let rounded = numbers().map(|x| (x / unit).round() * unit);
+            let text = rounded.map(|x| format!("{x:.k$}").parse().unwrap_or(f64::NAN));
+            let found = rounding(text).expect("rounded");
+            assert_eq!(found.source, ToleranceSource::Decimals(k));
+            assert!((found.error - 0.5 * unit).abs() <= 1e-12 * unit);
+        }
+    }
+
+    #[test]
+    fn floats_of_32_bits_are_known_in_full_and_in_short() {
+        let full = numbers().map(|x| f64::from(x as f32));
+        let short = numbers().map(|x| format!("{}", x as f32).parse().unwrap_or(f64::NAN));
+        for found in [rounding(full), rounding(short)] {
+            let found = found.expect("rounded");
+            assert_eq!(found.source, ToleranceSource::Float32);
+            assert!((1e-6..3e-6).contains(&found.error), "{}", found.error);
+        }
+    }
+
+    #[test]
+    fn significant_digits_are_counted_where_decimals_differ() {
+        let spread =
+            (0..240).map(|i| libm::pow(10.0, f64::from(i % 6) - 2.0) * (1.0 + f64::from(i) / 77.0));
+        let text = spread.map(|x| format!("{x:.5e}").parse().unwrap_or(f64::NAN));
+        let found = rounding(text).expect("rounded");
+        assert_eq!(found.source, ToleranceSource::Digits(6));
+        assert!((0.004..0.006).contains(&found.error), "{}", found.error);
+    }
+
+    #[test]
+    fn what_is_written_in_full_or_by_hand_with_one_fine_number_is_not_rounded() {
+        assert_eq!(rounding(numbers()), None);
+        let by_hand = (0..40).map(|i| 0.5 * f64::from(i)).chain([1.000001]);
+        assert_eq!(rounding(by_hand), None);
+        assert_eq!(rounding([]), None);
+    }
+}

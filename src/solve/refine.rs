@@ -1,0 +1,321 @@
+//! Forces made good for every block for itself: small changes of forces that balance on the whole already.
+//!
+//! A solver balances every block to a billionth of the heaviest load, which is nothing to a wall and everything to a
+//! pebble in it. Two programs change its forces:
+//!
+//! - [`relative`]: each ray of a friction cone may change in parts of its own amount, each block's balance counts in
+//!   parts of that block's own forces; the least such change is a system of linear equations.
+//! - [`corrected`]: the least change in absolute terms that keeps every amount admissible. For a part of a structure in
+//!   its own scale, where what presses it from outside stays as it is.
+//!
+//! What is left unbalanced is summed with twice the digits, since it is a small difference of large forces.
+
+use super::{Amounts, Care, Effort, Status, careful};
+use crate::geometry::{Sum, Vector, quarter_turn};
+use crate::program::{Column, Conic, Correction, Force, Program, columns, least_squares};
+
+/// Rounds of changes; each gains the solver's digits.
+const ROUNDS: usize = 4;
+
+/// What a block's balance may be off by costs so much, so that there is an answer where a balance there is not.
+const FIRMNESS: f64 = 1e8;
+
+/// Amounts beyond so many sizes of the change cannot become negative by it.
+const AMPLE: f64 = 1e4;
+
+/// What the forces leave unbalanced of a program's need, and Σ |force| on each block.
+fn rest(program: &Program, amounts: &Amounts) -> (Vec<f64>, Vec<f64>) {
+    let mut sums: Vec<Sum> = vec![Sum::default(); program.need.len()];
+    for (sum, need) in sums.iter_mut().zip(&program.need) {
+        sum.add(*need);
+    }
+    let mut total: Vec<f64> = program
+        .need
+        .chunks_exact(3)
+        .map(|need| libm::hypot(need[0], need[1]))
+        .collect();
+    let mut act = |block: usize, arm: Vector, direction: Vector, amount: f64| {
+        let row = 3 * block;
+        sums[row].add_product(-amount, direction.x);
+        sums[row + 1].add_product(-amount, direction.y);
+        sums[row + 2].add_product(-arm.x, direction.y * amount);
+        sums[row + 2].add_product(arm.y, direction.x * amount);
+        total[block] += amount.abs();
+    };
+    for (k, contact) in program.contacts.iter().enumerate() {
+        let (normal, tangent) = (contact.normal, quarter_turn(contact.normal));
+        let sides = [
+            Some((contact.on, 1.0)),
+            contact.from.map(|from| (from, -1.0)),
+        ];
+        for ((block, arms), sign) in sides.into_iter().flatten() {
+            act(block, arms[0], normal * sign, amounts.normal[k][0]);
+            act(block, arms[1], normal * sign, amounts.normal[k][1]);
+            act(block, arms[0], tangent * sign, amounts.friction[k]);
+        }
+    }
+    for (grip, [x, y, _]) in program.grips.iter().zip(&amounts.grip) {
+        act(grip.block, grip.arm, Vector::new(1.0, 0.0), *x);
+        act(grip.block, grip.arm, Vector::new(0.0, 1.0), *y);
+    }
+    for (grip, [_, _, moment]) in program.grips.iter().zip(&amounts.grip) {
+        sums[3 * grip.block + 2].add(-moment);
+    }
+    (sums.into_iter().map(Sum::value).collect(), total)
+}
+
+/// The amounts of a program's columns that make up given forces, inside the friction cones as far as may be.
+///
+/// A contact force N, T with s = |T|/μN is (1 − s)/2 of N straight, (1 + 3s)/4 of it along the ray on the side of T and
+/// (1 − s)/4 of it along the other.
+fn rays(program: &Program, list: &[Column], amounts: &Amounts) -> Vec<f64> {
+    let amount = |column: &Column| match column.force {
+        Force::Ray {
+            contact,
+            point,
+            normal,
+            friction,
+        } => {
+            let pressed = amounts.normal[contact][point];
+            let mu = program.contacts[contact].friction;
+            let [first, second] = amounts.normal[contact];
+            let most = mu * (first + second);
+            let used = match most > 0.0 {
+                true => (amounts.friction[contact] / most).clamp(-1.0, 1.0),
+                false => 0.0,
+            };
+            let share = if mu == 0.0 {
+                1.0
+            } else if friction == 0.0 {
+                0.5 * (1.0 - used.abs())
+            } else if friction * used > 0.0 {
+                0.25 * (1.0 + 3.0 * used.abs())
+            } else {
+                0.25 * (1.0 - used.abs())
+            };
+            share * pressed / normal
+        }
+        Force::Grip {
+            grip,
+            component,
+            sign,
+        } => (sign * amounts.grip[grip][component]).max(0.0),
+        _ => 0.0,
+    };
+    list.iter().map(amount).collect()
+}
+
+/// Forces changed by `changes` of the columns, no pull among them.
+fn changed(amounts: &Amounts, list: &[Column], changes: &[f64]) -> Amounts {
+    let mut changed = amounts.clone();
+    for (column, change) in list.iter().zip(changes) {
+        changed.add(column.force, *change);
+    }
+    for normal in changed.normal.iter_mut().flatten() {
+        *normal = normal.max(0.0);
+    }
+    changed
+}
+
+/// Each block's rows in parts of its own forces: 1/Σ|force|, of the moment also over the longest arm.
+fn row_scales(program: &Program, total: &[f64]) -> Vec<f64> {
+    let mut reach = vec![0.0; program.blocks];
+    let mut reaches = |block: usize, arm: Vector| reach[block] = f64::max(reach[block], arm.norm());
+    for contact in &program.contacts {
+        let sides = [Some(contact.on), contact.from];
+        for (block, arms) in sides.into_iter().flatten() {
+            arms.into_iter().for_each(|arm| reaches(block, arm));
+        }
+    }
+    for grip in &program.grips {
+        reaches(grip.block, grip.arm);
+    }
+    let one = |v: f64| if v > 0.0 { 1.0 / v } else { 1.0 };
+    let rows = total.iter().zip(&reach);
+    rows.flat_map(|(total, reach)| [one(*total), one(*total), one(*total) * one(*reach)])
+        .collect()
+}
+
+fn largest(rest: &[f64], scales: &[f64]) -> f64 {
+    let off = rest.iter().zip(scales).map(|(v, d)| (v * d).abs());
+    off.fold(0.0, f64::max)
+}
+
+/// Forces near given ones that balance every block better in parts of its own forces, if there are such nearby.
+///
+/// With r what is left, w the amounts of the rays and D the rows' scales, each round is the program
+/// min ½ |ε|² + ½ firmness |v|²  s.t.  D A W ε + v = D r. A block that no forces balance keeps its v.
+pub fn relative(program: &Program, amounts: &Amounts, effort: &mut Effort) -> Option<Amounts> {
+    let list = columns(program);
+    let (mut best, mut better) = (amounts.clone(), false);
+    for _ in 0..ROUNDS {
+        let (left, total) = rest(program, &best);
+        let scales = row_scales(program, &total);
+        let size = largest(&left, &scales);
+        if size <= 1e-14 {
+            break;
+        }
+        let weights = rays(program, &list, &best);
+        let used: Vec<usize> = (0..list.len()).filter(|k| weights[*k] > 0.0).collect();
+        let rows = left.len();
+        let mut conic = Conic {
+            unknowns: used.len() + rows,
+            quadratic: Vec::with_capacity(used.len() + rows),
+            linear: vec![0.0; used.len() + rows],
+            matrix: Vec::with_capacity(6 * used.len() + rows),
+            bound: left
+                .iter()
+                .zip(&scales)
+                .map(|(v, d)| v * d / size)
+                .collect(),
+            equalities: rows,
+        };
+        for (unknown, k) in used.iter().enumerate() {
+            conic.quadratic.push((unknown, unknown, 1.0));
+            for (row, value) in list[*k].entries() {
+                let entry = value * weights[*k] * scales[row];
+                conic.matrix.push((row, unknown, entry));
+            }
+        }
+        for row in 0..rows {
+            let unknown = used.len() + row;
+            conic.quadratic.push((unknown, unknown, FIRMNESS));
+            conic.matrix.push((row, unknown, 1.0));
+        }
+        let answer = careful(&conic, Care::Full, effort);
+        if answer.status != Status::Solved {
+            break;
+        }
+        let mut changes = vec![0.0; list.len()];
+        for (unknown, k) in used.iter().enumerate() {
+            // Small changes are meant; what would vanish by one stays where a later round can find it.
+            changes[*k] = (answer.x[unknown] * size).max(-0.5) * weights[*k];
+        }
+        let next = changed(&best, &list, &changes);
+        let (after, total) = rest(program, &next);
+        // Some blocks may have no balance; the others have gained digits all the same.
+        if digits(&after, &row_scales(program, &total)) < digits(&left, &scales) + 0.3 {
+            break;
+        }
+        (best, better) = (next, true);
+    }
+    better.then_some(best)
+}
+
+/// Decimal digits to which the blocks balance, all together.
+fn digits(left: &[f64], scales: &[f64]) -> f64 {
+    left.chunks_exact(3)
+        .zip(scales.chunks_exact(3))
+        .map(|(left, scales)| -libm::log10(largest(left, scales).max(1e-16)))
+        .sum()
+}
+
+/// Forces that balance a program to rounding and differ least from given ones, if there are such nearby.
+pub fn corrected(program: &Program, amounts: &Amounts, effort: &mut Effort) -> Option<Amounts> {
+    let list = columns(program);
+    let (mut best, mut better) = (amounts.clone(), false);
+    for _ in 0..ROUNDS {
+        let (left, _) = rest(program, &best);
+        let size = left.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+        let weights = rays(program, &list, &best);
+        let most = weights.iter().fold(0.0, |m: f64, v| m.max(*v));
+        if size <= f64::EPSILON * most || size == 0.0 {
+            break;
+        }
+        let blown: Vec<f64> = left.iter().map(|v| v / size).collect();
+        let ample: Vec<f64> = weights.iter().map(|w| w.min(AMPLE * size)).collect();
+        let correction = Correction {
+            amounts: &ample,
+            size,
+        };
+        let conic = least_squares(&blown, &list, Some(correction));
+        let answer = careful(&conic, Care::Full, effort);
+        if answer.status != Status::Solved {
+            break;
+        }
+        let changes: Vec<f64> = answer.x.iter().map(|d| d * size).collect();
+        let next = changed(&best, &list, &changes);
+        let (left, _) = rest(program, &next);
+        if left.iter().any(|v| v.abs() > 0.5 * size) {
+            break;
+        }
+        (best, better) = (next, true);
+    }
+    better.then_some(best)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::interface::ContactKind;
+    use crate::program::{Contact, Scale};
+
+    /// Blocks 1 wide and high in a tower, with these weights.
+    fn tower(weights: &[f64], friction: f64) -> Program {
+        let foot = [Vector::new(0.5, -0.5), Vector::new(-0.5, -0.5)];
+        let head = [Vector::new(0.5, 0.5), Vector::new(-0.5, 0.5)];
+        Program {
+            blocks: weights.len(),
+            need: weights.iter().flat_map(|w| [0.0, *w, 0.0]).collect(),
+            contacts: (0..weights.len())
+                .map(|k| Contact {
+                    on: (k, foot),
+                    from: (k > 0).then(|| (k - 1, head)),
+                    normal: Vector::new(0.0, 1.0),
+                    friction,
+                    points: 2,
+                    kind: ContactKind::Edge,
+                })
+                .collect(),
+            grips: Vec::new(),
+            scale: Scale {
+                length: 1.0,
+                force: 1.0,
+            },
+        }
+    }
+
+    /// Forces that balance a tower from the top down, each off by a billionth of the whole.
+    fn rough(weights: &[f64]) -> Amounts {
+        let above = |k: usize| weights[k..].iter().sum::<f64>();
+        let off = |k: usize| 1e-9 * ((7 * k % 5) as f64 - 2.0) * above(0);
+        Amounts {
+            normal: (0..weights.len())
+                .map(|k| [0.5 * above(k) + off(k), 0.5 * above(k) + off(k + 1)].map(|v| v.max(0.0)))
+                .collect(),
+            friction: vec![0.0; weights.len()],
+            grip: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn a_light_block_on_heavy_ones_gets_its_own_digits() {
+        let weights = [300.0, 300.0, 1.0, 1e-4, 1e-5];
+        let program = tower(&weights, 0.5);
+        let start = rough(&weights);
+        let mut effort = Effort::default();
+        let found = relative(&program, &start, &mut effort).expect("it stands");
+        let (left, total) = rest(&program, &found);
+        assert!(largest(&left, &row_scales(&program, &total)) < 1e-11);
+        assert!(found.normal.iter().flatten().all(|n| *n >= 0.0));
+    }
+
+    #[test]
+    fn a_correction_balances_and_pulls_nowhere() {
+        let program = tower(&[1.0], 0.0);
+        let start = Amounts {
+            normal: vec![[0.9, 0.0]],
+            friction: vec![0.0],
+            grip: Vec::new(),
+        };
+        let mut effort = Effort::default();
+        let found = corrected(&program, &start, &mut effort).expect("it stands");
+        for normal in found.normal[0] {
+            assert!((normal - 0.5).abs() < 1e-12, "{normal}");
+        }
+        // Pushed up, it has no balance.
+        let mut lifted = program.clone();
+        lifted.need[1] = -1.0;
+        assert!(corrected(&lifted, &start, &mut effort).is_none());
+    }
+}

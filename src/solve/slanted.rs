@@ -1,0 +1,65 @@
+//! Columns without the normal forces that are sums of others.
+//!
+//! Where admissible forces have no price a normal force alone is the sum of the two rays beside it, (n̂ + μ t̂)/(1 + μ) and
+//! (n̂ − μ t̂)/(1 + μ), and its row follows from theirs. Without it a third of the rows is gone.
+
+use super::Twin;
+use crate::program::{Column, Force};
+
+/// The columns that are left, and where they stood.
+pub(super) struct Slanted {
+    /// The columns.
+    pub columns: Vec<Column>,
+    places: Vec<usize>,
+}
+
+impl Slanted {
+    /// Leaves out every normal force alone that two rays follow.
+    pub fn of(all: &[Column]) -> Slanted {
+        let places: Vec<usize> = (0..all.len()).filter(|k| !is_middle(all, *k)).collect();
+        Slanted {
+            columns: places.iter().map(|k| all[*k]).collect(),
+            places,
+        }
+    }
+
+    /// Amounts of all columns from those of the columns left.
+    pub fn amounts_of_all(&self, all: &[Column], amounts: &[f64]) -> Vec<f64> {
+        let mut full = vec![0.0; all.len()];
+        for (amount, place) in amounts.iter().zip(&self.places) {
+            full[*place] = *amount;
+        }
+        full
+    }
+
+    /// An optimum told in all columns: half of what two rays share is written as the normal force alone.
+    pub fn told_of_all(&self, all: &[Column], solved: Twin) -> Twin {
+        let mut full = Twin {
+            amounts: self.amounts_of_all(all, &solved.amounts),
+            slack: self.amounts_of_all(all, &solved.slack),
+            worth: self.amounts_of_all(all, &solved.worth),
+            ..solved
+        };
+        for k in (0..all.len()).filter(|k| is_middle(all, *k)) {
+            let Force::Ray { normal, .. } = all[k + 1].force else {
+                continue;
+            };
+            let shared = 0.5 * full.amounts[k + 1].min(full.amounts[k + 2]);
+            full.amounts[k] = 2.0 * normal * shared;
+            full.slack[k] = (full.slack[k + 1] + full.slack[k + 2]) / (2.0 * normal);
+            full.amounts[k + 1] -= shared;
+            full.amounts[k + 2] -= shared;
+        }
+        full
+    }
+}
+
+/// Whether a column is a normal force alone that two rays with friction follow.
+fn is_middle(all: &[Column], k: usize) -> bool {
+    let with_friction = |c: Option<&Column>| {
+        c.is_some_and(|c| matches!(c.force, Force::Ray { friction, .. } if friction != 0.0))
+    };
+    matches!(all[k].force, Force::Ray { friction: 0.0, .. })
+        && with_friction(all.get(k + 1))
+        && with_friction(all.get(k + 2))
+}

@@ -1,0 +1,170 @@
+//! Text from files in what we write: one function per kind of output, through which every string goes that is not ours.
+//!
+//! A title, an id, a file's name or a piece of a file may hold anything: line breaks that would begin a row of a table,
+//! escape sequences of terminals, marks that turn the order of reading round, markup, formulas of spreadsheets. After these
+//! functions it is words on one line and nothing else. What cannot be seen becomes [`HIDDEN`], so that it is seen.
+
+/// Stands for a character that cannot be seen and would do something.
+pub const HIDDEN: char = '\u{fffd}';
+
+/// Words on one line: line breaks and tabs become spaces; other controls and what turns the order of reading round become
+/// [`HIDDEN`]. As many characters as before.
+///
+/// ```
+/// use drystone::text::line;
+/// assert_eq!(line("x\n  all  stable"), "x   all  stable");
+/// assert_eq!(line("\u{1b}[31mred"), "\u{fffd}[31mred");
+/// ```
+pub fn line(text: &str) -> String {
+    text.chars().map(shown).collect()
+}
+
+/// As [`line`], with white space narrowed to single spaces and at most `most` characters: for a heading, which a terminal
+/// may break where it ends.
+pub fn heading(text: &str, most: usize) -> String {
+    let line = line(text);
+    let words: Vec<&str> = line.split(' ').filter(|word| !word.is_empty()).collect();
+    let words = words.join(" ");
+    if words.chars().count() <= most {
+        return words;
+    }
+    words
+        .chars()
+        .take(most.saturating_sub(1))
+        .chain(['…'])
+        .collect()
+}
+
+fn shown(c: char) -> char {
+    match c {
+        '\t' | '\n' | '\u{b}' | '\u{c}' | '\r' | '\u{85}' | '\u{2028}' | '\u{2029}' => ' ',
+        c if is_hidden(c) => HIDDEN,
+        c => c,
+    }
+}
+
+/// Controls, and marks that overrule or embed a direction of writing ([UAX9] 2.1 to 2.4).
+///
+/// [UAX9]: https://www.unicode.org/reports/tr9/
+fn is_hidden(c: char) -> bool {
+    c.is_control() || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+}
+
+/// Text for SVG and any other XML, as content or between quotes: one line, its marks replaced, without the code points that
+/// XML forbids.
+pub fn xml(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars().map(shown) {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            '\'' => out.push_str("&#39;"),
+            ' '..='\u{7e}' | '\u{a0}'..='\u{fdcf}' | '\u{fdf0}'..='\u{fffd}' => out.push(c),
+            // Above the first plane the last two code points of each plane are no characters.
+            '\u{10000}'.. if u32::from(c) & 0xfffe != 0xfffe => out.push(c),
+            _ => {}
+        }
+    }
+    out
+}
+
+/// Text for Markdown within a line: no emphasis, heading, list, link, code or HTML begins in it, and no address is made a
+/// link of.
+pub fn markdown(text: &str) -> String {
+    let line = line(text);
+    let text = line.trim();
+    let mut out = String::with_capacity(text.len());
+    // A list or a heading begins at the beginning of a line only.
+    let number = text.len() - text.trim_start_matches(|c: char| c.is_ascii_digit()).len();
+    for (place, c) in text.char_indices() {
+        let rest = &text[place..];
+        let begins = match c {
+            '-' | '+' | '=' => place == 0,
+            '.' | ')' => place == number && number > 0 || text[..place].ends_with("www"),
+            ':' => rest.starts_with(":/"),
+            _ => "\\`*_[]<>#|~@&$^".contains(c),
+        };
+        if begins {
+            out.push('\\');
+        }
+        out.push(c);
+    }
+    out
+}
+
+/// Text as a cell of a table of comma separated values: in quotes, and with an apostrophe before what a spreadsheet would
+/// take for a formula.
+pub fn csv(text: &str) -> String {
+    let line = line(text);
+    let formula = line
+        .trim_start()
+        .starts_with(['=', '+', '-', '@', '＝', '＋', '－', '＠']);
+    let mark = if formula { "'" } else { "" };
+    format!("\"{mark}{}\"", line.replace('"', "\"\""))
+}
+
+/// JSON whose strings hold nothing that a terminal would act on: the same values, written with escapes. Outside of strings
+/// there are no such characters.
+pub fn json(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        let kept = matches!(c, '\n' | '\t' | '\r');
+        if !kept && (is_hidden(c) || matches!(c, '\u{2028}' | '\u{2029}')) {
+            out.push_str(&format!("\\u{:04x}", u32::from(c)));
+        } else {
+            out.push(c);
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_keeps_its_length_and_nothing_that_acts() {
+        let hostile = "a\u{1b}[31m\tb\r\n\u{9b}c\u{202e}d\u{2028}e\u{0}";
+        assert_eq!(
+            line(hostile),
+            "a\u{fffd}[31m b  \u{fffd}c\u{fffd}d e\u{fffd}"
+        );
+        assert_eq!(line("עברית‏ ü 石"), "עברית‏ ü 石", "other scripts stay");
+        assert_eq!(heading("a \n\n   b", 9), "a b");
+        assert_eq!(heading("abcdef", 4), "abc…");
+    }
+
+    #[test]
+    fn xml_has_no_marks_and_no_forbidden_code_points() {
+        assert_eq!(
+            xml("<a b='\"'>&\u{fffe}\u{1ffff}\n"),
+            "&lt;a b=&#39;&quot;&#39;&gt;&amp; "
+        );
+    }
+
+    #[test]
+    fn markdown_stays_words() {
+        for (text, written) in [
+            ("[a](javascript:b)", "\\[a\\](javascript:b)"),
+            ("# a", "\\# a"),
+            ("1. a", "1\\. a"),
+            ("12) a 3. b", "12\\) a 3. b"),
+            ("- a - b", "\\- a - b"),
+            ("http://a.b www.c.d", "http\\://a.b www\\.c.d"),
+            ("a\n\n# b", "a  \\# b"),
+            ("An arch, 0.7 m (thin).", "An arch, 0.7 m (thin)."),
+        ] {
+            assert_eq!(markdown(text), written);
+        }
+    }
+
+    #[test]
+    fn cells_are_text() {
+        assert_eq!(csv("a,\"b\""), "\"a,\"\"b\"\"\"");
+        assert_eq!(csv(" =1+1"), "\"' =1+1\"");
+        assert_eq!(csv("\t@a\nb"), "\"' @a b\"");
+        assert_eq!(csv("a-b"), "\"a-b\"");
+    }
+}

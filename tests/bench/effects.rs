@@ -1,0 +1,126 @@
+//! What each effect costs: the same wall with effects switched on one by one, the unknowns each adds as the result counts
+//! them, and the time in parts of that of the wall with weight and contact alone.
+//!
+//! `cargo bench --bench effects` prints the table of `src/doc/numerics.md`. All walls take turns, so that they see the same
+//! machine; each time is a median.
+
+#![allow(
+    clippy::panic,
+    clippy::print_stdout,
+    clippy::unwrap_used,
+    reason = "the table is the result; a scene of our own that is not sound is a mistake here"
+)]
+
+#[allow(dead_code, reason = "the tests use the rest")]
+#[path = "../it/structure.rs"]
+mod structure;
+
+use std::time::Instant;
+
+use drystone::analysis::{Ask, Options};
+use drystone::{Analysis, Scene};
+use serde_json::{Value, json};
+
+use structure::{scene, wall};
+
+/// How often each wall is timed.
+const TURNS: usize = 15;
+
+fn main() {
+    let plain = Options::default();
+    let margins = Options {
+        margins: Ask::Yes,
+        ..plain
+    };
+    let wedging = Options {
+        wedging: Ask::Yes,
+        ..plain
+    };
+    let robots = json!([{ "id": "r", "holds": "40", "limits": { "force": 100.0 } },
+        { "id": "s", "holds": "60", "limits": { "force": 100.0 } }]);
+    let mut strong = robots.clone();
+    for robot in strong.as_array_mut().unwrap() {
+        robot["limits"]["torque"] = json!(10.0);
+    }
+    let loads = json!([{ "block": "90", "force": [0.0, -40.0], "at": [5.0, 4.75] }]);
+    let cases: Vec<(&str, Value, Options)> = vec![
+        ("weight and contact", smooth(), plain),
+        ("+ friction", with(&[("friction", json!(0.7))]), plain),
+        ("+ kernel", with(&[("kernel", json!(0.2))]), plain),
+        ("+ robots", with(&[("robots", robots)]), plain),
+        ("+ robot torque", with(&[("robots", strong)]), plain),
+        ("+ loads", with(&[("loads", loads)]), plain),
+        (
+            "+ corner contacts",
+            with(&[("corner_contacts", json!(true))]),
+            plain,
+        ),
+        ("+ margins", smooth(), margins),
+        ("+ wedging", smooth(), wedging),
+        (
+            "friction + margins",
+            with(&[("friction", json!(0.7))]),
+            margins,
+        ),
+        (
+            "friction, falling: + sticking, mechanism",
+            with(&[("friction", json!(0.7)), ("gravity", turned(40.0))]),
+            plain,
+        ),
+    ];
+    let scenes: Vec<Scene> = cases.iter().map(|c| scene(&c.1)).collect();
+    let mut times = vec![Vec::new(); cases.len()];
+    for _ in 0..TURNS {
+        for ((scene, case), times) in scenes.iter().zip(&cases).zip(&mut times) {
+            let start = Instant::now();
+            std::hint::black_box(Analysis::with(std::hint::black_box(scene), &case.2));
+            times.push(1e3 * start.elapsed().as_secs_f64());
+        }
+    }
+    let median = |times: &Vec<f64>| {
+        let mut times = times.clone();
+        times.sort_by(f64::total_cmp);
+        times[times.len() / 2]
+    };
+    let base = median(&times[0]);
+    println!(
+        "| wall of {} bricks with | verdict | unknowns | ms | ratio |",
+        scenes[0].blocks.len()
+    );
+    println!("|---|---|---|---|---|");
+    for ((case, scene), times) in cases.iter().zip(&scenes).zip(&times) {
+        let analysis = Analysis::with(scene, &case.2);
+        let frame = &analysis.frames[0];
+        let simulated = frame.effects.iter().filter(|e| e.simulated);
+        println!(
+            "| {} | {:?} | {} | {:.2} | {:.2} |",
+            case.0,
+            frame.verdict,
+            simulated.map(|e| e.unknowns).sum::<usize>(),
+            median(times),
+            median(times) / base,
+        );
+    }
+}
+
+/// A wall without friction: weight and contact are all that it calls for.
+fn smooth() -> Value {
+    let mut file = wall(10, 10);
+    file["friction"] = json!(0.0);
+    file
+}
+
+/// The smooth wall with some keys set.
+fn with(keys: &[(&str, Value)]) -> Value {
+    let mut file = smooth();
+    for (key, value) in keys {
+        file[key] = value.clone();
+    }
+    file
+}
+
+/// Gravity turned to the right by some degrees.
+fn turned(degrees: f64) -> Value {
+    let (sin, cos) = libm::sincos(degrees.to_radians());
+    json!([9.81 * sin, -9.81 * cos])
+}

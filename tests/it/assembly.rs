@@ -1,0 +1,353 @@
+//! The assembly held against the outlines by a route that shares no code with it, and the law that a frame's answer depends
+//! on nothing placed later.
+//!
+//! Proofs sum forces on the assembly's centroids, load vectors and contacts. If those were wrong, so would be every proof.
+//! Here areas and centroids are summed over triangles with the first corner (the library sums over edges), and contacts
+//! are found by sampling points on either side of every outline.
+
+use std::fs;
+use std::path::Path;
+
+use drystone::analysis::Verdict;
+use drystone::assembly::Assembly;
+use drystone::effect::{Situation, assemble};
+use drystone::geometry::{Point, Vector};
+use drystone::interface::{ContactKind, Interfaces};
+use drystone::program::{Count, Program, Scale, columns};
+use drystone::scene::{BodyId, Frame};
+use drystone::{Analysis, Scene};
+use serde_json::{Value, json};
+
+use crate::structure::{arch, on_slope, rectangle, wall};
+
+/// The scenes of the source's figures, and some that lie askew.
+fn scenes() -> Vec<(String, Value)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/thesis");
+    let mut paths: Vec<_> = fs::read_dir(&folder)
+        .expect("the scenes of the source are there")
+        .map(|entry| entry.expect("readable").path())
+        .filter(|path| path.extension().is_some_and(|e| e == "json"))
+        .collect();
+    paths.sort();
+    let mut scenes: Vec<(String, Value)> = paths
+        .into_iter()
+        .map(|path| {
+            let text = fs::read_to_string(&path).expect("readable");
+            let file = serde_json::from_str(&text).expect("sound JSON");
+            (path.display().to_string(), file)
+        })
+        .collect();
+    scenes.push(("arch".into(), arch(13, 0.2, 0.7)));
+    scenes.push(("wall".into(), wall(4, 5)));
+    scenes.push(("slope".into(), on_slope(17.0, 3.0, 2.0, 0.5, 0.3)));
+    let mut loaded = wall(2, 3);
+    loaded["gravity"] = json!([3.0, -7.0]);
+    loaded["loads"] = json!([{ "block": "1", "force": [2.0, 5.0], "at": [0.3, 1.7], "torque": 0.7 },
+        { "block": "1", "force": [-1.0, 0.5], "at": [0.1, 0.2] }]);
+    scenes.push(("loaded".into(), loaded));
+    scenes
+}
+
+fn assembly_of(scene: &Scene, frame: &Frame) -> (Assembly, Vec<ContactKind>) {
+    let found = Interfaces::of(scene);
+    let interfaces = found.in_frame(scene, frame);
+    let situation = Situation {
+        scene,
+        frame,
+        interfaces: &interfaces,
+    };
+    let kinds = interfaces.iter().map(|i| i.kind).collect();
+    (assemble(&situation).0, kinds)
+}
+
+/// Area and first moments of a ring, over triangles with its first corner.
+fn by_triangles(ring: &[Point]) -> (f64, Vector) {
+    let origin = ring[0];
+    let mut area = 0.0;
+    let mut moment = Vector::zeros();
+    for pair in ring[1..].windows(2) {
+        let (u, v) = (pair[0] - origin, pair[1] - origin);
+        let twice = u.x * v.y - u.y * v.x;
+        area += twice / 2.0;
+        moment += (u + v) / 3.0 * (twice / 2.0);
+    }
+    (area, moment + origin.coords * area)
+}
+
+/// Whether a point lies in a body: rays to the right cross its outline and holes an odd number of times.
+fn contains(scene: &Scene, body: BodyId, p: Point) -> bool {
+    let polygon = &scene.body(body).polygon;
+    let mut inside = false;
+    let rings = std::iter::once(polygon.outline()).chain(polygon.holes().iter().map(|h| &h[..]));
+    for ring in rings {
+        for (k, a) in ring.iter().enumerate() {
+            let b = ring[(k + 1) % ring.len()];
+            if (a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * (p.y - a.y) / (b.y - a.y) {
+                inside = !inside;
+            }
+        }
+    }
+    inside
+}
+
+#[test]
+fn centroids_and_load_vectors_are_those_of_the_outlines() {
+    for (name, file) in scenes() {
+        let scene = crate::structure::scene(&file);
+        for frame in &scene.frames {
+            let (assembly, _) = assembly_of(&scene, frame);
+            assert_eq!(assembly.bodies.len(), frame.placed.len(), "{name}");
+            for body in &assembly.bodies {
+                let block = &scene.blocks[body.block.0];
+                let polygon = &block.body.polygon;
+                let (mut area, mut moment) = by_triangles(polygon.outline());
+                let sense = area.signum();
+                for hole in polygon.holes() {
+                    let (a, m) = by_triangles(hole);
+                    area -= sense * a.abs();
+                    moment -= m * (sense * a.signum());
+                }
+                let centroid = Point::from(moment / area);
+                assert!(
+                    (centroid - body.centroid).norm() < 1e-9,
+                    "{name}: {centroid}"
+                );
+                // The loads once more, about the origin, in plain components.
+                let g = scene.gravity;
+                let pull = if g.norm() > 0.0 { g / g.norm() } else { g };
+                let (mut fx, mut fy) = (pull.x * block.weight, pull.y * block.weight);
+                let mut m = centroid.x * fy - centroid.y * fx;
+                for load in scene.loads.iter().filter(|l| l.block == body.block) {
+                    fx += load.force.x;
+                    fy += load.force.y;
+                    m += load.at.x * load.force.y - load.at.y * load.force.x + load.torque;
+                }
+                let own = body.load.moment
+                    + (body.centroid.x * body.load.force.y - body.centroid.y * body.load.force.x);
+                let size = 1.0 + block.weight.abs();
+                assert!((body.load.force.x - fx).abs() < 1e-9 * size, "{name}");
+                assert!((body.load.force.y - fy).abs() < 1e-9 * size, "{name}");
+                assert!((own - m).abs() < 1e-8 * size, "{name}: {own} is not {m}");
+            }
+        }
+    }
+}
+
+#[test]
+fn contacts_lie_where_sampled_points_say_that_two_bodies_touch() {
+    const HAIR: f64 = 1e-5;
+    const SAMPLES: usize = 400;
+    let mut sampled = 0;
+    for (name, file) in scenes() {
+        let scene = crate::structure::scene(&file);
+        let Some(frame) = scene.frames.last() else {
+            continue;
+        };
+        let (assembly, kinds) = assembly_of(&scene, frame);
+        let mut bodies: Vec<BodyId> = (0..scene.ground.len()).map(BodyId::Ground).collect();
+        bodies.extend(frame.placed.iter().map(|b| BodyId::Block(*b)));
+        for body in &assembly.bodies {
+            let me = BodyId::Block(body.block);
+            let outline = scene.body(me).polygon.outline();
+            // How much of my boundary touches each other body.
+            let mut touching = vec![0.0; bodies.len()];
+            for (k, a) in outline.iter().enumerate() {
+                let along = outline[(k + 1) % outline.len()] - a;
+                let side = Vector::new(-along.y, along.x).normalize() * HAIR;
+                for step in 0..SAMPLES {
+                    let at = a + along * ((step as f64 + 0.5) / SAMPLES as f64);
+                    let out = if contains(&scene, me, at + side) {
+                        at - side
+                    } else {
+                        at + side
+                    };
+                    for (other, sum) in bodies.iter().zip(&mut touching) {
+                        if *other != me && contains(&scene, *other, out) {
+                            *sum += along.norm() / SAMPLES as f64;
+                        }
+                    }
+                }
+            }
+            for (other, measured) in bodies.iter().zip(&touching) {
+                let between = assembly.contacts.iter().filter(|c| {
+                    c.kind == ContactKind::Edge
+                        && (c.bodies == [me, *other] || c.bodies == [*other, me])
+                });
+                let found: f64 = between.map(|c| (c.ends[1] - c.ends[0]).norm()).sum();
+                let perimeter: f64 = outline
+                    .iter()
+                    .enumerate()
+                    .map(|(k, a)| (outline[(k + 1) % outline.len()] - a).norm())
+                    .sum();
+                let coarse = 2.0 * perimeter / SAMPLES as f64 + 4.0 * HAIR;
+                assert!(
+                    (found - measured).abs() <= coarse,
+                    "{name}: {me:?} and {other:?} touch along {measured} m, the assembly has {found} m"
+                );
+                sampled += usize::from(*measured > 0.0);
+            }
+        }
+        for contact in assembly
+            .contacts
+            .iter()
+            .filter(|c| c.kind == ContactKind::Edge)
+        {
+            let [on, from] = contact.bodies;
+            for share in [0.05, 0.35, 0.65, 0.95] {
+                let at = contact.ends[0] + (contact.ends[1] - contact.ends[0]) * share;
+                assert!(contains(&scene, on, at + contact.normal * HAIR), "{name}");
+                assert!(contains(&scene, from, at - contact.normal * HAIR), "{name}");
+            }
+            let inward = (contact.points[0] - contact.ends[0]).norm();
+            let length = (contact.ends[1] - contact.ends[0]).norm();
+            assert!(
+                (inward - scene.kernel / 2.0 * length).abs() < 1e-12,
+                "{name}"
+            );
+        }
+        assert_eq!(assembly.contacts.len(), kinds.len(), "{name}");
+    }
+    assert!(sampled > 150, "only {sampled} touching pairs were sampled");
+}
+
+#[test]
+fn components_hold_every_body_contact_and_grip_once_and_effects_count_what_is_posed() {
+    for (name, file) in scenes() {
+        let scene = crate::structure::scene(&file);
+        let analysis = Analysis::of(&scene);
+        for (frame, result) in scene.frames.iter().zip(&analysis.frames) {
+            let (assembly, _) = assembly_of(&scene, frame);
+            let parts = assembly.split();
+            let count = |of: fn(&Assembly) -> usize| parts.iter().map(of).sum::<usize>();
+            assert_eq!(count(|p| p.bodies.len()), assembly.bodies.len(), "{name}");
+            assert_eq!(
+                count(|p| p.contacts.len()),
+                assembly.contacts.len(),
+                "{name}"
+            );
+            assert_eq!(count(|p| p.grips.len()), assembly.grips.len(), "{name}");
+            let mut posed = 0;
+            for part in &parts {
+                let program = Program::of(part, Scale::of_assembly(part));
+                let all = columns(&program);
+                posed += all.len();
+                let count = Count::of(&program, &all);
+                assert_eq!(
+                    count.contact
+                        + count.friction
+                        + count.corner_contact
+                        + count.robot
+                        + count.robot_torque,
+                    all.len()
+                );
+            }
+            let reported: usize = result
+                .effects
+                .iter()
+                .filter(|e| e.simulated && e.effect != "sticking")
+                .map(|e| e.unknowns)
+                .sum();
+            assert_eq!(reported, posed, "{name}: {:?}", result.effects);
+        }
+    }
+}
+
+#[test]
+fn an_effect_that_is_not_called_for_leaves_no_trace_in_the_assembly() {
+    let mut smooth = wall(2, 3);
+    smooth["friction"] = json!(0.0);
+    let smooth = crate::structure::scene(&smooth);
+    let (assembly, _) = assembly_of(&smooth, &smooth.frames[0]);
+    assert!(assembly.contacts.iter().all(|c| c.friction == 0.0));
+    assert!(assembly.contacts.iter().all(|c| c.points == c.ends));
+    assert!(assembly.grips.is_empty());
+    let program = Program::of(&assembly, Scale::of_assembly(&assembly));
+    assert_eq!(columns(&program).len(), 2 * assembly.contacts.len());
+}
+
+/// A building sequence from a seed: bricks of many widths on a floor, robots that hold some of them for a while.
+fn sequence(seed: u64) -> Value {
+    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
+    let mut random = |n: u64| {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        state % n
+    };
+    let mut blocks = Vec::new();
+    let mut steps = Vec::new();
+    let mut heights = [0.0; 4];
+    let mut held: Option<String> = None;
+    for number in 0..8 {
+        let column = random(4) as usize;
+        let width = 0.4 + 0.1 * random(9) as f64;
+        let height = 0.25 * (1 + random(4)) as f64;
+        let left = 1.7 * column as f64 + 0.05 * random(6) as f64;
+        let id = format!("b{number}");
+        blocks
+            .push(json!({ "id": id, "polygon": rectangle(left, heights[column], width, height) }));
+        heights[column] += height;
+        let mut step = json!({ "title": id, "place": [id] });
+        match (held.take(), random(3)) {
+            (None, 0) => {
+                step["hold"] = json!({ "r": id });
+                held = Some(id);
+            }
+            (Some(_), 0) => step["release"] = json!(["r"]),
+            (kept, _) => held = kept,
+        }
+        steps.push(step);
+    }
+    json!({ "drystone": 1, "friction": 0.6, "kernel": 0.1,
+        "ground": [{ "polygon": rectangle(-1.0, -1.0, 10.0, 1.0) }],
+        "blocks": blocks, "steps": steps,
+        "robots": [{ "id": "r", "limits": { "force": 30.0, "torque": 2.0 } }] })
+}
+
+#[test]
+fn a_frame_is_answered_as_the_scene_of_what_stands_then() {
+    let (mut frames, mut falling) = (0, 0);
+    for seed in 1..40 {
+        let file = sequence(seed);
+        let scene = crate::structure::scene(&file);
+        let whole = Analysis::of(&scene);
+        for (frame, result) in scene.frames.iter().zip(&whole.frames) {
+            // The same as a file of its own: only what stands, held as it is held then.
+            let mut alone = file.clone();
+            alone.as_object_mut().expect("an object").remove("steps");
+            let placed: Vec<&str> = frame
+                .placed
+                .iter()
+                .map(|b| scene.blocks[b.0].id.as_str())
+                .collect();
+            alone["blocks"]
+                .as_array_mut()
+                .expect("blocks")
+                .retain(|b| placed.contains(&b["id"].as_str().expect("an id")));
+            for hold in &frame.holds {
+                alone["robots"][hold.robot.0]["holds"] = json!(scene.blocks[hold.block.0].id);
+                alone["robots"][hold.robot.0]["at"] = json!([hold.at.x, hold.at.y]);
+            }
+            let alone = crate::structure::first(&alone);
+            let name = format!("sequence {seed}, {}", frame.title);
+            assert_eq!(alone.verdict, result.verdict, "{name}");
+            assert_eq!(alone.length, result.length, "{name}");
+            let same = |a: f64, b: f64| (a - b).abs() <= 1e-7 * (1.0 + a.abs().max(b.abs()));
+            assert!(same(alone.total_force, result.total_force), "{name}");
+            assert!(same(alone.total_sticking, result.total_sticking), "{name}");
+            for (a, b) in alone.contacts.iter().zip(&result.contacts) {
+                assert_eq!(a.interface.ends, b.interface.ends, "{name}");
+                assert!(same(a.friction_force, b.friction_force), "{name}");
+                for k in 0..2 {
+                    assert!(same(a.normal_forces[k], b.normal_forces[k]), "{name}");
+                }
+            }
+            frames += 1;
+            falling += usize::from(result.verdict == Verdict::Unstable);
+        }
+    }
+    assert!(
+        frames > 300 && falling > 20,
+        "{falling} of {frames} frames fall"
+    );
+}

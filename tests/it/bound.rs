@@ -1,0 +1,292 @@
+//! Everything ends: the worst files of less than a megabyte are refused, or done, within ten seconds of processor time and
+//! a gigabyte of memory, and in words with the number found.
+
+#![cfg(unix)]
+
+use std::fmt::Write as _;
+use std::fs;
+use std::process::Command;
+
+use serde_json::json;
+
+struct Ran {
+    code: Option<i32>,
+    said: String,
+}
+
+/// Runs the program on a file with the system's own limits on time and memory.
+fn run(name: &str, text: &str, arguments: &str) -> Ran {
+    assert!(text.len() < 1_000_000, "{name} has {} bytes", text.len());
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join(name), text).expect("writable");
+    let program = env!("CARGO_BIN_EXE_drystone");
+    let line = format!("ulimit -t 10; ulimit -v 1300000; exec '{program}' {arguments}");
+    let ran = Command::new("sh")
+        .args(["-c", &line])
+        .current_dir(folder.path())
+        .env("RAYON_NUM_THREADS", "2")
+        .output()
+        .expect("starts");
+    Ran {
+        code: ran.status.code(),
+        said: String::from_utf8_lossy(&ran.stderr).into_owned(),
+    }
+}
+
+#[track_caller]
+fn refused(name: &str, text: &str, arguments: &str, words: &str) {
+    let ran = run(name, text, arguments);
+    let start: String = ran.said.chars().take(400).collect();
+    assert_eq!(ran.code, Some(2), "{name}: {start}");
+    assert!(ran.said.contains(words), "{name}: {start}");
+}
+
+fn svg(body: &str) -> String {
+    format!(
+        r#"<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" width="9" height="9">{body}</svg>"#
+    )
+}
+
+fn square(x: f64) -> serde_json::Value {
+    json!([[x, 0], [x + 1.0, 0], [x + 1.0, 1], [x, 1]])
+}
+
+#[test]
+fn copies_of_copies() {
+    let mut body = String::from(r#"<defs><rect id="a0" width="1" height="1"/>"#);
+    for level in 0..17 {
+        let _ = write!(
+            body,
+            r##"<g id="a{}"><use href="#a{level}"/><use href="#a{level}" x="{}"/></g>"##,
+            level + 1,
+            2 << level
+        );
+    }
+    body += r##"</defs><use href="#a17"/>"##;
+    refused(
+        "bomb.svg",
+        &svg(&body),
+        "import bomb.svg",
+        "outlines or more, copies included",
+    );
+}
+
+#[test]
+fn equal_outlines() {
+    let rects = r#"<rect width="4" height="4"/>"#.repeat(19_000);
+    refused(
+        "rects.svg",
+        &svg(&rects),
+        "import rects.svg",
+        "19000 outlines more than",
+    );
+    let path = format!(r#"<path d="{}"/>"#, "M0 0h4v4h-4z".repeat(4_000));
+    let ran = run("path.svg", &svg(&path), "import path.svg -o scene.json");
+    assert!(matches!(ran.code, Some(0 | 2)), "{}", ran.said);
+    let path = format!(
+        r#"<path fill-rule="evenodd" d="{}"/>"#,
+        "M0 0h4v4h-4z".repeat(80_000)
+    );
+    refused(
+        "paths.svg",
+        &svg(&path),
+        "import paths.svg",
+        "80000 outlines are too many to tell",
+    );
+    let rings = vec![json!([[[0, 0], [1, 0], [1, 1], [0, 1], [0, 0]]]); 16_000];
+    let text = json!({ "type": "MultiPolygon", "coordinates": rings }).to_string();
+    refused(
+        "same.geojson",
+        &text,
+        "import same.geojson",
+        "16000 outlines more than",
+    );
+    let text = "POLYGON((0 0,1 0,1 1,0 1,0 0))\n".repeat(20_000);
+    refused(
+        "same.wkt",
+        &text,
+        "import same.wkt",
+        "20000 outlines more than",
+    );
+}
+
+#[test]
+fn names_of_one_id_and_classes() {
+    let mut body = String::new();
+    for i in 0..9_000 {
+        let _ = write!(body, r#"<rect id="a" x="{}" width="4" height="4"/>"#, 5 * i);
+    }
+    let ran = run("ids.svg", &svg(&body), "import ids.svg -q -o ids.json");
+    assert_eq!(ran.code, Some(0), "{}", ran.said);
+    let mut body = String::from("<style>");
+    for i in 0..14_000 {
+        let _ = write!(body, ".c{i}{{fill:red}}");
+    }
+    body += "</style>";
+    for i in 0..14_000 {
+        let _ = write!(
+            body,
+            r#"<rect class="c{i}" x="{}" width="4" height="4"/>"#,
+            5 * i
+        );
+    }
+    refused(
+        "classes.svg",
+        &svg(&body),
+        "import classes.svg",
+        "14000 style rules and 14002 elements",
+    );
+}
+
+#[test]
+fn unknown_names_and_keys() {
+    let blocks: Vec<_> = (0..7_000)
+        .map(|i| json!({ "id": format!("b{i}"), "polygon": square(f64::from(2 * i)) }))
+        .collect();
+    let names: Vec<String> = (0..16_000).map(|i| format!("zz{i}x")).collect();
+    let text =
+        json!({ "drystone": 1, "blocks": blocks, "steps": [{ "place": names }] }).to_string();
+    refused(
+        "names.json",
+        &text,
+        "check names.json",
+        "and 1971 more in names.json",
+    );
+    // Names of 80 letters take longest to compare.
+    let long = |first: char, i: usize| format!("{first}{i:05}{}", "ab".repeat(37));
+    let blocks: Vec<_> = (0..2_000)
+        .map(|i| json!({ "id": long('b', i), "polygon": square(2.0 * i as f64) }))
+        .collect();
+    let names: Vec<String> = (0..7_000).map(|i| long('z', i)).collect();
+    let text =
+        json!({ "drystone": 1, "blocks": blocks, "steps": [{ "place": names }] }).to_string();
+    refused("long.json", &text, "check long.json", "unknown block");
+    let mut text = String::from("{\"drystone\": 1");
+    for i in 0..60_000 {
+        let _ = write!(text, ",\"k{i}\":1");
+    }
+    text += ",\"blocks\": []}";
+    refused(
+        "keys.json",
+        &text,
+        "check keys.json",
+        "there are more problems than the 2000 listed",
+    );
+}
+
+#[test]
+fn crossings_without_number() {
+    // A star that crosses itself at every side.
+    let n = 20_001;
+    let corners: Vec<_> = (0..n)
+        .map(|i| {
+            let (y, x) = libm::sincos(f64::from(i) * 3.2);
+            json!([(x * 1e6).round() / 1e6, (y * 1e6).round() / 1e6])
+        })
+        .collect();
+    let text = json!({ "drystone": 1, "blocks": [{ "id": "a", "polygon": corners }] }).to_string();
+    refused("star.json", &text, "check star.json", "meets the side");
+}
+
+#[test]
+fn a_joint_of_many_edges() {
+    let n = 30_000;
+    let top: Vec<_> = (0..=n).map(|i| json!([i, 0])).collect();
+    let under = [json!([0, -1]), json!([n, -1])];
+    let ground: Vec<_> = under.iter().chain(top.iter().rev()).cloned().collect();
+    let over = [json!([n, 1]), json!([0, 1])];
+    let block: Vec<_> = top.iter().chain(&over).cloned().collect();
+    let text = json!({ "drystone": 1, "ground": [{ "polygon": ground }], "blocks": [{ "id": "a", "polygon": block }] });
+    let ran = run("joint.json", &text.to_string(), "check joint.json");
+    assert_eq!(ran.code, Some(0), "{}", ran.said);
+}
+
+#[test]
+fn a_picture_that_is_too_large() {
+    let mut steps = vec![json!({ "place": ["a"] })];
+    steps.extend((0..499).map(|i| json!({ "title": format!("step {i}") })));
+    let text =
+        json!({ "drystone": 1, "ground": [{ "polygon": [[0, 0], [9, 0], [9, -1], [0, -1]] }],
+        "blocks": [{ "id": "a", "polygon": square(2.0) }], "steps": steps })
+        .to_string();
+    refused(
+        "steps.json",
+        &text,
+        "render steps.json -o a.png",
+        "out of range",
+    );
+}
+
+#[test]
+fn steps_without_number() {
+    let blocks: Vec<_> = (0..500)
+        .map(|i| json!({ "id": format!("b{i}"), "polygon": square(f64::from(2 * i)) }))
+        .collect();
+    let mut steps = vec![json!({ "place": (0..500).map(|i| format!("b{i}")).collect::<Vec<_>>() })];
+    steps.extend(vec![json!({}); 250_000]);
+    let text = json!({ "drystone": 1, "blocks": blocks, "steps": steps }).to_string();
+    refused(
+        "steps.json",
+        &text,
+        "check steps.json",
+        "250001 steps show their blocks",
+    );
+}
+
+/// A wall in running bond, too much for a hundredth of a second.
+fn wall(rows: i32, columns: i32) -> String {
+    let mut blocks = Vec::new();
+    for row in 0..rows {
+        for column in 0..columns {
+            let x = 2 * column + row % 2;
+            let corners = [[x, row], [x + 2, row], [x + 2, row + 1], [x, row + 1]];
+            blocks.push(json!({ "id": format!("{row}-{column}"), "polygon": corners }));
+        }
+    }
+    let end = 2 * columns + 1;
+    json!({ "drystone": 1, "ground": [{ "polygon": [[0, 0], [end, 0], [end, -1], [0, -1]] }],
+        "loads": [{ "block": format!("{}-0", rows - 1), "force": [0.3, 0] }], "blocks": blocks })
+    .to_string()
+}
+
+#[test]
+fn a_limit_of_time_leaves_the_rest_undecided() {
+    let text = wall(40, 30);
+    let late = run("wall.json", &text, "check --time-limit 0.01 wall.json");
+    assert_eq!(late.code, Some(3), "{}", late.said);
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("wall.json"), wall(3, 3)).expect("writable");
+    fs::write(folder.path().join("large.json"), &text).expect("writable");
+    let said = |arguments: &[&str]| {
+        let ran = Command::new(env!("CARGO_BIN_EXE_drystone"))
+            .args(arguments)
+            .current_dir(folder.path())
+            .output()
+            .expect("starts");
+        (
+            ran.status.code(),
+            String::from_utf8_lossy(&ran.stdout).into_owned(),
+        )
+    };
+    let (code, table) = said(&["check", "--time-limit", "0", "large.json"]);
+    assert!(
+        code == Some(3) && table.contains("the time limit was reached"),
+        "{table}"
+    );
+    let (code, _) = said(&[
+        "render",
+        "--strict",
+        "--time-limit",
+        "0",
+        "large.json",
+        "-o",
+        "a.svg",
+    ]);
+    assert_eq!(code, Some(3));
+    let free = said(&["check", "--no-timing", "wall.json"]);
+    assert_eq!(free.0, Some(0), "{}", free.1);
+    assert_eq!(
+        said(&["check", "--no-timing", "--time-limit", "1000", "wall.json"]),
+        free
+    );
+}

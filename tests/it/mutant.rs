@@ -1,0 +1,320 @@
+//! Scenes changed where it hurts: numbers huge, tiny and subnormal, hostile ids, steps that contradict each other.
+//!
+//! Every scene of the assets is changed a few times over, by a generator with a seed. What comes out is either a list of
+//! problems with words and places, or a scene with verdicts, finite numbers and figures that can be read back: never a
+//! panic.
+
+use std::fs;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+
+use drystone::analysis::{Analysis, Verdict};
+use drystone::report::result::{Layout, Timing, to_json};
+use drystone::{Scene, figure, output};
+use serde_json::{Map, Value, json};
+
+/// So many mutants are made of each scene.
+const EACH: u64 = 24;
+
+const NUMBERS: &[f64] = &[
+    0.0,
+    -0.0,
+    1.0,
+    -1.0,
+    1e-9,
+    1e-29,
+    1.1e-30,
+    1e-60,
+    1e9,
+    -1e9,
+    1e12,
+    1.000_000_1e12,
+    1e300,
+    -1e300,
+    f64::MAX,
+    f64::MIN_POSITIVE,
+    5e-324,
+    1e-300,
+    f64::EPSILON,
+    0.1 + 0.2,
+    360.0,
+    1e15,
+    9_007_199_254_740_993.0,
+];
+
+const WORDS: &[&str] = &[
+    "",
+    "ground",
+    "a\nb",
+    "\u{0}",
+    "\u{1b}[2J",
+    "\u{202e}x",
+    "../../etc/passwd",
+    "<script>",
+    "&amp;",
+    "=1+1",
+    "constructor",
+    "up",
+    "hexagon",
+    "ﷺ",
+    "👩\u{200d}🔬",
+];
+
+/// Numbers that look random and are the same in every run (splitmix64).
+struct Seeded(u64);
+
+impl Seeded {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    fn below(&mut self, count: usize) -> usize {
+        (self.next() % count.max(1) as u64) as usize
+    }
+
+    fn of<'a, T>(&mut self, list: &'a [T]) -> &'a T {
+        &list[self.below(list.len())]
+    }
+}
+
+/// How many values there are in a value, itself included.
+fn count(value: &Value) -> usize {
+    1 + match value {
+        Value::Array(list) => list.iter().map(count).sum(),
+        Value::Object(map) => map.values().map(count).sum(),
+        _ => 0,
+    }
+}
+
+/// The value with a number, counted from the top.
+fn at<'v>(value: &'v mut Value, number: &mut usize) -> Option<&'v mut Value> {
+    if *number == 0 {
+        return Some(value);
+    }
+    *number -= 1;
+    match value {
+        Value::Array(list) => list.iter_mut().find_map(|v| at(v, number)),
+        Value::Object(map) => map.values_mut().find_map(|v| at(v, number)),
+        _ => None,
+    }
+}
+
+/// Changes one value.
+fn change(value: &mut Value, random: &mut Seeded) {
+    match value {
+        Value::Number(old) => {
+            let old = old.as_f64().unwrap_or(0.0);
+            *value = match random.below(8) {
+                0..=3 => json!(random.of(NUMBERS)),
+                4 => json!(-old),
+                // The next number there is: what just touched no longer does.
+                5 => json!(f64::from_bits(old.to_bits().wrapping_add(1))),
+                6 => json!(old * 1e6),
+                _ => json!(format!("{old}")),
+            };
+        }
+        Value::String(_) => *value = json!(random.of(WORDS)),
+        Value::Bool(flag) => *flag = !*flag,
+        Value::Null => *value = json!([]),
+        Value::Array(list) => match random.below(4) {
+            0 => list.clear(),
+            1 => list.reverse(),
+            _ if list.is_empty() => list.push(Value::Null),
+            2 => {
+                let again = random.of(list).clone();
+                list.push(again);
+            }
+            _ => {
+                let gone = random.below(list.len());
+                list.remove(gone);
+            }
+        },
+        Value::Object(map) => {
+            let keys: Vec<String> = map.keys().cloned().collect();
+            if keys.is_empty() || random.below(6) == 0 {
+                map.insert((*random.of(WORDS)).to_owned(), json!(0));
+            } else {
+                let gone = random.of(&keys).clone();
+                map.remove(&gone);
+            }
+        }
+    }
+}
+
+/// Steps that place what stands, remove what is held, and hold with everything at once.
+fn contradict(scene: &mut Map<String, Value>, random: &mut Seeded) {
+    let ids = |key: &str| -> Vec<String> {
+        let list = scene.get(key).and_then(Value::as_array);
+        let entries = list.into_iter().flatten();
+        entries
+            .filter_map(|e| e.get("id")?.as_str().map(str::to_owned))
+            .collect()
+    };
+    let (blocks, robots) = (ids("blocks"), ids("robots"));
+    if blocks.is_empty() {
+        return;
+    }
+    let mut steps = Vec::new();
+    for _ in 0..=random.below(4) {
+        let mut hold = Map::new();
+        for robot in &robots {
+            hold.insert(robot.clone(), json!(random.of(&blocks)));
+        }
+        steps.push(json!({ "place": [random.of(&blocks), random.of(&blocks)], "remove": [random.of(&blocks)],
+            "hold": hold, "release": robots.iter().take(random.below(3)).collect::<Vec<_>>() }));
+    }
+    scene.insert("steps".into(), json!(steps));
+}
+
+fn mutant(original: &Value, seed: u64) -> Value {
+    let mut random = Seeded(seed);
+    let mut scene = original.clone();
+    if random.below(6) == 0
+        && let Some(map) = scene.as_object_mut()
+    {
+        contradict(map, &mut random);
+    }
+    for _ in 0..=random.below(4) {
+        let mut number = random.below(count(&scene));
+        if let Some(value) = at(&mut scene, &mut number) {
+            change(value, &mut random);
+        }
+    }
+    // Most mutants are to come past the first look.
+    if let Some(map) = scene.as_object_mut() {
+        map.insert("drystone".into(), json!(1));
+    }
+    scene
+}
+
+/// What is wrong with what becomes of a text, if anything is.
+fn examine(text: &str) -> Result<bool, String> {
+    let scene = match Scene::from_json(text) {
+        Ok(scene) => scene,
+        Err(problems) => {
+            for problem in &problems.list {
+                if problem.message.is_empty() || problem.message.contains('\n') {
+                    return Err(format!(
+                        "a problem without words, or of two lines: {problem:?}"
+                    ));
+                }
+                let span = problem.span.clone().unwrap_or(0..0);
+                if text.get(span.clone()).is_none() {
+                    return Err(format!("a problem outside the text: {span:?}"));
+                }
+            }
+            return if problems.list.is_empty() {
+                Err("refused without a word".into())
+            } else {
+                Ok(false)
+            };
+        }
+    };
+    let analysis = Analysis::of(&scene);
+    for frame in &analysis.frames {
+        if frame.verdict == Verdict::Undecided && frame.doubt.is_empty() {
+            return Err("undecided without a reason".into());
+        }
+    }
+    let json = to_json(&analysis, Timing::LeftOut, Layout::OneLine);
+    let value: Value = serde_json::from_str(&json).map_err(|e| format!("no JSON: {e}"))?;
+    if let Some(null) = value["frames"]
+        .as_array()
+        .into_iter()
+        .flatten()
+        .find(|f| f["total_force"].is_null())
+    {
+        return Err(format!("a sum of forces that is no number: {null}"));
+    }
+    let drawing = figure::forces(&analysis, &figure::Options::default());
+    let svg = output::svg::write(&drawing);
+    roxmltree::Document::parse(&svg).map_err(|e| format!("no XML: {e}"))?;
+    if svg.contains("NaN") || svg.contains("inf ") {
+        return Err("a picture of numbers that are none".into());
+    }
+    Ok(true)
+}
+
+fn originals() -> Vec<(String, Value)> {
+    let assets = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets");
+    let mut scenes = Vec::new();
+    for folder in ["thesis", "study"] {
+        let mut paths: Vec<_> = fs::read_dir(assets.join(folder))
+            .expect("readable")
+            .map(|entry| entry.expect("readable").path())
+            .filter(|path| path.extension().is_some_and(|e| e == "json"))
+            .collect();
+        paths.sort();
+        for path in paths {
+            let text = fs::read_to_string(&path).expect("readable");
+            // Large scenes take long, and hold nothing that small ones do not.
+            if text.len() < 4_000 {
+                let value = serde_json::from_str(&text).expect("JSON");
+                scenes.push((path.display().to_string(), value));
+            }
+        }
+    }
+    scenes
+}
+
+#[test]
+fn mutants_are_refused_in_words_or_decided() {
+    let originals = originals();
+    assert!(originals.len() > 10);
+    let (mut sound, mut all) = (0, 0);
+    for (name, original) in &originals {
+        for number in 0..EACH {
+            let end = name.bytes().rev().take(12);
+            let named = end.fold(7_u64, |h, b| h.wrapping_mul(131).wrapping_add(b.into()));
+            let seed = number ^ named;
+            let text = mutant(original, seed).to_string();
+            let outcome = catch_unwind(AssertUnwindSafe(|| examine(&text)))
+                .unwrap_or_else(|_| Err("a panic".into()));
+            match outcome {
+                Ok(passed) => sound += usize::from(passed),
+                Err(why) => panic!("{name}, seed {seed}: {why}\n{text}"),
+            }
+            all += 1;
+        }
+    }
+    assert!(
+        sound * 10 > all && sound < all,
+        "{sound} of {all} are sound: too few or too many to say much"
+    );
+}
+
+/// Found by a mutant: a weight or an area that a float cannot hold made numbers of the program infinite, or let a block weigh
+/// nothing.
+#[test]
+fn numbers_that_products_of_them_cannot_hold_are_refused() {
+    let scene = |size: f64, weight: f64| {
+        json!({ "drystone": 1, "ground": [{ "polygon": [[0, 0], [size, 0], [size, -size], [0, -size]] }],
+            "blocks": [{ "id": "a", "polygon": [[0, 0], [size, 0], [size, size], [0, size]], "weight": weight }] })
+        .to_string()
+    };
+    for (size, weight) in [
+        (1e-31, 1.0),
+        (1e-61, 1.0),
+        (1e-160, 1.0),
+        (1.0, 1e-61),
+        (1.0, 5e-324),
+    ] {
+        let refused = Scene::from_json(&scene(size, weight)).expect_err("too small");
+        assert!(refused.to_string().contains("check the units"), "{refused}");
+    }
+    let least = json!({ "drystone": 1, "density": 1e-30, "thickness": 1e-30, "gravity": [0, -1e-30],
+        "ground": [{ "polygon": [[0, 0], [9e-30, 0], [9e-30, -9e-30], [0, -9e-30]] }],
+        "blocks": [{ "id": "a", "polygon": [[1e-30, 0], [2e-30, 0], [2e-30, 1e-30], [1e-30, 1e-30]] },
+                   { "id": "b", "polygon": [[1.5e-30, 1e-30], [3e-30, 1e-30], [3e-30, 2e-30], [1.5e-30, 2e-30]] }] });
+    let scene = Scene::from_json(&least.to_string()).expect("just large enough");
+    assert!(scene.blocks.iter().all(|block| block.weight > 0.0));
+    assert_eq!(
+        Analysis::of(&scene).frames[0].verdict,
+        Verdict::Unstable,
+        "it overhangs by two thirds"
+    );
+}

@@ -1,0 +1,346 @@
+//! Text from files stays text: hostile strings against every kind of output, and no output beside those in this table.
+//!
+//! Each output is read back by a reader of its own kind, which must find one text where one was put, and nothing else.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use drystone::report::result::{Layout, Timing, to_json};
+use drystone::study::{TOLERANCES, study};
+use drystone::text::HIDDEN;
+use drystone::{Analysis, Scene, figure, output, report};
+use pulldown_cmark::{Event, Options, Parser, Tag};
+use serde_json::{Value, json};
+
+/// What a stranger may write for a title or a name.
+const HOSTILE: &[&str] = &[
+    "x\n  all     stable    29.43 N       none        0 %   no robot   forces balance to 0e0\n\nnext",
+    "x\r  all     stable    29.43 N",
+    "x\u{2028}  all  stable\u{2029}y\u{85}z",
+    "\u{1b}[31mred\u{1b}]0;title\u{7}\u{9b}2J",
+    "nul\u{0}, bell\u{7}, delete\u{7f}",
+    "\u{202e}elbats\u{202c} \u{2066}inside\u{2069}",
+    "</title><script>alert(1)</script>",
+    "\" onload=\"alert(1)",
+    "' & <!-- --> ]]> <![CDATA[",
+    "[click](javascript:alert(1))",
+    "x\n\n# heading\n\n- list\n\n<script>alert(1)</script>\n\n```\ncode",
+    "a | b |\n|---|---|\n| c | d",
+    "![p](http://h.example/p.png) http://h.example www.h.example",
+    "=HYPERLINK(\"http://h.example\")",
+    "+1,\"2\"\n-3",
+    "@SUM(1,1)",
+    "-2+3",
+    "\u{fffe}\u{ffff}\u{1ffff}",
+    "שלום 石 ü",
+];
+
+fn scene(hostile: &str) -> String {
+    json!({
+        "drystone": 1, "title": hostile, "friction": 0.6,
+        "ground": [{ "polygon": [[-1, -1], [4, -1], [4, 0], [-1, 0]] }],
+        "blocks": [
+            { "id": hostile, "polygon": [[0, 0], [1, 0], [1, 1], [0, 1]] },
+            { "id": "b", "polygon": [[0, 1], [3, 1], [3, 2], [0, 2]] } ],
+        "robots": [{ "id": format!("r{hostile}") }],
+        "steps": [{ "title": hostile, "place": [hostile, "b"] },
+                  { "title": format!("2 {hostile}"), "hold": { format!("r{hostile}"): "b" } }]
+    })
+    .to_string()
+}
+
+/// Every text as a scene of its own, with its analysis.
+fn each(mut check: impl FnMut(&str, &Scene, &Analysis<'_>)) {
+    for hostile in HOSTILE {
+        let scene =
+            Scene::from_json(&scene(hostile)).unwrap_or_else(|e| panic!("{hostile:?}: {e}"));
+        check(hostile, &scene, &Analysis::of(&scene));
+    }
+}
+
+/// Whether a character does something on a terminal beside being seen.
+fn acts(c: char) -> bool {
+    (c.is_control() && c != '\n')
+        || matches!(c, '\u{2028}' | '\u{2029}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+}
+
+fn silent(output: &str, hostile: &str) {
+    assert!(!output.contains(acts), "{hostile:?} acts in {output:?}");
+}
+
+#[test]
+fn a_terminal_has_a_line_for_each_frame_and_no_more() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let run = |arguments: &[&str]| {
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_drystone"))
+            .args(arguments)
+            .current_dir(folder.path())
+            .output()
+            .expect("starts");
+        (
+            output.status.code(),
+            String::from_utf8(output.stdout).expect("UTF-8"),
+            String::from_utf8(output.stderr).expect("UTF-8"),
+        )
+    };
+    let mut counts = Vec::new();
+    for hostile in HOSTILE {
+        fs::write(folder.path().join("a.json"), scene(hostile)).expect("writable");
+        let (_, out, err) = run(&["check", "--no-timing", "a.json"]);
+        silent(&(out.clone() + &err), hostile);
+        counts.push(out.lines().count());
+        // An unknown name and a place in the file are quoted in complaints.
+        let wrong = scene(hostile).replace("\"place\":[", "\"place\":[\"none\",");
+        fs::write(folder.path().join("a.json"), wrong).expect("writable");
+        let (code, out, err) = run(&["check", "a.json"]);
+        assert_eq!((code, out.as_str()), (Some(2), ""), "{hostile:?}");
+        silent(&err, hostile);
+        assert!(
+            !err.lines().any(|l| l.trim_start().starts_with("all  ")),
+            "{err}"
+        );
+    }
+    assert!(
+        counts.windows(2).all(|pair| pair[0] == pair[1]),
+        "{counts:?}"
+    );
+}
+
+#[test]
+fn svg_has_the_same_elements_whatever_the_words() {
+    let mut shapes: Vec<Vec<String>> = Vec::new();
+    each(|hostile, _, analysis| {
+        let svg = output::svg::write(&figure::forces(analysis, &figure::Options::default()));
+        silent(&svg, hostile);
+        let document =
+            roxmltree::Document::parse(&svg).unwrap_or_else(|e| panic!("{hostile:?}: {e}"));
+        let mut names: Vec<String> = document
+            .descendants()
+            .filter(roxmltree::Node::is_element)
+            .map(|n| n.tag_name().name().to_owned())
+            .collect();
+        names.sort();
+        names.dedup();
+        shapes.push(names);
+        assert!(!document.descendants().any(|n| n.has_attribute("onload")));
+        let pdf = output::pdf::write(&figure::forces(analysis, &figure::Options::default()), None);
+        assert!(
+            pdf.is_ok_and(|bytes| bytes.starts_with(b"%PDF-")),
+            "{hostile:?}"
+        );
+    });
+    assert!(
+        shapes.windows(2).all(|pair| pair[0] == pair[1]),
+        "{shapes:?}"
+    );
+}
+
+#[test]
+fn json_has_the_same_values_and_nothing_that_acts() {
+    each(|hostile, scene, analysis| {
+        for layout in [Layout::Lines, Layout::OneLine] {
+            let text = to_json(analysis, Timing::LeftOut, layout);
+            silent(&text, hostile);
+            let value: Value = serde_json::from_str(&text).expect("JSON");
+            assert_eq!(value["scene"], *hostile);
+            assert_eq!(value["frames"][0]["title"], *hostile);
+        }
+        assert_eq!(scene.title, *hostile, "nothing is lost on the way in");
+    });
+}
+
+#[test]
+fn a_page_a_table_and_markdown_of_a_study_keep_their_shape() {
+    let mut shapes = Vec::new();
+    for hostile in HOSTILE {
+        let mut scene = Scene::from_json(&scene(hostile)).expect("sound");
+        scene.frames.truncate(1);
+        let study = study(&[scene], &TOLERANCES[..1], &mut |_| {});
+        let page = report::accuracy::page(&study).expect("drawn");
+        silent(&page, hostile);
+        let tags = page.matches('<').count();
+        let csv = report::accuracy::csv(&study);
+        silent(&csv, hostile);
+        for cell in csv
+            .lines()
+            .skip(1)
+            .map(|line| line.split(',').nth(1).unwrap_or(""))
+        {
+            assert!(
+                !cell
+                    .trim_start_matches(['"', ' '])
+                    .starts_with(['=', '+', '-', '@']),
+                "{cell}"
+            );
+        }
+        let svg = report::accuracy::svg(&study).expect("drawn");
+        assert!(roxmltree::Document::parse(&svg).is_ok(), "{hostile:?}");
+        silent(&report::result::accuracy_json(&study), hostile);
+        // The number of points in the picture depends on the times; only the table counts here.
+        let table = page
+            .split("</svg>")
+            .nth(1)
+            .unwrap_or_default()
+            .matches('<')
+            .count();
+        shapes.push((
+            table,
+            csv.lines().count(),
+            report::accuracy::markdown(&study).lines().count(),
+        ));
+        assert!(tags > table);
+    }
+    assert!(
+        shapes
+            .windows(2)
+            .all(|pair| pair[0].1 == pair[1].1 && pair[0].2 == pair[1].2),
+        "{shapes:?}"
+    );
+}
+
+/// What begins in a text of Markdown beside words and paragraphs.
+fn begun(markdown: &str) -> Vec<String> {
+    Parser::new_ext(markdown, Options::all())
+        .filter_map(|event| match event {
+            Event::Start(Tag::Paragraph) | Event::Text(_) | Event::End(_) | Event::SoftBreak => {
+                None
+            }
+            other => Some(format!("{other:?}")),
+        })
+        .collect()
+}
+
+#[test]
+fn markdown_is_words_and_a_book_keeps_them_in_its_figure() {
+    for hostile in HOSTILE {
+        let words = drystone::text::markdown(hostile);
+        assert_eq!(
+            begun(&words),
+            Vec::<String>::new(),
+            "{hostile:?} as {words:?}"
+        );
+        let content = format!("Before.\n\n```drystone\n{}\n```\n\nAfter.", scene(hostile));
+        let chapter = json!({ "Chapter": { "name": "A", "content": content, "number": [1], "sub_items": [],
+            "path": "a.md", "source_path": "a.md", "parent_names": [] } });
+        let input = json!([{ "root": ".", "config": { "book": { "src": "src" } }, "renderer": "html",
+            "mdbook_version": "0.4.40" }, { "sections": [chapter], "__non_exhaustive": null }]);
+        let drawn = report::book::illustrate(&input.to_string()).expect("drawn");
+        let drawn: Value = serde_json::from_str(&drawn).expect("JSON");
+        let content = drawn["sections"][0]["Chapter"]["content"]
+            .as_str()
+            .expect("text");
+        silent(content, hostile);
+        for event in Parser::new_ext(content, Options::all()) {
+            assert!(
+                !matches!(
+                    event,
+                    Event::Start(
+                        Tag::Link { .. }
+                            | Tag::Heading { .. }
+                            | Tag::List(_)
+                            | Tag::Image { .. }
+                            | Tag::CodeBlock(_)
+                    )
+                ),
+                "{hostile:?}: {event:?}"
+            );
+        }
+        assert!(!content.contains("<script"), "{hostile:?}");
+    }
+}
+
+#[test]
+fn what_cannot_be_seen_is_seen() {
+    each(|hostile, _, analysis| {
+        let hidden = hostile.contains(|c: char| acts(c) && !"\r\u{85}\u{2028}\u{2029}".contains(c));
+        let svg = output::svg::write(&figure::forces(analysis, &figure::Options::default()));
+        if hidden && !hostile.contains("\u{fffe}") {
+            assert!(svg.contains(HIDDEN), "{hostile:?}");
+        }
+    });
+}
+
+/// Where each kind of output is written, by what only its writers have to say. A new file that says it is a new row for the
+/// table above.
+const WRITERS: &[(&str, &[&str])] = &[
+    ("io::stdout", &["cli/terminal.rs", "cli/mod.rs"]),
+    (
+        "io::stderr",
+        &["cli/terminal.rs", "cli/mod.rs", "cli/progress.rs"],
+    ),
+    ("anstream", &["cli/terminal.rs"]),
+    ("PreEscaped", &["report/accuracy.rs"]),
+    (
+        "\"<",
+        &[
+            "output/svg.rs",
+            "output/svg/",
+            "output/tree.rs",
+            "chart/",
+            "report/book.rs",
+            "report/accuracy.rs",
+            "report/result.rs",
+        ],
+    ),
+    ("fs::write", &[]),
+    ("File::create", &[]),
+    (
+        "to_writer",
+        &[
+            "report/result.rs",
+            "report/result/",
+            "scene/format.rs",
+            "scene/format/",
+        ],
+    ),
+    (".ours(", &["cli/"]),
+    ("page.block(", &["cli/complaint.rs"]),
+];
+
+#[test]
+fn nothing_is_written_but_by_the_writers_of_this_table() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut files = Vec::new();
+    collect(&root, &mut files);
+    let mut faults = Vec::new();
+    for file in &files {
+        let text = fs::read_to_string(file).expect("UTF-8");
+        // Tests and examples write what they like.
+        let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+        let path = file
+            .strip_prefix(&root)
+            .expect("below")
+            .to_string_lossy()
+            .replace('\\', "/");
+        if path.ends_with("tests.rs") || path.starts_with("import/") {
+            continue;
+        }
+        for line in code
+            .lines()
+            .filter(|line| !line.trim_start().starts_with("//"))
+        {
+            for (sign, writers) in WRITERS {
+                let known = |w: &&str| path == **w || (w.ends_with('/') && path.starts_with(*w));
+                if line.contains(sign) && !writers.iter().any(known) {
+                    faults.push(format!("{path}: {}", line.trim()));
+                }
+            }
+        }
+    }
+    assert!(
+        files.len() > 100 && faults.is_empty(),
+        "{}",
+        faults.join("\n")
+    );
+}
+
+fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).expect("readable") {
+        let path = entry.expect("readable").path();
+        if path.is_dir() {
+            collect(&path, files);
+        } else if path.extension().is_some_and(|e| e == "rs") {
+            files.push(path);
+        }
+    }
+}

@@ -1,0 +1,262 @@
+//! The smallest stone: a pebble on a tower, beside a wall or in its joints is judged by its own forces, however light.
+
+use drystone::analysis::Verdict;
+use drystone::{Analysis, Scene};
+use serde_json::{Value, json};
+
+use crate::oracle::random::Chance;
+use crate::structure::{arch, block, harmonic, on_floor, rectangle, verdict, wall};
+
+const STANDS: Verdict = Verdict::Stable;
+const FALLS: Verdict = Verdict::Unstable;
+
+/// Ten files with answers by hand: the pebble's centre of gravity beyond what it rests on or not, the slope steeper than
+/// its friction or not, a stone that touches a wall's side and nothing else.
+#[test]
+fn ten_cases_with_answers_by_hand() {
+    let cases = [
+        (include_str!("small/beside-0.json"), FALLS),
+        (include_str!("small/light-10.json"), FALLS),
+        (include_str!("small/light-18.json"), FALLS),
+        (include_str!("small/slope-0.1-0.3-0.29.json"), STANDS),
+        (include_str!("small/slope-0.1-0.3-0.31.json"), FALLS),
+        (include_str!("small/tower10-0.0001-0.3.json"), STANDS),
+        (include_str!("small/tower10-0.01-0.49.json"), STANDS),
+        (include_str!("small/tower10-0.01-0.6.json"), FALLS),
+        (include_str!("small/tower3-0.001-0.9.json"), FALLS),
+        (include_str!("small/tower30-0.01-0.51.json"), FALLS),
+    ];
+    for (text, expected) in cases {
+        let file: Value = serde_json::from_str(text).expect("a scene file");
+        assert_eq!(verdict(&file), expected, "{}", file["title"]);
+    }
+}
+
+/// A tower of bricks 2 × 1 with a stone of this size on top, a share of which is beyond the edge.
+fn topped(bricks: usize, size: f64, beyond: f64) -> Value {
+    let mut blocks: Vec<Value> = (0..bricks)
+        .map(|k| {
+            let at = rectangle(0.0, k as f64, 2.0, 1.0);
+            json!({ "id": format!("b{k}"), "polygon": at })
+        })
+        .collect();
+    let at = rectangle(2.0 - size * (1.0 - beyond), bricks as f64, size, size);
+    blocks.push(json!({ "id": "pebble", "polygon": at }));
+    json!({ "drystone": 1, "friction": 0.6, "density": 2000,
+        "ground": [{ "polygon": rectangle(-20.0, -1.0, 40.0, 1.0) }], "blocks": blocks })
+}
+
+/// Size ratios down to what still counts as a contact, weights to 10⁻¹², towers of 1 to 30: the only question is on which
+/// side of the edge the stone's centre of gravity lies.
+#[test]
+fn stones_on_towers() {
+    for bricks in [1, 2, 3, 5, 10, 20, 30] {
+        for size in [1.0, 1e-1, 1e-2, 1e-3, 1e-4] {
+            for (beyond, expected) in [
+                (0.49, STANDS),
+                (0.51, FALLS),
+                (0.55, FALLS),
+                (0.75, FALLS),
+                (0.99, FALLS),
+            ] {
+                let file = topped(bricks, size, beyond);
+                // What is left on the edge must be longer than what counts as a contact.
+                if size * (1.0 - beyond) < 1e-6 * f64::from(bricks as u32 + 20) {
+                    continue;
+                }
+                assert_eq!(verdict(&file), expected, "{bricks}, {size:e}, {beyond}");
+            }
+        }
+    }
+}
+
+/// The same with weights listed: as light as 10⁻¹² of the bricks, as large as they.
+#[test]
+fn light_stones_on_towers() {
+    for bricks in [1, 3, 10, 30] {
+        for exponent in [2, 4, 6, 8, 10, 12] {
+            for (beyond, expected) in [(0.49, STANDS), (0.51, FALLS), (0.75, FALLS)] {
+                let mut file = topped(bricks, 1.0, beyond);
+                let blocks = file["blocks"].as_array_mut().expect("a list");
+                for block in blocks.iter_mut() {
+                    block["weight"] = json!(7.0);
+                }
+                blocks[bricks]["weight"] = json!(7.0 * libm::exp10(-f64::from(exponent)));
+                assert_eq!(
+                    verdict(&file),
+                    expected,
+                    "{bricks}, 1e-{exponent}, {beyond}"
+                );
+            }
+        }
+    }
+}
+
+/// A ramp on a tower, and a light stone on it: it slides where the slope is steeper than its friction.
+#[test]
+fn light_stones_on_slopes() {
+    for bricks in [1, 5, 20] {
+        for exponent in [0, 3, 6, 9, 12] {
+            for slope in [0.0625, 0.5] {
+                for (friction, expected) in
+                    [(slope * 1.01, STANDS), (slope * 0.99, FALLS), (0.0, FALLS)]
+                {
+                    let mut blocks: Vec<Value> = (0..bricks)
+                        .map(|k| {
+                            let at = rectangle(0.0, f64::from(k), 2.0, 1.0);
+                            block(&format!("b{k}"), at, 5.0)
+                        })
+                        .collect();
+                    let y = f64::from(bricks);
+                    let ramp = json!([[0, y], [2, y], [2, y + 2.0 * slope]]);
+                    blocks.push(block("ramp", ramp, 5.0));
+                    let (left, right) = (y + 0.5 * slope, y + slope);
+                    let stone = json!([
+                        [0.5, left],
+                        [1.0, right],
+                        [1.0, right + 0.25],
+                        [0.5, left + 0.25]
+                    ]);
+                    let mut stone = block("stone", stone, 5.0 * libm::exp10(-f64::from(exponent)));
+                    stone["friction"] = json!(friction);
+                    blocks.push(stone);
+                    assert_eq!(
+                        verdict(&on_floor(0.7, blocks)),
+                        expected,
+                        "{bricks}, 1e-{exponent}, {slope} {friction}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// Pinning stones in the gaps of a wall: resting in them they stand, and however small the stone, without what it rests on
+/// it falls.
+#[test]
+fn pinning_stones_in_the_joints_of_a_wall() {
+    for size in [0.1, 0.01, 0.001] {
+        for courses in [2, 6] {
+            let mut blocks = Vec::new();
+            for course in 0..courses {
+                for k in 0..3 {
+                    let x = f64::from(k) * (1.0 + size) + if course % 2 == 1 { 0.5 } else { 0.0 };
+                    let y = f64::from(course) * 0.5;
+                    let id = format!("{course}-{k}");
+                    let at = rectangle(x, y, 1.0, 0.5);
+                    blocks.push(json!({ "id": id, "polygon": at }));
+                    if k < 2 && course > 0 {
+                        // As wide as the gap, half as high: it rests on the course below.
+                        let at = rectangle(x + 1.0, y, size, 0.5 * size);
+                        blocks.push(json!({ "id": format!("pin {id}"), "polygon": at }));
+                    }
+                }
+            }
+            let file = |blocks: Vec<Value>| {
+                json!({ "drystone": 1, "friction": 0.6, "density": 2000,
+                    "ground": [{ "polygon": rectangle(-5.0, -1.0, 12.0, 1.0) }], "blocks": blocks })
+            };
+            assert_eq!(verdict(&file(blocks.clone())), STANDS, "{size}, {courses}");
+            // Lifted off its bed, and smooth, the same stone touches the sides of two bricks and nothing else.
+            let lifted = blocks
+                .iter_mut()
+                .rev()
+                .find(|b| b["id"].as_str().is_some_and(|id| id.starts_with("pin")));
+            if let Some(pin) = lifted {
+                pin["friction"] = json!(0.0);
+                for corner in pin["polygon"].as_array_mut().expect("corners") {
+                    let y = corner[1].as_f64().expect("a number");
+                    corner[1] = json!(y + 0.2);
+                }
+            }
+            assert_eq!(verdict(&file(blocks)), FALLS, "{size}, {courses}, lifted");
+        }
+    }
+}
+
+/// A pebble on an outer edge of a block that faces sideways or down, a share of the edge in size; `None` for other edges.
+fn hung(polygon: &Value, edge: usize, size: f64) -> Option<Value> {
+    let corner = |k: usize| {
+        let corner = &polygon[k % polygon.as_array()?.len()];
+        Some([corner[0].as_f64()?, corner[1].as_f64()?])
+    };
+    let ([ax, ay], [bx, by]) = (corner(edge)?, corner(edge + 1)?);
+    let (along, out) = ([bx - ax, by - ay], [by - ay, ax - bx]);
+    // Outlines here run anticlockwise: outward is to the right.
+    if out[1] > 0.0 {
+        return None;
+    }
+    let at = |u: f64, v: f64| {
+        json!([
+            ax + (0.4 + size * u) * along[0] + size * v * out[0],
+            ay + (0.4 + size * u) * along[1] + size * v * out[1]
+        ])
+    };
+    Some(json!([
+        at(0.0, 0.0),
+        at(0.0, 0.5),
+        at(1.0, 0.5),
+        at(1.0, 0.0)
+    ]))
+}
+
+/// Adding a falling pebble of any size anywhere makes any standing structure fall.
+#[test]
+fn a_falling_pebble_makes_any_structure_fall() {
+    let mut chance = Chance::new(2024);
+    let mut tried = 0;
+    for round in 0..200 {
+        let n = chance.whole(1, 5) as usize;
+        let mut file = match round % 4 {
+            0 => wall(n, n + 1),
+            1 => arch(2 * n + 3, 0.4, 0.9),
+            2 => harmonic(n + 1, 0.9),
+            _ => topped(2 * n, 0.5, 0.2),
+        };
+        assert_eq!(verdict(&file), STANDS, "round {round}");
+        let blocks = file["blocks"].as_array().expect("a list").clone();
+        let onto = chance.whole(0, blocks.len() as i64 - 1) as usize;
+        let mut polygon = blocks[onto]["polygon"].clone();
+        let doubled: f64 = {
+            let list = polygon.as_array().expect("corners");
+            let at = |k: usize| [0, 1].map(|c| list[k % list.len()][c].as_f64().unwrap_or(0.0));
+            (0..list.len())
+                .map(|k| at(k)[0] * at(k + 1)[1] - at(k)[1] * at(k + 1)[0])
+                .sum()
+        };
+        if doubled < 0.0 {
+            polygon.as_array_mut().expect("corners").reverse();
+        }
+        let edge = chance.whole(0, 3) as usize;
+        let size = libm::exp10(-4.0 * chance.share()) * 0.2;
+        let Some(pebble) = hung(&polygon, edge, size) else {
+            continue;
+        };
+        let weight = libm::exp10(-12.0 * chance.share());
+        file["blocks"]
+            .as_array_mut()
+            .expect("a list")
+            .push(block("pebble", pebble, weight));
+        // Where something is already there, or right beside it, it may not fit or may be held.
+        let Ok(scene) = Scene::from_json(&file.to_string()) else {
+            continue;
+        };
+        let analysis = Analysis::of(&scene);
+        let frame = &analysis.frames[0];
+        let last = drystone::scene::BodyId::Block(drystone::scene::BlockId(blocks.len()));
+        let touched = frame
+            .contacts
+            .iter()
+            .filter(|c| c.interface.bodies.contains(&last));
+        if touched.count() > 1 {
+            continue;
+        }
+        tried += 1;
+        assert_eq!(
+            frame.verdict, FALLS,
+            "round {round}: {}\n{file}",
+            frame.doubt
+        );
+    }
+    assert!(tried > 25, "{tried}");
+}
