@@ -11,14 +11,16 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::{Analysis, FrameAnalysis, Verdict};
-use crate::geometry::{Point, Vector, cross};
+use super::{Analysis, FrameAnalysis, Margin, Verdict};
+use crate::geometry::{Point, Vector, cross, sin_cos_degrees};
 use crate::proof::Motion;
 use crate::scene::{BlockId, BodyId, Scene};
 use crate::solve::ray::{self, Row};
 
 /// A part of more blocks keeps the motion that proves its fall: one by one its contacts would take too long to close.
 const MOST_BLOCKS: usize = 300;
+/// How far beyond the edge gravity is turned to find the mechanism there, degrees.
+const BEYOND: f64 = 0.05;
 /// A contact is closed, and does not slide, up to this share of the fastest speed.
 const CLOSED: f64 = 1e-5;
 /// A motion along the joints is drawn where it keeps at least this share of the lifting one.
@@ -39,11 +41,51 @@ impl<'s> Analysis<'s> {
         analysis
     }
 
+    /// How far gravity may turn before a frame (from 0) falls, to the side on which that is less, and the elementary
+    /// mechanism by which it then falls; `None` where margins were not asked for or no turn makes it fall.
+    ///
+    /// Units: degrees. Signs: positive where gravity's tip moves to the right.
+    pub fn tilted(&self, frame: usize) -> Option<(f64, Vec<Motion>)> {
+        let found = self.frames.get(frame)?;
+        let sides = &found.margins.as_ref()?.tilt;
+        let side = |margin: &Margin, sign: f64| match margin {
+            Margin::Value { at, mechanism } if !mechanism.is_empty() => {
+                Some((sign * at, mechanism.clone()))
+            }
+            _ => None,
+        };
+        let (degrees, motions) = [side(&sides.right, 1.0), side(&sides.left, -1.0)]
+            .into_iter()
+            .flatten()
+            .min_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
+        // Just at the edge the loads do no work along the mechanism: a hair beyond they do.
+        let (sin, cos) = sin_cos_degrees(degrees + BEYOND * degrees.signum());
+        let gravity = self.scene.gravity;
+        let scene = Scene {
+            gravity: Vector::new(
+                cos * gravity.x - sin * gravity.y,
+                sin * gravity.x + cos * gravity.y,
+            ),
+            ..self.scene.clone()
+        };
+        Some((degrees, self.mechanisms_of(&scene, found, &motions)))
+    }
+
     fn mechanisms(&self, number: usize) -> Vec<Motion> {
         let found = &self.frames[number];
+        self.mechanisms_of(self.scene, found, &found.mechanism)
+    }
+
+    /// One elementary mechanism of each part that falls by these motions, under this scene's loads.
+    fn mechanisms_of(
+        &self,
+        scene: &Scene,
+        found: &FrameAnalysis,
+        motions: &[Motion],
+    ) -> Vec<Motion> {
         let mut all = Vec::new();
-        for part in parts(found) {
-            let fall = Fall::of(self.scene, found, part, found.length);
+        for part in parts(found, motions) {
+            let fall = Fall::of(scene, found, part, found.length);
             all.extend(fall.elementary().unwrap_or(fall.motions));
         }
         let fastest = all
@@ -62,9 +104,8 @@ impl<'s> Analysis<'s> {
 }
 
 /// The motions of each part of a frame that is joined by contacts; what stays holds nothing together.
-fn parts(found: &FrameAnalysis) -> Vec<Vec<Motion>> {
-    let motions: BTreeMap<BlockId, Motion> =
-        found.mechanism.iter().map(|m| (m.block, *m)).collect();
+fn parts(found: &FrameAnalysis, motions: &[Motion]) -> Vec<Vec<Motion>> {
+    let motions: BTreeMap<BlockId, Motion> = motions.iter().map(|m| (m.block, *m)).collect();
     let mut next: BTreeMap<BlockId, Vec<BlockId>> = BTreeMap::new();
     for contact in &found.contacts {
         if let [BodyId::Block(a), BodyId::Block(b)] = contact.interface.bodies {

@@ -117,6 +117,10 @@ enum Kind {
     Build,
     /// The forces on the structure from outside, and their polygon beside it
     Polygon,
+    /// As it stands, and as a ghost how it falls once gravity is turned as far as its margin
+    Margin,
+    /// What changed from one frame to the next: blocks and forces
+    Compare,
     /// One block cut free, with every force that may act on it by name
     Freebody,
 }
@@ -172,6 +176,8 @@ impl Kind {
             Kind::Utilisation => Some(figure::Kind::Utilisation),
             Kind::Build => Some(figure::Kind::Build),
             Kind::Polygon => Some(figure::Kind::Polygon),
+            Kind::Margin => Some(figure::Kind::Margin),
+            Kind::Compare => Some(figure::Kind::Compare),
             Kind::Freebody => None,
         }
     }
@@ -234,7 +240,10 @@ impl Render {
             Shown::Never
         };
         let progress = Progress::begin(2 * sources.len(), shown);
-        let asked = self.level.options();
+        let mut asked = self.level.options();
+        if matches!(self.kind, Kind::Margin) {
+            asked.margins = analysis::Ask::Yes;
+        }
         let rendered: Vec<Result<Rendered, Complaint>> = sources
             .par_iter()
             .map(|source| self.render(source, &asked, &options, format, &fonts, &progress))

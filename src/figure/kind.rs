@@ -2,9 +2,11 @@
 
 use super::arrow::Marks;
 use super::collapse;
+use super::compare;
 use super::displacement::{self, Displacement};
 use super::kernel;
 use super::legend::{self, Entry};
+use super::margin;
 use super::mark;
 use super::mechanism;
 use super::option::{ArrowScale, Options};
@@ -41,6 +43,10 @@ pub enum Kind {
     Build,
     /// The forces on the structure from outside, and beside it their polygon, tip to tail.
     Polygon,
+    /// The structure as it stands, and as a ghost how it falls once gravity has turned as far as its margin.
+    Margin,
+    /// What changed from one frame to the next: blocks and forces, arrows to one scale in all of them.
+    Compare,
 }
 
 /// A figure of this kind, one panel per frame.
@@ -91,7 +97,7 @@ fn moving(analysis: &Analysis<'_>, options: &Options) -> Vec<Drawing> {
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Kind; 7] = [
+    pub const ALL: [Kind; 9] = [
         Kind::Forces,
         Kind::Mechanism,
         Kind::Thrust,
@@ -99,6 +105,8 @@ impl Kind {
         Kind::Utilisation,
         Kind::Build,
         Kind::Polygon,
+        Kind::Margin,
+        Kind::Compare,
     ];
 
     /// Its name, in small letters.
@@ -111,6 +119,8 @@ impl Kind {
             Kind::Utilisation => "utilisation",
             Kind::Build => "build",
             Kind::Polygon => "polygon",
+            Kind::Margin => "margin",
+            Kind::Compare => "compare",
         }
     }
 
@@ -122,7 +132,7 @@ impl Kind {
     /// The options with what the kind itself decides.
     fn options(self, options: &Options) -> Options {
         let mut options = options.clone();
-        if self == Kind::Build {
+        if matches!(self, Kind::Build | Kind::Compare) {
             options.scale = ArrowScale::Strip;
         }
         options
@@ -137,6 +147,8 @@ impl Kind {
             Kind::Kernel => "Resultants in the safe stretches of interfaces",
             Kind::Utilisation => "Friction used in a dry-laid structure",
             Kind::Polygon => "The force polygon of a dry-laid structure",
+            Kind::Margin => "How far a dry-laid structure is from falling",
+            Kind::Compare => "What changes in a dry-laid structure",
         }
     }
 
@@ -150,7 +162,7 @@ impl Kind {
         let scene = analysis.scene;
         let (placed, found) = (&scene.frames[frame], &analysis.frames[frame]);
         match self {
-            Kind::Forces | Kind::Build | Kind::Polygon => {
+            Kind::Forces | Kind::Build | Kind::Polygon | Kind::Compare => {
                 mark::largest(scene, placed, found, options)
             }
             Kind::Thrust => thrust::largest_load(scene, placed),
@@ -167,7 +179,9 @@ impl Kind {
         newtons_per_unit: f64,
     ) -> Marks {
         match self {
-            Kind::Forces | Kind::Build => mark::marks(analysis, frame, options, newtons_per_unit),
+            Kind::Forces | Kind::Build | Kind::Compare => {
+                mark::marks(analysis, frame, options, newtons_per_unit)
+            }
             Kind::Thrust => thrust::marks(analysis, frame, options, newtons_per_unit),
             Kind::Polygon => polygon::marks(analysis, frame, options, newtons_per_unit),
             _ => Marks::default(),
@@ -184,6 +198,8 @@ impl Kind {
     ) -> Option<Bounds> {
         match self {
             Kind::Polygon => polygon::reach(analysis, frame, marks),
+            Kind::Margin => margin::reach(analysis, frame, unit),
+            Kind::Compare => compare::reach(analysis, frame),
             _ => mechanism::reach(analysis, &self.displacements(analysis, frame, unit, 1.0)),
         }
     }
@@ -218,6 +234,8 @@ impl Kind {
             Kind::Kernel => kernel::picture(stage, frame, view, camera),
             Kind::Utilisation => utilisation::picture(stage, frame, view, camera),
             Kind::Polygon => polygon::picture(stage, frame, view, camera),
+            Kind::Margin => margin::picture(stage, frame, view, camera),
+            Kind::Compare => compare::picture(stage, frame, view, camera),
         }
     }
 
@@ -230,6 +248,8 @@ impl Kind {
             Kind::Kernel => kernel::entries(stage),
             Kind::Utilisation => utilisation::entries(stage),
             Kind::Polygon => polygon::entries(stage, unit),
+            Kind::Margin => margin::entries(stage),
+            Kind::Compare => compare::entries(stage, unit),
         }
     }
 
@@ -243,6 +263,8 @@ impl Kind {
             Kind::Kernel => kernel::reason(scene, found),
             Kind::Utilisation => utilisation::reason(scene, found),
             Kind::Polygon => polygon::reason(stage, frame),
+            Kind::Margin => margin::reason(stage.analysis, frame),
+            Kind::Compare => compare::reason(stage.analysis, frame),
         }
     }
 }

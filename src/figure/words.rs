@@ -74,6 +74,12 @@ pub(crate) fn force(force: Vector) -> String {
     format!("{} at {degrees:.0}°", quantity(force.norm(), "N"))
 }
 
+/// An angle in degrees with two digits: `5.3°`, `12°`.
+pub(crate) fn degrees(angle: f64) -> String {
+    let decimals = if angle.abs() < 9.95 { 1 } else { 0 };
+    format!("{angle:.decimals$}°")
+}
+
 /// A share in whole percent: `97 %`. What is less than all of it is never called 100 %, what is more than nothing never 0 %.
 pub(crate) fn percent(share: f64) -> String {
     let rounded = (100.0 * share).round();

@@ -222,3 +222,34 @@ fn the_same_scene_gives_the_same_bytes_whatever_the_kind() {
         assert_eq!(text(), text(), "{kind:?}");
     }
 }
+
+#[test]
+fn what_changed_from_frame_to_frame_is_marked_and_what_did_not_is_not() {
+    // A second block on the first: the ground bears more, and nothing else was there before.
+    let ground = json!([{ "polygon": structure::rectangle(-5.0, -1.0, 10.0, 1.0) }]);
+    let blocks = json!([
+        structure::block("low", structure::rectangle(0.0, 0.0, 2.0, 1.0), 6.0),
+        structure::block("aside", structure::rectangle(-4.0, 0.0, 1.0, 1.0), 3.0),
+        structure::block("high", structure::rectangle(0.0, 1.0, 2.0, 1.0), 4.0)
+    ]);
+    let file = json!({ "drystone": 1, "friction": 0.7, "ground": ground, "blocks": blocks,
+        "steps": [{ "place": ["low", "aside"] }, { "place": ["high"] }, { "remove": ["high"] }] });
+    let scene = structure::scene(&file);
+    let drawing = draw(&Analysis::of(&scene), Kind::Compare);
+    let frames = all(&drawing, "frame");
+    let count = |frame: usize, class: &str| {
+        let mut found = Vec::new();
+        of_class(&frames[frame].items, class, &mut found);
+        found.len()
+    };
+    let marks: Vec<[usize; 3]> = (0..3)
+        .map(|f| [count(f, "new"), count(f, "gone"), count(f, "change")])
+        .collect();
+    assert_eq!(marks, [[0, 0, 0], [1, 0, 1], [0, 1, 1]]);
+    let svg = svg::write(&drawing);
+    assert!(svg.contains("Between low and the ground: 6 N before, 10 N now"));
+    assert!(
+        svg.contains("new: high; 1 of 2 shared forces changed by over 5 %"),
+        "{svg}"
+    );
+}

@@ -154,3 +154,37 @@ fn an_animated_mechanism_moves_and_its_pages_are_alike() {
     let size = |n: usize| (pages[n].width, pages[n].height);
     assert!((1..pages.len()).all(|n| size(n) == size(0)));
 }
+
+#[test]
+fn a_margin_shows_the_structure_and_the_ghost_of_its_fall() {
+    // A block 1 m wide and 4 m high, too rough to slide, topples at atan(1/4) = 14.04°.
+    let text = r#"{ "drystone": 1, "friction": 0.9, "ground": [ { "polygon": [[-5,-1],[6,-1],[6,0],[-5,0]] } ],
+        "blocks": [ { "id": "a", "polygon": [[0,0],[1,0],[1,4],[0,4]], "weight": 8 } ] }"#;
+    let scene = Scene::from_json(text).unwrap_or_else(|problems| panic!("{problems}"));
+    let asked = drystone::analysis::Options {
+        margins: drystone::analysis::Ask::Yes,
+        ..Default::default()
+    };
+    let analysis = Analysis::with(&scene, &asked);
+    let (turn, motions) = analysis.tilted(0).expect("it topples");
+    assert!((turn.abs() - 14.036).abs() < 1e-2, "{turn}");
+    let [motion] = &motions[..] else {
+        panic!("{motions:?}")
+    };
+    // About the lower corner on the side to which gravity turns.
+    let corner = Point::new(if turn > 0.0 { 1.0 } else { 0.0 }, 0.0);
+    let arm = corner - scene.blocks[0].centroid;
+    let there = motion.velocity + Vector::new(-arm.y, arm.x) * motion.spin;
+    assert!(there.norm() < 1e-5, "{there}");
+    let drawing = figure::draw(&analysis, Kind::Margin, &Options::default());
+    assert_eq!(all(&drawing.items, "ghosts").len(), 1);
+    assert_eq!(all(&drawing.items, "gravity").len(), 1);
+    let svg = drystone::output::svg::write(&drawing);
+    assert!(
+        svg.contains("falls once gravity is turned by 14° to the"),
+        "{svg}"
+    );
+    // Without margins there is nothing to show, and that is said.
+    let plain = figure::draw(&Analysis::of(&scene), Kind::Margin, &Options::default());
+    assert!(drystone::output::svg::write(&plain).contains("its margins were not asked for"));
+}

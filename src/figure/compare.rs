@@ -1,0 +1,239 @@
+//! What changed from one frame to the next: blocks that came and went, and interfaces whose forces grew, shrank or turned.
+//!
+//! Each frame is compared with the one before it, arrows to one scale in all of them. Where an interface's force changed
+//! by more than a twentieth of the larger of the two, it is ringed, and its force before lies faint below the one now.
+
+use std::collections::BTreeMap;
+
+use super::label;
+use super::legend::{self, Entry};
+use super::panel::Pen;
+use super::stage::Stage;
+use super::told;
+use super::words::{counted, listed, quantity};
+use crate::analysis::{Analysis, Contact, Verdict};
+use crate::drawing::arrow::straight;
+use crate::drawing::{Camera, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Theme};
+use crate::geometry::{Bounds, Vector};
+use crate::scene::{BlockId, BodyId};
+
+/// A force has changed where it differs by more than this share of the larger one.
+const CHANGED: f64 = 0.05;
+/// Radius of the ring around a change, unit edges, and between which radii it stays, pixels.
+const RING: (f64, f64, f64) = (0.16, 4.0, 9.0);
+/// So many blocks are named in a sentence.
+const MOST_NAMED: usize = 4;
+
+/// An interface whose force changed.
+struct Change<'a> {
+    now: &'a Contact,
+    before: &'a Contact,
+}
+
+/// Blocks that a frame has and the one before it has not, and the other way round.
+fn blocks(analysis: &Analysis<'_>, frame: usize) -> [Vec<BlockId>; 2] {
+    let Some(earlier) = frame.checked_sub(1) else {
+        return [Vec::new(), Vec::new()];
+    };
+    let frames = &analysis.scene.frames;
+    let (now, before) = (&frames[frame].placed, &frames[earlier].placed);
+    let without =
+        |a: &[BlockId], b: &[BlockId]| a.iter().copied().filter(|id| !b.contains(id)).collect();
+    [without(now, before), without(before, now)]
+}
+
+/// The force of a contact on its first body, N.
+fn force(contact: &Contact) -> Vector {
+    if contact.resultant.on == contact.interface.bodies[0] {
+        contact.resultant.force
+    } else {
+        -contact.resultant.force
+    }
+}
+
+/// The interfaces of both frames whose forces differ, and how many interfaces the two share.
+fn changes<'a>(analysis: &'a Analysis<'_>, frame: usize) -> (Vec<Change<'a>>, usize) {
+    let Some(earlier) = frame.checked_sub(1) else {
+        return (Vec::new(), 0);
+    };
+    let mut before: BTreeMap<[BodyId; 2], Vec<&Contact>> = BTreeMap::new();
+    for contact in &analysis.frames[earlier].contacts {
+        let bodies = contact.interface.bodies;
+        before.entry(bodies).or_default().push(contact);
+    }
+    let same = |now: &Contact, then: &Contact| {
+        let (a, b) = (&now.interface, &then.interface);
+        (a.middle() - b.middle()).norm() <= 1e-6 * a.length()
+    };
+    let shared: Vec<Change<'_>> = analysis.frames[frame]
+        .contacts
+        .iter()
+        .filter_map(|now| {
+            let between = before.get(&now.interface.bodies)?;
+            let before = between.iter().copied().find(|then| same(now, then))?;
+            Some(Change { now, before })
+        })
+        .collect();
+    let count = shared.len();
+    let size = |c: &Contact| force(c).norm();
+    let largest = shared.iter().map(|c| size(c.now).max(size(c.before)));
+    let noise = 1e-6 * largest.fold(0.0, f64::max);
+    let differs = |change: &Change<'_>| {
+        let larger = size(change.now).max(size(change.before));
+        let difference = (force(change.now) - force(change.before)).norm();
+        larger > noise && difference > CHANGED * larger
+    };
+    (shared.into_iter().filter(differs).collect(), count)
+}
+
+/// A box around the blocks of the frame before that are gone.
+pub(crate) fn reach(analysis: &Analysis<'_>, frame: usize) -> Option<Bounds> {
+    let [_, gone] = blocks(analysis, frame);
+    let bounds = |id: &BlockId| analysis.scene.blocks[id.0].body.polygon.bounds();
+    gone.iter().map(bounds).reduce(Bounds::union)
+}
+
+/// What the camera sees of a frame and of what changed.
+pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Camera) -> Group {
+    let pen = Pen::of(stage, frame, camera);
+    let (scene, theme) = (stage.analysis.scene, &stage.options.theme);
+    let mut ink = label::ink(&pen);
+    let outlines = |ids: &[BlockId]| {
+        let mut outline = Outline::default();
+        for id in ids {
+            outline.extend(camera.polygon(&scene.blocks[id.0].body.polygon));
+        }
+        outline
+    };
+    let [came, went] = blocks(stage.analysis, frame);
+    let mut parts = Vec::new();
+    if !went.is_empty() {
+        let gone = Group::of_class("gone").titled("Blocks that are gone");
+        parts.push(gone.with(gone_path(outlines(&went), theme)));
+    }
+    if !came.is_empty() {
+        let new = Group::of_class("new").titled("Blocks that are new");
+        parts.push(new.with(new_path(outlines(&came), theme)));
+    }
+    let mut before = Group::of_class("before");
+    let mut changed = Group::of_class("changed");
+    let metres = stage.unit / stage.marks[frame].newtons_per_unit.max(f64::MIN_POSITIVE);
+    let (share, least, most) = RING;
+    let radius = (share * pen.unit()).clamp(least, most);
+    for change in changes(stage.analysis, frame).0 {
+        let at = camera.place(change.now.resultant.at);
+        let pair = told::pair(scene, change.now.interface.bodies);
+        let amounts = [change.before, change.now].map(|c| quantity(force(c).norm(), "N"));
+        let [was, is] = amounts;
+        let title = format!("Between {pair}: {was} before, {is} now");
+        ink.disc(at, radius + 1.0);
+        let stroke = Stroke::new(theme.motion, 1.6);
+        let ring = Path::stroked(Outline::circle(at, radius), stroke);
+        let drawn = Group::of_class("change").titled(title);
+        changed.items.push(drawn.with(ring).into());
+        for (body, sign) in change.now.interface.bodies.into_iter().zip([1.0, -1.0]) {
+            let BodyId::Block(_) = body else { continue };
+            let from = camera.place(change.before.resultant.at);
+            let along = camera.turn(force(change.before) * (sign * metres));
+            let width = theme.widths.force * pen.unit();
+            let arrow = Path::filled(straight(from, along, width), theme.faint);
+            before.items.push(arrow.with_opacity(0.35).into());
+        }
+    }
+    parts.extend([before, pen.arrows(false), pen.arrows(true), changed]);
+    pen.picture(view, pen.blocks(), parts, ink)
+}
+
+/// What the signs mean, those that occur.
+pub(crate) fn entries(stage: &Stage<'_>, unit: f64) -> Vec<Entry> {
+    let mut entries = legend::entries(stage, unit);
+    entries.retain(|entry| !matches!(entry, Entry::Amplitudes(..)));
+    let (mut came, mut went, mut changed) = (false, false, false);
+    for frame in 0..stage.analysis.frames.len() {
+        let [new, gone] = blocks(stage.analysis, frame);
+        came |= !new.is_empty();
+        went |= !gone.is_empty();
+        changed |= !changes(stage.analysis, frame).0.is_empty();
+    }
+    if came {
+        entries.push(Entry::Sign(new_sign, 20.0, "new".to_owned()));
+    }
+    if went {
+        entries.push(Entry::Sign(gone_sign, 20.0, "gone".to_owned()));
+    }
+    if changed {
+        let what = "force changed by over 5 %; faint, the force before".to_owned();
+        entries.push(Entry::Sign(ring_sign, 14.0, what));
+    }
+    entries
+}
+
+/// What is said below a frame's verdict.
+pub(crate) fn reason(analysis: &Analysis<'_>, frame: usize) -> String {
+    let Some(earlier) = frame.checked_sub(1) else {
+        return match analysis.frames.len() {
+            1 => "one frame: nothing to compare it with".to_owned(),
+            _ => String::new(),
+        };
+    };
+    let [came, went] = blocks(analysis, frame);
+    let mut said = Vec::new();
+    let verdicts = [earlier, frame].map(|f| analysis.frames[f].verdict);
+    if verdicts[0] != verdicts[1] {
+        said.push(match verdicts[1] {
+            Verdict::Stable => "stands where the frame before did not".to_owned(),
+            Verdict::Unstable => "falls where the frame before did not".to_owned(),
+            Verdict::Undecided => "undecided where the frame before was decided".to_owned(),
+        });
+    }
+    for (ids, how) in [(came, "new"), (went, "gone")] {
+        let names: Vec<String> = ids
+            .iter()
+            .map(|id| analysis.scene.blocks[id.0].id.clone())
+            .collect();
+        match names.len() {
+            0 => {}
+            n if n <= MOST_NAMED => said.push(format!("{how}: {}", listed(&names))),
+            n => said.push(format!("{how}: {n} blocks")),
+        }
+    }
+    let (changed, shared) = changes(analysis, frame);
+    said.push(match changed.len() {
+        0 => "no force changed by over 5 %".to_owned(),
+        n => format!(
+            "{n} of {} changed by over 5 %",
+            counted(shared, "shared force")
+        ),
+    });
+    said.join("; ")
+}
+
+fn new_path(outline: Outline, theme: &Theme) -> Path {
+    Path::stroked(outline, Stroke::new(theme.motion, 3.0))
+}
+
+fn gone_path(outline: Outline, theme: &Theme) -> Path {
+    Path::stroked(outline, Stroke::new(theme.motion, 1.6).dashed([5.0, 4.0]))
+}
+
+fn swatch(at: PagePoint) -> Outline {
+    let rect = PageRect {
+        at: at.moved(0.0, -6.5),
+        width: 20.0,
+        height: 13.0,
+    };
+    Outline::rounded(rect, 0.0)
+}
+
+fn new_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    vec![new_path(swatch(at), theme).into()]
+}
+
+fn gone_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    vec![gone_path(swatch(at), theme).into()]
+}
+
+fn ring_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    let ring = Outline::circle(at.moved(7.0, 0.0), 6.0);
+    vec![Path::stroked(ring, Stroke::new(theme.motion, 1.6)).into()]
+}
