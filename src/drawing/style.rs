@@ -188,7 +188,7 @@ impl Theme {
     }
 
     /// The colour of letters on a block or the page; of those that belong to something, a shade of its colour. Its
-    /// [contrast](super::difference::contrast) with what lies below is at least 4.5.
+    /// [contrast] with what lies below is at least 4.5.
     pub fn letters_on(&self, below: Colour, of: Option<Colour>) -> Colour {
         let ink = if contrast(Colour::WHITE, below) > contrast(Colour::BLACK, below) {
             Colour::WHITE

@@ -4,7 +4,7 @@
 //! ever sees half of it, and so that a disk that runs full leaves the old file as it was. A link is followed and its
 //! target replaced, with the target's permissions. What is no ordinary file, a device or a pipe, is written to directly.
 //!
-//! Files beside their places are on a list for as long as they are there: [`abandon`] takes them away when the process is
+//! Files beside their places are on a list for as long as they are there: `abandon` takes them away when the process is
 //! about to be ended by a signal.
 
 use std::fs::{self, File, Metadata, OpenOptions};

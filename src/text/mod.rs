@@ -19,7 +19,7 @@ pub fn line(text: &str) -> String {
     text.chars().map(shown).collect()
 }
 
-/// As [`line`], with white space narrowed to single spaces and at most `most` characters: for a heading, which a terminal
+/// As [`line()`], with white space narrowed to single spaces and at most `most` characters: for a heading, which a terminal
 /// may break where it ends.
 pub fn heading(text: &str, most: usize) -> String {
     let line = line(text);

@@ -42,7 +42,7 @@ fn main() {
     for robot in strong.as_array_mut().unwrap() {
         robot["limits"]["torque"] = json!(10.0);
     }
-    let loads = json!([{ "block": "90", "force": [0.0, -40.0], "at": [5.0, 4.75] }]);
+    let loads = json!([{ "block": "0", "force": [0.0, -4.0], "at": [0.5, 0.25] }]);
     let cases: Vec<(&str, Value, Options)> = vec![
         ("weight and contact", smooth(), plain),
         ("+ friction", with(&[("friction", json!(0.7))]), plain),
