@@ -67,7 +67,11 @@ pub struct FrameAnalysis {
     pub length: f64,
     /// Σ(N1+N2+|T|) + Σ(|Fx|+|Fy|+|M|/L), N: the source's cost.
     pub total_force: f64,
-    /// Whether the forces are those of least sum; where not, they balance, and a smaller sum may balance too.
+    /// Where it stands: the sum that admissible forces must have at least to balance, N, as far as a motion shows it
+    /// ([`proof::least_sum`]).
+    pub force_bound: Option<f64>,
+    /// Whether the total force is no more than a millionth above that; where not, the forces balance, and a smaller sum may
+    /// balance too.
     pub least_force: bool,
     /// The same sum over the sticking forces, N.
     pub total_sticking: f64,
@@ -394,6 +398,7 @@ fn gathered(
         doubt: String::new(),
         length: assembly.length,
         total_force: 0.0,
+        force_bound: Some(0.0),
         least_force: true,
         total_sticking: 0.0,
         weight: frame.placed.iter().map(|b| scene.blocks[b.0].weight).sum(),
@@ -451,6 +456,10 @@ fn add(analysis: &mut FrameAnalysis, component: &Assembly, found: &Findings, ker
             .max(share(torque, limits.torque));
         analysis.total_force += force.x.abs() + force.y.abs() + torque.abs() / component.length;
     }
+    analysis.force_bound = match (analysis.force_bound, found.force_bound) {
+        (Some(sum), Some(own)) if found.verdict == Verdict::Stable => Some(sum + own),
+        _ => None,
+    };
     analysis.least_force &= found.least_force;
     analysis.total_sticking += found.total_sticking;
     analysis.failures.extend(found.failures.iter().copied());

@@ -176,13 +176,19 @@ pub struct Correction<'a> {
 
 /// The forces of least Σ force² among the amounts ≥ 0 of the given columns that give `need`.
 ///
-/// With a `correction` the unknowns are changes to given amounts.
-/// The squares are those of N1, N2, T of each contact and of each component of a grip, not of the generators, so the
+/// With a `correction` the unknowns are changes to given amounts, and the squares are those of the changes of each column:
+/// the squares of forces leave columns that undo each other, such as a robot's push and pull, without bound, and where both
+/// may be changed the solver ends nowhere.
+/// Else the squares are those of N1, N2, T of each contact and of each component of a grip, not of the generators, so the
 /// answer does not depend on how a cone is written.
 pub fn least_squares(need: &[f64], columns: &[Column], correction: Option<Correction>) -> Conic {
     let mut quadratic = Vec::new();
+    if correction.is_some() {
+        quadratic.extend((0..columns.len()).map(|j| (j, j, 1.0)));
+    }
     // Columns of one contact stand side by side; products reach back only to the contact's first column.
-    for (j, column) in columns.iter().enumerate() {
+    let squared = if correction.is_some() { &[] } else { columns };
+    for (j, column) in squared.iter().enumerate() {
         for (i, other) in columns[..=j].iter().enumerate().rev() {
             match product(&other.force, &column.force) {
                 Some(0.0) => {}

@@ -14,8 +14,10 @@
 //! violation of 0 is none at all.
 
 mod balance;
+mod least;
 
 pub use balance::imbalances;
+pub use least::least_sum;
 
 use crate::assembly::{Assembly, Body, LoadVector};
 use crate::geometry::{Point, Vector, quarter_turn};
@@ -269,28 +271,17 @@ pub fn gross_load(assembly: &Assembly, body: &Body) -> f64 {
 /// Several times the rounding of one sum of a few products.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
-/// Checks a motion of an assembly, one entry for each of its bodies: the loads' power, and whether any contact or grip
-/// objects.
-pub fn mechanism(assembly: &Assembly, motions: &[Motion]) -> Proof {
-    let load = moving_load(assembly, motions);
-    let moving = |number: usize| (&assembly.bodies[number], &motions[number]);
+/// The worst velocity against which a contact's force could act, per unit of N + |T|, with its rounding; 0 where every
+/// contact opens.
+fn worst_violation(assembly: &Assembly, motions: &[Motion]) -> f64 {
     // A point's velocity, and what it is summed from.
-    let velocity = |body: Option<usize>, at: Point| match body.map(moving) {
+    let velocity = |body: Option<usize>, at: Point| match body {
         None => (Vector::zeros(), 0.0),
-        Some((body, m)) => (m.about(body.centroid, at), m.summed(body.centroid, at)),
+        Some(number) => {
+            let (centroid, m) = (assembly.bodies[number].centroid, &motions[number]);
+            (m.about(centroid, at), m.summed(centroid, at))
+        }
     };
-    let speeds = assembly
-        .bodies
-        .iter()
-        .zip(motions)
-        .map(|(b, m)| fastest(b, m));
-    let fastest = speeds.fold(0.0, f64::max);
-    if fastest == 0.0 || load == 0.0 {
-        return Proof::Mechanism {
-            power: 0.0,
-            worst_violation: 0.0,
-        };
-    }
     let mut violation: f64 = 0.0;
     for contact in &assembly.contacts {
         for at in contact.points {
@@ -307,14 +298,40 @@ pub fn mechanism(assembly: &Assembly, motions: &[Motion]) -> Proof {
             violation = violation.max(used.max(-opens) + ROUNDING * (of_one + of_other));
         }
     }
+    violation
+}
+
+/// The power of the loads along a motion, and the sum of the amounts it is summed from.
+fn power_of_loads(assembly: &Assembly, motions: &[Motion]) -> (f64, f64) {
     let (mut power, mut summed) = (0.0, 0.0);
     for (body, motion) in assembly.bodies.iter().zip(motions) {
         let LoadVector { force, moment } = body.load;
         power += force.dot(&motion.velocity) + moment * motion.spin;
         summed += force.norm() * motion.velocity.norm() + (moment * motion.spin).abs();
     }
+    (power, summed)
+}
+
+/// Checks a motion of an assembly, one entry for each of its bodies: the loads' power, and whether any contact or grip
+/// objects.
+pub fn mechanism(assembly: &Assembly, motions: &[Motion]) -> Proof {
+    let load = moving_load(assembly, motions);
+    let speeds = assembly
+        .bodies
+        .iter()
+        .zip(motions)
+        .map(|(b, m)| fastest(b, m));
+    let fastest = speeds.fold(0.0, f64::max);
+    if fastest == 0.0 || load == 0.0 {
+        return Proof::Mechanism {
+            power: 0.0,
+            worst_violation: 0.0,
+        };
+    }
+    let mut violation = worst_violation(assembly, motions);
+    let (mut power, mut summed) = power_of_loads(assembly, motions);
     for grip in &assembly.grips {
-        let (body, motion) = moving(grip.body);
+        let (body, motion) = (&assembly.bodies[grip.body], &motions[grip.body]);
         let limits = grip.limits;
         let at_grip = motion.about(body.centroid, grip.at);
         let spin = motion.spin * assembly.length;

@@ -116,6 +116,8 @@ struct Frame<'a> {
     total_force: Number,
     #[serde(skip_serializing_if = "is_least")]
     total_force_least: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    total_force_bound: Option<Number>,
     total_sticking: Number,
     weight: Number,
     interfaces: Vec<Interface<'a>>,
@@ -303,6 +305,7 @@ impl<'a> Frame<'a> {
             length: Number(frame.length),
             total_force: Number(frame.total_force),
             total_force_least: frame.least_force,
+            total_force_bound: frame.force_bound.map(Number),
             total_sticking: Number(frame.total_sticking),
             weight: Number(frame.weight),
             interfaces: frame

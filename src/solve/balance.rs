@@ -13,6 +13,9 @@ pub struct Balance {
     pub forces: Option<Amounts>,
     /// A motion along which the loads work and no contact objects, where it found one: three velocities per block.
     pub motion: Option<Vec<f64>>,
+    /// Where it found forces: the motion against which no contact works by more than its force costs, which says how small
+    /// their sum can be.
+    pub witness: Option<Vec<f64>>,
     /// The work it took.
     pub effort: Effort,
 }
@@ -104,6 +107,7 @@ pub fn balance_in(program: &Program, manner: Manner) -> Balance {
             Balance {
                 forces: Some(forces),
                 motion: None,
+                witness: Some(solved.y.iter().map(|v| -v).collect()),
                 effort,
             }
         }
@@ -111,11 +115,13 @@ pub fn balance_in(program: &Program, manner: Manner) -> Balance {
         Status::Unbounded => Balance {
             forces: None,
             motion: Some(solved.y.iter().map(|v| -v).collect()),
+            witness: None,
             effort,
         },
         _ => Balance {
             forces: None,
             motion: None,
+            witness: None,
             effort,
         },
     }

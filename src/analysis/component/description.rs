@@ -1,7 +1,7 @@
 //! What belongs to a verdict: the forces of least sum where it stands, what fails and how it moves where it falls.
 
 use super::Case;
-use super::ladder::{Decision, same_sum};
+use super::ladder::Decision;
 use super::local::Outcome;
 use crate::analysis::Verdict;
 use crate::program::Program;
@@ -32,15 +32,18 @@ impl Case<'_> {
                     true => Outcome::Stands(amounts.clone(), proof),
                     false => self.made_good(program, &amounts, &mut decision.effort),
                 };
-                if let Outcome::Stands(good, proof) = good
-                    && same_sum(&amounts, &good)
-                {
-                    return Decision {
-                        amounts: good,
-                        least_force: true,
-                        proof,
-                        ..decision
-                    };
+                if let Outcome::Stands(good, proof) = good {
+                    let (force_bound, least_force) =
+                        self.least_shown(solved.witness.as_deref(), &good);
+                    if least_force {
+                        return Decision {
+                            amounts: good,
+                            force_bound,
+                            least_force,
+                            proof,
+                            ..decision
+                        };
+                    }
                 }
             }
         }

@@ -2,7 +2,7 @@
 
 use super::Case;
 use crate::geometry::Vector;
-use crate::proof::{self, Forces, Held, Pressed, Proof, gross_load};
+use crate::proof::{self, Forces, Held, Motion, Pressed, Proof, gross_load};
 use crate::solve::Amounts;
 
 /// By what it is measured how little of a force is noise.
@@ -15,6 +15,9 @@ enum Noise {
     /// Nothing is noise.
     None,
 }
+
+/// A sum of forces within this share of what it must come to at least is the least.
+const SAME_SUM: f64 = 1e-6;
 
 /// Forces in newtons with their proof.
 pub(super) struct Carried {
@@ -53,6 +56,24 @@ impl Case<'_> {
                 Carried { forces, proof }
             }
         }
+    }
+
+    /// The sum that a motion shows forces must have at least to balance, N, and whether given forces have no more.
+    pub fn least_shown(&self, witness: Option<&[f64]>, amounts: &Amounts) -> (Option<f64>, bool) {
+        let Some(witness) = witness else {
+            return (None, false);
+        };
+        let bodies = self.assembly.bodies.iter().zip(witness.chunks_exact(3));
+        let motion: Vec<Motion> = bodies
+            .map(|(body, v)| Motion {
+                block: body.block,
+                velocity: Vector::new(v[0], v[1]),
+                spin: v[2] / self.scale.length,
+            })
+            .collect();
+        let bound = proof::least_sum(self.assembly, &motion);
+        let sum = self.carried(amounts).forces.sum(self.assembly.length);
+        (Some(bound), sum <= (1.0 + SAME_SUM) * bound)
     }
 
     /// Newtons from pure numbers: normal and robot forces below 1e-13 and friction below 1e-10 of what acts there dropped,

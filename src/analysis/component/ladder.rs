@@ -11,9 +11,6 @@ use crate::program::Program;
 use crate::proof::{Motion, Proof};
 use crate::solve::{Amounts, Effort, Stuck};
 
-/// Sums of forces that differ by no more than this share are the same to a solver.
-const SAME_SUM: f64 = 2e-8;
-
 /// A verdict with its proof, in the pure numbers of its program.
 pub(super) struct Decision {
     pub verdict: Verdict,
@@ -21,7 +18,8 @@ pub(super) struct Decision {
     pub doubt: String,
     /// Forces that balance, or that balance together with the sticking.
     pub amounts: Amounts,
-    /// Whether they are those of least sum.
+    /// The sum that admissible forces must have at least to balance, N, where it was shown, and whether these have it.
+    pub force_bound: Option<f64>,
     pub least_force: bool,
     /// What would have to stick.
     pub sticking: Option<Amounts>,
@@ -63,8 +61,11 @@ impl Case<'_> {
                 };
                 match outcome {
                     Outcome::Stands(good, proof) => {
+                        let (force_bound, least_force) =
+                            self.least_shown(attempt.witness.as_deref(), &good);
                         return Decision {
-                            least_force: rung.is_least() && same_sum(amounts, &good),
+                            force_bound,
+                            least_force,
                             amounts: good,
                             proof,
                             effort,
@@ -157,6 +158,7 @@ impl Decision {
             verdict: Verdict::Stable,
             doubt: String::new(),
             amounts: Amounts::none(program),
+            force_bound: None,
             least_force: false,
             sticking: None,
             beyond_sticking: false,
@@ -172,11 +174,6 @@ impl Decision {
             effort: Effort::default(),
         }
     }
-}
-
-/// Whether forces that were made good are still those of least sum.
-pub(super) fn same_sum(before: &Amounts, after: &Amounts) -> bool {
-    (after.total() - before.total()).abs() <= SAME_SUM * before.total()
 }
 
 fn doubt(forces: &Proof, motion: Option<&Proof>) -> String {

@@ -4,9 +4,11 @@
 //! be all that would tell that they fall. So where forces balance the whole but not every body:
 //!
 //! 1. all forces are changed a little, each in parts of its own amount ([`relative`]);
-//! 2. of each connected set of bodies that still do not balance the others are held still, as if they were ground, and the
+//! 2. forces that are no parts of what there is, such as that of a robot which did not push so far, come in by the least
+//!    change of all ([`corrected`]); a set alone would hand what it lacks to its neighbour, and get it back;
+//! 3. of each connected set of bodies that still do not balance the others are held still, as if they were ground, and the
 //!    forces on the set change as little as may be, in the set's own scale ([`corrected`]);
-//! 3. where there is no such change, the ladder is climbed for the set alone. If it falls, so does the whole: its motion
+//! 4. where there is no such change, the ladder is climbed for the set alone. If it falls, so does the whole: its motion
 //!    with all others at rest is a mechanism. If it stands, its forces take the place of the old ones.
 //!
 //! Each round brings bodies of smaller weight within the digits; sets within a set are treated alike.
@@ -63,6 +65,7 @@ impl Case<'_> {
             off.iter().map(|off| *off > self.demand.imbalance).collect()
         };
         let count = |fails: &[bool]| fails.iter().filter(|fails| **fails).count();
+        let mut all_at_once = true;
         for _ in 0..ROUNDS {
             let carried = self.carried(&amounts);
             if self.believes(&carried.proof) {
@@ -74,6 +77,15 @@ impl Case<'_> {
             {
                 amounts = better;
                 continue;
+            }
+            if all_at_once {
+                match corrected(program, &amounts, effort) {
+                    Some(better) if count(&failing(&self.carried(&better))) < count(&fails) => {
+                        amounts = better;
+                        continue;
+                    }
+                    _ => all_at_once = false,
+                }
             }
             let mut falling = Vec::new();
             let mut better = false;

@@ -28,7 +28,9 @@ pub(super) struct Findings {
     pub verdict: Verdict,
     pub doubt: String,
     pub forces: Forces,
-    /// Whether the forces are those of least sum, and not just some that balance.
+    /// The sum that admissible forces must have at least to balance, N, where it was shown.
+    pub force_bound: Option<f64>,
+    /// Whether the forces are shown to be those of least sum, and not just some that balance.
     pub least_force: bool,
     pub failures: Vec<Failure>,
     pub total_sticking: f64,
@@ -118,6 +120,7 @@ impl<'a> Case<'a> {
         Findings {
             verdict: Verdict::Stable,
             doubt: String::new(),
+            force_bound: Some(carried.forces.sum(self.assembly.length)),
             forces: carried.forces,
             least_force: true,
             failures: Vec::new(),
@@ -154,6 +157,7 @@ impl<'a> Case<'a> {
             verdict: decision.verdict,
             doubt: decision.doubt,
             forces: self.carried(&decision.amounts).forces,
+            force_bound: decision.force_bound,
             least_force: decision.least_force,
             failures,
             total_sticking,

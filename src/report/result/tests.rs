@@ -67,6 +67,7 @@ fn frame() -> FrameAnalysis {
         doubt: String::new(),
         length: 1.5,
         total_force: 43.372,
+        force_bound: None,
         least_force: true,
         total_sticking: 4.125,
         weight: 24.0,

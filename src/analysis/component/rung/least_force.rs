@@ -10,6 +10,7 @@ pub(super) fn attempt(program: &Program, settings: Manner) -> Attempt {
     Attempt {
         forces: solved.forces,
         motion: solved.motion,
+        witness: solved.witness,
         stuck: None,
         effort: solved.effort,
     }

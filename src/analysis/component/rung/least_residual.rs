@@ -10,12 +10,14 @@ pub(super) fn attempt(program: &Program) -> Attempt {
         Some(left) => Attempt {
             forces: Some(left.forces),
             motion: Some(left.motion),
+            witness: None,
             stuck: None,
             effort: left.effort,
         },
         None => Attempt {
             forces: None,
             motion: None,
+            witness: None,
             stuck: None,
             effort: Effort::default(),
         },

@@ -11,6 +11,7 @@ pub(super) fn attempt(program: &Program, settings: Manner) -> Attempt {
         forces: (stuck.balanced == Some(true)).then(|| stuck.forces.clone()),
         motion: stuck.motion.clone(),
         effort: stuck.effort,
+        witness: None,
         stuck: Some(stuck),
     }
 }

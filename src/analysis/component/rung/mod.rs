@@ -52,6 +52,8 @@ pub(super) struct Attempt {
     pub forces: Option<Amounts>,
     /// A motion that should be a mechanism.
     pub motion: Option<Vec<f64>>,
+    /// Of the program of least force: the motion that says how small a sum of forces can balance.
+    pub witness: Option<Vec<f64>>,
     /// What the program of least sticking gave, where it was posed.
     pub stuck: Option<Stuck>,
     pub effort: Effort,
