@@ -1,29 +1,64 @@
-//! Gaps on which a verdict hinges.
+//! Gaps and overlaps on which a verdict hinges.
 //!
 //! Edges that face each other with a gap above the contact tolerance and below a hundredth of the block's size may have
-//! been meant to touch. Where there are such gaps a frame is judged both ways, with the gaps open, as they are written, and
-//! closed. If the verdicts differ nobody can say which structure was meant: the frame is undecided, with the places and
-//! the tolerance that settles it. A tolerance that somebody gave settles it already.
+//! been meant to touch, and so may bodies that overlap by as little. Where there are such places a frame is judged both
+//! ways: as it is written, where neither a gap nor an overlap carries force, and with all of them closed. If the verdicts
+//! differ nobody can say which structure was meant: the frame is undecided, with the places and the tolerance that settles
+//! it. If they agree an overlap is told beside the verdict. A tolerance that somebody gave settles it already.
 
 use std::collections::BTreeMap;
 
 use super::{Ask, FrameAnalysis, Options, Verdict, examine};
+use crate::geometry::Point;
 use crate::interface::{Interface, Interfaces, Near};
-use crate::scene::{BodyId, Scene, ToleranceSource};
+use crate::scene::{BodyId, Penetration, Scene, ToleranceSource};
 
 /// So many places are named.
 const NAMED: usize = 3;
-/// The gaps are closed by so many times the widest of them.
+/// What may have been meant to touch is closed by so many times the widest of it.
 const ENOUGH: f64 = 1.01;
 
-/// Makes frames undecided that stand with gaps open and fall with them closed, or the other way round.
+/// Where two bodies may have been meant to touch.
+#[derive(Clone, Copy)]
+struct Place {
+    bodies: [BodyId; 2],
+    at: Point,
+    /// The width of the gap or the depth of the overlap, metres.
+    size: f64,
+    overlaps: bool,
+}
+
+impl From<&Near> for Place {
+    fn from(gap: &Near) -> Place {
+        Place {
+            bodies: gap.bodies,
+            at: gap.at,
+            size: gap.distance,
+            overlaps: false,
+        }
+    }
+}
+
+impl From<&Penetration> for Place {
+    fn from(overlap: &Penetration) -> Place {
+        Place {
+            bodies: overlap.bodies,
+            at: overlap.at,
+            size: overlap.depth,
+            overlaps: true,
+        }
+    }
+}
+
+/// Makes frames undecided that stand with gaps and overlaps as they are and fall with them closed, or the other way round.
 pub(super) fn judge(
     scene: &Scene,
     found: &Interfaces,
     frames: &mut [FrameAnalysis],
     options: &Options,
 ) {
-    if scene.healed.source == ToleranceSource::Given || found.near.is_empty() {
+    let none = found.near.is_empty() && scene.penetrations.is_empty();
+    if scene.healed.source == ToleranceSource::Given || none {
         return;
     }
     let mut touching: BTreeMap<BodyId, Vec<&Interface>> = BTreeMap::new();
@@ -32,7 +67,7 @@ pub(super) fn judge(
             touching.entry(body).or_default().push(interface);
         }
     }
-    let gaps: Vec<Vec<&Near>> = (scene.frames.iter())
+    let places: Vec<Vec<Place>> = (scene.frames.iter())
         .map(|frame| {
             let mut placed = vec![false; scene.blocks.len()];
             for block in &frame.placed {
@@ -42,13 +77,16 @@ pub(super) fn judge(
                 BodyId::Ground(_) => true,
                 BodyId::Block(id) => placed[id.0],
             };
-            (found.near.iter())
+            let gaps = (found.near.iter())
                 .filter(|gap| gap.bodies.iter().all(stands))
-                .filter(|gap| !held_open(gap, &touching, stands, scene.tolerance.gap))
+                .filter(|gap| !held_open(gap, &touching, stands, scene.tolerance.gap));
+            let overlaps = (scene.penetrations.iter()).filter(|o| o.bodies.iter().all(stands));
+            gaps.map(Place::from)
+                .chain(overlaps.map(Place::from))
                 .collect()
         })
         .collect();
-    let Some(widest) = (gaps.iter().flatten().map(|n| n.distance)).reduce(f64::max) else {
+    let Some(widest) = (places.iter().flatten().map(|p| p.size)).reduce(f64::max) else {
         return;
     };
     let closed = scene.closed(ENOUGH * widest);
@@ -58,14 +96,24 @@ pub(super) fn judge(
         ..*options
     };
     let (_, others) = examine(&closed, &options);
-    for ((frame, other), gaps) in frames.iter_mut().zip(&others).zip(&gaps) {
-        let differ = matches!(
-            (frame.verdict, other.verdict),
-            (Verdict::Stable, Verdict::Unstable) | (Verdict::Unstable, Verdict::Stable)
-        );
-        if differ && !gaps.is_empty() {
-            frame.doubt = words(scene, frame.verdict, gaps);
+    for ((frame, other), mut places) in frames.iter_mut().zip(&others).zip(places) {
+        places.sort_by(|a, b| b.size.total_cmp(&a.size));
+        let overlaps: Vec<Place> = places.iter().copied().filter(|p| p.overlaps).collect();
+        let open = |verdict: Verdict| verdict == Verdict::Undecided;
+        // Beside an overlap no verdict is given that was not reached both ways.
+        let unsure = open(frame.verdict) || (open(other.verdict) && overlaps.is_empty());
+        if places.is_empty() {
+            continue;
+        }
+        if frame.verdict != other.verdict && !unsure {
+            frame.doubt = words(scene, [frame.verdict, other.verdict], &places);
             frame.verdict = Verdict::Undecided;
+        } else if !overlaps.is_empty() && !open(frame.verdict) {
+            frame.notices.push(format!(
+                "bodies overlap; the verdict is the same whether they touch there or not, the forces are those without \
+                 touching: {}",
+                listed(scene, &overlaps)
+            ));
         }
     }
 }
@@ -101,35 +149,48 @@ fn partner(interface: &Interface, body: BodyId) -> BodyId {
     if a == body { b } else { a }
 }
 
-fn words(scene: &Scene, open: Verdict, gaps: &[&Near]) -> String {
-    let (open, closed) = match open {
-        Verdict::Stable => ("stands", "falls"),
-        _ => ("falls", "stands"),
-    };
-    let mut gaps = gaps.to_vec();
-    gaps.sort_by(|a, b| b.distance.total_cmp(&a.distance));
-    let places: Vec<String> = (gaps.iter().take(NAMED))
-        .map(|n| {
-            format!(
-                "{:.2e} m between {} and {} at ({:.4}, {:.4})",
-                n.distance,
-                scene.name(n.bodies[0]),
-                scene.name(n.bodies[1]),
-                n.at.x,
-                n.at.y
-            )
-        })
-        .collect();
-    let more = match gaps.len() - places.len() {
+fn words(scene: &Scene, verdicts: [Verdict; 2], places: &[Place]) -> String {
+    let [written, closed] = verdicts.map(|verdict| match verdict {
+        Verdict::Stable => "stands",
+        Verdict::Unstable => "falls",
+        Verdict::Undecided => "is undecided",
+    });
+    let widest = places.first().map_or(0.0, |place| place.size);
+    let enough = format!(
+        "a contact_tolerance of {:.2e} m closes them",
+        ENOUGH * widest
+    );
+    let (places, overlap) = (listed(scene, places), places.iter().any(|p| p.overlaps));
+    if overlap {
+        return format!(
+            "it {written} where overlaps and narrow gaps carry nothing and {closed} where bodies touch there: {places}; \
+             {enough}, and bodies drawn clear of each other do not touch"
+        );
+    }
+    format!(
+        "it {written} with narrow gaps open and {closed} with them closed: {places}; {enough}, one of {:.2e} m leaves them \
+         open",
+        scene.tolerance.gap,
+    )
+}
+
+/// The first of some places, and how many more there are.
+fn listed(scene: &Scene, places: &[Place]) -> String {
+    let named = places.iter().take(NAMED).map(|place| {
+        let kind = if place.overlaps { " of overlap" } else { "" };
+        format!(
+            "{:.2e} m{kind} between {} and {} at ({:.4}, {:.4})",
+            place.size,
+            scene.name(place.bodies[0]),
+            scene.name(place.bodies[1]),
+            place.at.x,
+            place.at.y
+        )
+    });
+    let named: Vec<String> = named.collect();
+    let more = match places.len() - named.len() {
         0 => String::new(),
         n => format!(" and {n} more"),
     };
-    let widest = gaps.first().map_or(0.0, |n| n.distance);
-    format!(
-        "it {open} with narrow gaps open and {closed} with them closed: {}{more}; a contact_tolerance of {:.2e} m closes \
-         them, one of {:.2e} m leaves them open",
-        places.join(", "),
-        ENOUGH * widest,
-        scene.tolerance.gap,
-    )
+    named.join(", ") + &more
 }

@@ -214,7 +214,13 @@ fn made(mut draft: Draft, options: &Options) -> Result<Imported, Refusal> {
         ));
     }
     let scene = entry::scene(&outlines, &names, &mut draft, title, size, &options.scene);
-    match Scene::from_json(&scene.to_json()) {
+    let text = scene.to_json();
+    // Outlines brought together leave nothing to be judged both ways: what still overlaps has to be drawn anew.
+    let read = Scene::from_json(&text).and_then(|read| match read.penetrations.is_empty() {
+        true => Ok(read),
+        false => Scene::from_json_within(&text, Some(read.tolerance.gap)),
+    });
+    match read {
         Ok(_) => Ok(Imported {
             scene,
             notes: draft.notes,

@@ -44,10 +44,25 @@ pub(super) struct Comparison<'s> {
     pub(super) frames: &'s [Frame],
     /// The lattice, where all bodies are cells of it.
     pub(super) lattice: Option<Lattice>,
+    /// Whether somebody said how close is close: then deeper is refused.
+    pub(super) given: bool,
 }
 
-/// Notes every pair of bodies that lie in each other while both stand.
-pub(super) fn check(findings: &mut Findings, scene: &Comparison<'_>) {
+/// Two bodies that lie in each other, deeper than they may and by less than a hundredth of the smaller one's size: they may
+/// have been meant to touch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Penetration {
+    /// The two bodies, the later block second.
+    pub bodies: [BodyId; 2],
+    /// How far one would have to move to be clear of the other, metres.
+    pub depth: f64,
+    /// The middle of what they share.
+    pub at: Point,
+}
+
+/// Notes every pair of bodies that lie in each other while both stand; those that may have been meant to touch are given
+/// back, unless somebody said how close is close.
+pub(super) fn check(findings: &mut Findings, scene: &Comparison<'_>) -> Vec<Penetration> {
     let presence = Presence::of(scene.names.len(), scene.frames);
     let bodies: Vec<Numbered<'_>> = scene
         .bodies
@@ -60,6 +75,9 @@ pub(super) fn check(findings: &mut Findings, scene: &Comparison<'_>) {
         None => off_lattice(&bodies, &presence),
     };
     found.sort_by_key(|f| (f.bodies[1], f.bodies[0]));
+    let all = found.len();
+    let (slight, found): (Vec<Found>, Vec<Found>) =
+        (found.into_iter()).partition(|f| f.may_be_meant && !scene.given && all <= MOST);
     let top = Trail::Top;
     let list = top.key("blocks");
     for f in found.iter().take(MOST) {
@@ -90,6 +108,12 @@ pub(super) fn check(findings: &mut Findings, scene: &Comparison<'_>) {
     if found.len() > MOST {
         findings.add(&list, problem::outline::more_overlaps(MOST));
     }
+    let slight = slight.into_iter().map(|f| Penetration {
+        bodies: f.bodies,
+        depth: f.depth,
+        at: f.at,
+    });
+    slight.collect()
 }
 
 /// In which frames each block stands, as spans from first to last.

@@ -232,6 +232,7 @@ impl Scene {
         scene.ground = ground.into_iter().flatten().collect();
         scene.blocks = blocks.into_iter().flatten().collect();
         scene.tolerance = Tolerance::within(gap);
+        scene.penetrations.clear();
         scene
     }
 

@@ -27,6 +27,7 @@ mod syntax;
 pub use body::{
     Block, BlockId, Body, BodyId, Grip, Ground, Limits, Load, Material, Rgb, Robot, RobotId,
 };
+pub use collision::Penetration;
 pub use format::schema;
 pub use frame::{Frame, Hold, Plan};
 pub(crate) use heal::size;
@@ -56,6 +57,8 @@ pub struct Scene {
     pub tolerance: Tolerance,
     /// Where the tolerance comes from, and what was moved within it before anything was judged.
     pub healed: Healed,
+    /// Bodies that lie in each other by so little that they may have been meant to touch; empty where the tolerance is given.
+    pub penetrations: Vec<Penetration>,
     /// The ground's parts.
     pub ground: Vec<Ground>,
     /// The blocks, in the file's order.

@@ -229,6 +229,7 @@ impl<'f> Resolution<'f> {
             )
             .collect();
         let steps_unknown = findings.doubt.touches_key("steps") && self.file.steps.is_empty();
+        let mut penetrations = Vec::new();
         if !steps_unknown {
             let lattice = self.lattice.filter(|_| exact);
             let comparison = Comparison {
@@ -236,8 +237,9 @@ impl<'f> Resolution<'f> {
                 names: &self.ids,
                 frames: &frames,
                 lattice,
+                given: reach.source == ToleranceSource::Given,
             };
-            collision::check(findings, &comparison);
+            penetrations = collision::check(findings, &comparison);
         }
         Some(Scene {
             title: self.file.title.clone().unwrap_or_default(),
@@ -252,6 +254,7 @@ impl<'f> Resolution<'f> {
                 Tolerance::within(reach.gap())
             },
             healed,
+            penetrations,
             ground: ground.into_iter().collect::<Option<_>>()?,
             blocks: blocks.into_iter().collect::<Option<_>>()?,
             robots,

@@ -403,21 +403,57 @@ fn a_small_stone_keeps_its_own_tolerance() {
 }
 
 #[test]
-fn an_overlap_is_refused_by_its_depth_and_allowed_by_the_tolerance_it_names() {
-    let file = |depth: f64| {
-        let mut file = lintel(0.0, None);
+fn a_verdict_that_hinges_on_a_slight_overlap_is_not_given_silently() {
+    // The lintel lies in both posts; where that carries nothing it falls.
+    let file = |depth: f64, tolerance: Option<f64>| {
+        let mut file = lintel(0.0, tolerance);
         file["blocks"][2]["polygon"] = json!([[0, 2.0 - depth], [4, 2.0 - depth], [4, 3], [0, 3]]);
         file
     };
-    let problems = Scene::from_json(&file(0.003).to_string())
-        .unwrap_err()
-        .to_string();
-    assert!(problems.contains("overlap 0.003 m deep"), "{problems}");
-    assert!(
-        problems.contains("\"contact_tolerance\": 3.2e-3"),
-        "{problems}"
-    );
-    let mut allowed = file(0.003);
-    allowed["contact_tolerance"] = json!(3.2e-3);
-    assert_eq!(judged(&allowed).0, Verdict::Stable);
+    let (verdict, _, doubt) = judged(&file(0.003, None));
+    assert_eq!(verdict, Verdict::Undecided, "{doubt}");
+    for word in [
+        "3.00e-3 m of overlap",
+        "lintel",
+        " b ",
+        "contact_tolerance of 3.03e-3 m",
+        "it falls where overlaps",
+        "stands where bodies touch",
+    ] {
+        assert!(doubt.contains(word), "{word}: {doubt}");
+    }
+    // The number it names settles it; a smaller one is a statement that these bodies lie in each other, as is a larger depth.
+    assert_eq!(judged(&file(0.003, Some(0.00303))).0, Verdict::Stable);
+    for (depth, tolerance) in [(0.003, Some(1e-4)), (0.02, None)] {
+        let problems = Scene::from_json(&file(depth, tolerance).to_string()).unwrap_err();
+        let deep = format!("overlap {depth} m deep");
+        assert!(problems.to_string().contains(&deep), "{problems}");
+    }
+    let problems = Scene::from_json(&file(0.003, Some(1e-4)).to_string()).unwrap_err();
+    let allows = "\"contact_tolerance\": 3.2e-3";
+    assert!(problems.to_string().contains(allows), "{problems}");
+}
+
+#[test]
+fn a_slight_overlap_on_which_nothing_hinges_is_told_beside_the_verdict() {
+    // Two posts side by side, the second 4 mm in the first; a push of a tenth of its weight, or of all of it.
+    let file = |push: f64| {
+        json!({
+            "drystone": 1, "ground": [{ "polygon": [[-1.3333333333, -1], [5, -1], [5, 0], [-1.3333333333, 0]] }],
+            "blocks": [
+                { "id": "a", "polygon": [[0, 0], [1, 0], [1, 2], [0, 2]], "weight": 10 },
+                { "id": "b", "polygon": [[0.996, 0], [1.996, 0], [1.996, 2], [0.996, 2]], "weight": 10 }
+            ],
+            "loads": [{ "block": "b", "force": [push, 0], "at": [1.5, 1.0] }]
+        })
+    };
+    for (push, expected) in [(1.0, Verdict::Stable), (10.0, Verdict::Unstable)] {
+        let frame = first(&file(push));
+        assert_eq!(frame.verdict, expected, "{}", frame.doubt);
+        let told = |n: &String| n.contains("4.00e-3 m of overlap between a and b");
+        assert!(frame.notices.iter().any(told), "{:?}", frame.notices);
+    }
+    // Pushed against its neighbour it stands only if it leans on it.
+    let (verdict, _, doubt) = judged(&file(-7.5));
+    assert_eq!(verdict, Verdict::Undecided, "{doubt}");
 }

@@ -244,6 +244,9 @@ fn a_falling_pebble_makes_any_structure_fall() {
         let Ok(scene) = Scene::from_json(&file.to_string()) else {
             continue;
         };
+        if !scene.penetrations.is_empty() {
+            continue;
+        }
         let analysis = Analysis::of(&scene);
         let frame = &analysis.frames[0];
         let last = BodyId::Block(BlockId(blocks.len()));
