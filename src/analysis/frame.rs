@@ -1,6 +1,7 @@
 //! What a frame's components say together.
 
-use super::{FrameAnalysis, Verdict};
+use super::{Ask, FrameAnalysis, Verdict};
+use crate::effect::sticking::Sought;
 use crate::effect::{
     Situation, contact, corner_contact, friction, mechanism, robot, robot_torque, sticking,
 };
@@ -48,7 +49,12 @@ pub(super) fn worst(a: Proof, b: Proof) -> Proof {
 }
 
 /// Writes what only the outcome tells: the unknowns posed, and the effects that it called for.
-pub(super) fn settle(analysis: &mut FrameAnalysis, situation: &Situation, count: Count) {
+pub(super) fn settle(
+    analysis: &mut FrameAnalysis,
+    situation: &Situation,
+    count: Count,
+    verdict_only: Ask,
+) {
     let unstable = analysis.verdict == Verdict::Unstable;
     if analysis.verdict != Verdict::Undecided {
         analysis.doubt.clear();
@@ -63,11 +69,27 @@ pub(super) fn settle(analysis: &mut FrameAnalysis, situation: &Situation, count:
             _ => 0,
         };
     }
-    let (blocks, fails) = (situation.frame.placed.len(), !analysis.failures.is_empty());
+    let blocks = situation.frame.placed.len();
+    let sought = match verdict_only {
+        Ask::Yes if unstable => Sought::NotAsked,
+        _ if analysis.failures.is_empty() => Sought::NotNeeded,
+        _ => Sought::Found,
+    };
     analysis
         .effects
-        .push(sticking::report(blocks, fails, count.sticking));
+        .push(sticking::report(blocks, sought, count.sticking));
     analysis.effects.push(mechanism::report(unstable));
+    match (verdict_only, analysis.verdict) {
+        (Ask::Yes, Verdict::Stable) => analysis.notices.push(
+            "only the verdict was asked for: where more than one set of forces balances, any of them is shown"
+                .into(),
+        ),
+        (Ask::Yes, Verdict::Unstable) => analysis.notices.push(
+            "only the verdict was asked for: what fails, and the forces beside it, were not sought"
+                .into(),
+        ),
+        _ => {}
+    }
     if analysis.verdict == Verdict::Stable && !analysis.least_force {
         analysis.notices.push(
             "the forces shown balance every block; that they are those of least sum was not shown"

@@ -307,7 +307,7 @@ fn examined(situation: &Situation, options: Options, known: &mut Known) -> Frame
     let count = found
         .iter()
         .fold(Count::default(), |sum, f| sum.and(f.1.count));
-    settle(&mut analysis, situation, count);
+    settle(&mut analysis, situation, count, options.verdict_only);
     if analysis.verdict == Verdict::Undecided && options.is_late() {
         analysis.doubt = format!("{LATE}: {}", analysis.doubt);
     }

@@ -18,6 +18,9 @@ pub struct Options {
     pub margins: Ask,
     /// Whether each standing frame stands only by wedging.
     pub wedging: Ask,
+    /// The verdict with its proof, and no program beyond what decides: where a frame falls, what fails is not sought; where it
+    /// stands, the forces are some that balance. Each is said in the result.
+    pub verdict_only: Ask,
     /// When to give up: what is not decided by then is `Undecided`, and its doubt says so. Without one the same scene gives
     /// the same answer every time.
     pub deadline: Option<Instant>,
@@ -85,6 +88,9 @@ impl Options {
             manners.insert(0, draft);
         }
         for manner in &mut manners {
+            if self.verdict_only == Ask::Yes {
+                manner.choice = Choice::Any;
+            }
             manner.tolerance = self.tolerance.unwrap_or(manner.tolerance);
         }
         manners

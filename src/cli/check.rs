@@ -32,6 +32,9 @@ pub(crate) struct Check {
     /// loads, robots' least limits
     #[arg(long)]
     margins: bool,
+    /// Tell the verdict with its proof and leave out the rest: what fails, and which of several balances is the one to draw
+    #[arg(long)]
+    verdict_only: bool,
     /// Examine one frame only, by number from 1 or by its letter in the strip
     #[arg(long, value_name = "N")]
     frame: Option<FrameChoice>,
@@ -49,7 +52,8 @@ impl Check {
         };
         let progress = Progress::begin(sources.len(), shown);
         let options = Options {
-            margins: if self.margins { Ask::Yes } else { Ask::No },
+            margins: asked(self.margins),
+            verdict_only: asked(self.verdict_only),
             ..self.level.options()
         };
         let analyses: Vec<Analysis> = sources
@@ -94,4 +98,8 @@ impl Check {
             .max()
             .unwrap_or(Ending::Done))
     }
+}
+
+fn asked(flag: bool) -> Ask {
+    if flag { Ask::Yes } else { Ask::No }
 }

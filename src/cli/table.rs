@@ -127,7 +127,9 @@ fn row(label: String, frame: &FrameAnalysis, timing: Timing) -> [String; 7] {
         label,
         word(frame.verdict).into(),
         format!("{} N", digits(frame.total_force)),
-        if frame.total_sticking == 0.0 {
+        if is_left_out(frame) {
+            "unknown".into()
+        } else if frame.total_sticking == 0.0 {
             "none".into()
         } else {
             format!("{} N", digits(frame.total_sticking))
@@ -140,6 +142,12 @@ fn row(label: String, frame: &FrameAnalysis, timing: Timing) -> [String; 7] {
         },
         proof,
     ]
+}
+
+/// Whether a frame falls and what would have to stick was not found out.
+fn is_left_out(frame: &FrameAnalysis) -> bool {
+    let falls = frame.verdict == Verdict::Unstable;
+    falls && frame.failures.is_empty() && frame.unsupported.is_empty()
 }
 
 fn proof(proof: Proof) -> String {

@@ -7,16 +7,34 @@ use super::{EffectReport, counted};
 /// Name in results.
 pub const NAME: &str = "sticking";
 
-/// Called for when the program without it has no solution. `blocks` counts the frame's; `unknowns` those of sticking, as
-/// posed or saved.
-pub fn report(blocks: usize, needed: bool, unknowns: usize) -> EffectReport {
-    if needed {
-        let why = format!(
-            "no admissible forces balance the {}",
-            counted(blocks, "block")
-        );
-        EffectReport::simulated(NAME, why, unknowns)
-    } else {
-        EffectReport::skipped(NAME, "the program without it has a solution", unknowns)
+/// Whether sticking was sought.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sought {
+    /// It was, and something would have to stick.
+    Found,
+    /// There was nothing to seek.
+    NotNeeded,
+    /// The frame falls, and only its verdict was asked for.
+    NotAsked,
+}
+
+/// Called for when the program without it has no solution, and more than the verdict is asked for. `blocks` counts the
+/// frame's; `unknowns` those of sticking, as posed or saved.
+pub fn report(blocks: usize, sought: Sought, unknowns: usize) -> EffectReport {
+    match sought {
+        Sought::Found => {
+            let why = format!(
+                "no admissible forces balance the {}",
+                counted(blocks, "block")
+            );
+            EffectReport::simulated(NAME, why, unknowns)
+        }
+        Sought::NotNeeded => {
+            EffectReport::skipped(NAME, "the program without it has a solution", unknowns)
+        }
+        Sought::NotAsked => {
+            let why = "only the verdict was asked for, and a motion proves that it falls";
+            EffectReport::skipped(NAME, why, unknowns)
+        }
     }
 }

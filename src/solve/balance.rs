@@ -99,7 +99,17 @@ pub fn balance_in(program: &Program, manner: Manner) -> Balance {
                     break;
                 }
             }
-            let mut face = found.map_or_else(|| whole.with(solved.amounts), |best| best.1);
+            let mut face = match (found, manner.choice) {
+                (Some(best), _) => best.1,
+                (None, Choice::Unique) => whole.with(solved.amounts),
+                // The one system of equations is cheaper than making good what the solver leaves, block by block.
+                (None, Choice::Any) => {
+                    let amounts = solved.amounts;
+                    let amounts =
+                        settled(&whole.need, &whole.columns, amounts, manner, &mut effort);
+                    whole.with(amounts)
+                }
+            };
             if manner.care == Care::Full {
                 face.amounts = refined(&face.need, &face.columns, face.amounts, &mut effort);
             }

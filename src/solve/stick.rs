@@ -20,6 +20,9 @@ use crate::program::{Column, Program, kinematic, sticking_columns};
 /// Rounds of concentrating; the count of points rarely falls after the third.
 const ROUNDS: usize = 4;
 
+/// Of many blocks concentrating ends once a round leaves out less than one column in so many.
+const HARDLY_ANY: usize = 100;
+
 /// What an admissible force costs beside a unit of sticking, 1/β: nothing, if the first stage can be solved so.
 ///
 /// Where wedged blocks can press each other without end the first stage's velocities have no room to move in, and the
@@ -30,8 +33,26 @@ const PRICES: [f64; 2] = [1e-6, 1e-4];
 /// that so little is needed after all, such as against a light load.
 const LITTLE: [f64; 2] = [1e-5, 1e-9];
 
-/// From so many blocks on the program is posed, and its optimum taken, as walls near their edge want it.
-const MANY_BLOCKS: usize = 200;
+/// How large a program is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Size {
+    /// Of a few blocks: posed with the loads as they are, every digit sought.
+    Few,
+    /// Of many: posed, and its optimum taken, as walls near their edge want it.
+    Many,
+}
+
+impl Size {
+    /// From so many blocks on there are many.
+    const MANY_BLOCKS: usize = 200;
+
+    fn of(program: &Program) -> Size {
+        match program.blocks {
+            0..Self::MANY_BLOCKS => Size::Few,
+            _ => Size::Many,
+        }
+    }
+}
 
 /// Where the plain rule loses a column that is needed, more are let in.
 const MARGINS: [f64; 3] = [1.0, 1e3, 1e6];
@@ -70,16 +91,16 @@ pub fn stick(program: &Program, care: Care) -> Stuck {
 /// six times after a hundred iterations; with loads of 1 it is solved in 69.
 pub fn stick_in(program: &Program, manner: Manner) -> Stuck {
     let mut effort = Effort::default();
-    let many = program.blocks >= MANY_BLOCKS;
+    let size = Size::of(program);
     let load = match largest(&program.need) {
-        load if many && load > 0.0 => load,
+        load if size == Size::Many && load > 0.0 => load,
         _ => 1.0,
     };
     let need: Vec<f64> = program.need.iter().map(|v| v / load).collect();
     let mut all = columns_in(program, load);
     all.extend(sticking_columns(program));
     let whole = Face::whole(&need, all);
-    let (first, priced) = least_sticking(&whole, many, manner, &mut effort);
+    let (first, priced) = least_sticking(&whole, size, manner, &mut effort);
     let motion = Some(first.y.iter().map(|v| -v).collect());
     if first.status != Status::Solved {
         let none = Amounts::none(program);
@@ -93,7 +114,7 @@ pub fn stick_in(program: &Program, manner: Manner) -> Stuck {
             effort,
         };
     }
-    let mut face = chosen(&whole, &first, many, manner, &mut effort);
+    let mut face = chosen(&whole, &first, size, manner, &mut effort);
     if manner.care == Care::Full {
         face.amounts = refined(&face.need, &face.columns, face.amounts, &mut effort);
     }
@@ -111,7 +132,7 @@ pub fn stick_in(program: &Program, manner: Manner) -> Stuck {
 }
 
 /// The first stage: the least sticking, and whether admissible forces had to be priced for it.
-fn least_sticking(whole: &Face, many: bool, manner: Manner, effort: &mut Effort) -> (Twin, bool) {
+fn least_sticking(whole: &Face, size: Size, manner: Manner, effort: &mut Effort) -> (Twin, bool) {
     let priced = |price: f64, effort: &mut Effort| {
         twin(&whole.need, &whole.columns, manner, effort, |c| {
             if c.force.sticks() {
@@ -121,10 +142,9 @@ fn least_sticking(whole: &Face, many: bool, manner: Manner, effort: &mut Effort)
             }
         })
     };
-    let mut last = if many {
-        without_middles(whole, manner, effort)
-    } else {
-        priced(0.0, effort)
+    let mut last = match size {
+        Size::Many => without_middles(whole, manner, effort),
+        Size::Few => priced(0.0, effort),
     };
     let mut dear = false;
     for price in PRICES {
@@ -155,12 +175,11 @@ fn without_middles(whole: &Face, manner: Manner, effort: &mut Effort) -> Twin {
 /// Near the edge of standing of many blocks the columns of the optimum cannot be told from the others, and the least force
 /// falls by a tenth while the sticking grows by a millionth. There the balance of the first stage is kept: its sticking is
 /// the least, its force is not.
-fn chosen(whole: &Face, first: &Twin, many: bool, manner: Manner, effort: &mut Effort) -> Face {
+fn chosen(whole: &Face, first: &Twin, size: Size, manner: Manner, effort: &mut Effort) -> Face {
     let least = sticking_sum(whole, &first.amounts);
-    let (same, margins) = if many {
-        (SAME_OF_MANY, &MARGINS[..1])
-    } else {
-        (SAME, &MARGINS[..])
+    let (same, margins) = match size {
+        Size::Many => (SAME_OF_MANY, &MARGINS[..1]),
+        Size::Few => (SAME, &MARGINS[..]),
     };
     let slight = 1e-9 * largest(&whole.need);
     let unchanged = |face: &Face, amounts: &[f64]| {
@@ -183,11 +202,11 @@ fn chosen(whole: &Face, first: &Twin, many: bool, manner: Manner, effort: &mut E
     let found = || whole.clone().with(first.amounts.clone());
     let face = match face {
         Some(face) => face,
-        None if many => return found(),
+        None if size == Size::Many => return found(),
         None => found(),
     };
     for little in LITTLE {
-        let few = concentrated(&face, little, &unchanged, manner, effort);
+        let few = concentrated(&face, little, &unchanged, size, manner, effort);
         let amounts = tidy(&few.need, &few.columns, manner, effort);
         if let Some(amounts) = amounts.filter(|amounts| unchanged(&few, amounts)) {
             return few.with(amounts);
@@ -201,6 +220,7 @@ fn concentrated(
     face: &Face,
     little: f64,
     unchanged: &impl Fn(&Face, &[f64]) -> bool,
+    size: Size,
     manner: Manner,
     effort: &mut Effort,
 ) -> Face {
@@ -225,7 +245,8 @@ fn concentrated(
         let most = sticking_amounts(&face, &face.amounts).fold(0.0, f64::max);
         let before = face.columns.len();
         face = face.only(|c, a| !c.force.sticks() || a > little * most);
-        if face.columns.len() == before {
+        let gone = before - face.columns.len();
+        if gone == 0 || (size == Size::Many && HARDLY_ANY * gone < before) {
             break;
         }
     }

@@ -1,8 +1,9 @@
-//! What falls beside what stands: the same stacks, arches and walls upright and with gravity turned.
+//! What falls beside what stands: the same stacks, arches and walls upright and with gravity turned, and beside both the
+//! solver given the source's hard program, which says no more than "solved" or "infeasible".
 //!
 //! `cargo bench --bench falls` prints the rows of `src/doc/performance.md`; a word after `--` keeps the rows that have it
-//! in their name, such as `-- "wall 915"`, and `BLOCKS=10000` takes in those of more than 2 100 blocks. Upright and turned take turns, so
-//! that other work on the machine slows both alike; told is the median. Walls are in running bond, μ is 0.7.
+//! in their name, such as `-- "wall 915"`, and `BLOCKS=10000` takes in those of more than 2 100 blocks. All of a row take turns, so
+//! that other work on the machine slows them alike; told is the median. Walls are in running bond, μ is 0.7.
 
 #![allow(
     clippy::panic,
@@ -15,9 +16,14 @@
 #[path = "../it/structure.rs"]
 mod structure;
 
+use std::hint::black_box;
 use std::time::Instant;
 
-use drystone::analysis::{Options, Verdict};
+use drystone::analysis::{Ask, Options, Verdict};
+use drystone::effect::{Situation, assemble};
+use drystone::interface::Interfaces;
+use drystone::program::{Conic, Program, Scale, source};
+use drystone::solve::{Care, Status, TOLERANCE, solve};
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
 
@@ -39,9 +45,9 @@ fn main() {
         .filter(|word| !word.starts_with('-'));
     let words: Vec<String> = words.collect();
     println!(
-        "| structure | upright, ms | turned by | verdict | failures | programs | iterations | ms | ratio |"
+        "| structure | upright, ms | solver, ms | turned by | verdict | failures | programs | iterations | ms | ratio | verdict only, ms | ratio | solver, ms | says |"
     );
-    println!("|---|---|---|---|---|---|---|---|---|");
+    println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
     for (name, blocks, file) in structures() {
         for angle in ANGLES {
             let row = format!("{name} {blocks} at {angle}°");
@@ -54,25 +60,31 @@ fn main() {
 }
 
 fn told(name: &str, blocks: usize, file: &Value, angle: f64) {
-    let scenes = [scene(file), scene(&turned(file, angle))];
-    let upright = Analysis::of(&scenes[0]);
+    let [stands, falls] = [scene(file), scene(&turned(file, angle))];
+    let verdict_only = Options {
+        verdict_only: Ask::Yes,
+        ..Options::default()
+    };
+    let upright = Analysis::of(&stands);
     assert_eq!(
         upright.verdict(),
         Verdict::Stable,
         "{name} {blocks} upright"
     );
-    let (first, analysis) = timed(&scenes[1]);
+    let hard = [program(&stands), program(&falls)].map(|program| hard(&program));
+    let analysis = Analysis::of(&falls);
     let frame = &analysis.frames[0];
-    let [stands, falls] = if first > 1e3 * LONGEST {
-        [
-            median(vec![timed(&scenes[0]).0, timed(&scenes[0]).0]),
-            first,
-        ]
-    } else {
-        medians(&scenes)
-    };
+    let said = solve(&hard[1], TOLERANCE, Care::Full).status;
+    let work: [&dyn Fn(); 5] = [
+        &|| examined(&stands, &Options::default()),
+        &|| examined(&falls, &Options::default()),
+        &|| examined(&falls, &verdict_only),
+        &|| posed(&hard[0]),
+        &|| posed(&hard[1]),
+    ];
+    let [stands, falls, alone, solver_stands, solver_falls] = medians(work);
     println!(
-        "| {name} {blocks} | {stands:.1} | {angle}° | {} | {} | {} | {} | {falls:.1} | {:.1} |",
+        "| {name} {blocks} | {stands:.1} | {solver_stands:.1} | {angle}° | {} | {} | {} | {} | {falls:.1} | {:.1} | {alone:.1} | {:.1} | {solver_falls:.1} | {} |",
         match frame.verdict {
             Verdict::Stable => "stands",
             Verdict::Unstable => "falls",
@@ -81,28 +93,64 @@ fn told(name: &str, blocks: usize, file: &Value, angle: f64) {
         frame.failures.len(),
         frame.solve.programs,
         frame.solve.iterations,
-        falls / stands
+        falls / stands,
+        alone / stands,
+        match said {
+            Status::Solved => "solved",
+            Status::Infeasible => "infeasible",
+            Status::Unbounded => "unbounded",
+            Status::Unclear => "nothing",
+        }
     );
 }
 
-/// One analysis and the milliseconds it took.
-fn timed(scene: &Scene) -> (f64, Analysis<'_>) {
-    let start = Instant::now();
-    let analysis = Analysis::with(std::hint::black_box(scene), &Options::default());
-    (1e3 * start.elapsed().as_secs_f64(), analysis)
+fn examined(scene: &Scene, options: &Options) {
+    black_box(Analysis::with(black_box(scene), options));
 }
 
-/// Median times of two scenes in milliseconds.
-fn medians(scenes: &[Scene; 2]) -> [f64; 2] {
+fn posed(conic: &Conic) {
+    black_box(solve(black_box(conic), TOLERANCE, Care::Full));
+}
+
+/// Median times of some work in milliseconds, each in its turn.
+fn medians<const N: usize>(work: [&dyn Fn(); N]) -> [f64; N] {
     let start = Instant::now();
-    let mut times = [Vec::new(), Vec::new()];
-    while times[0].len() < TURNS && (times[0].len() < 2 || start.elapsed().as_secs_f64() < LONGEST)
-    {
-        for (scene, times) in scenes.iter().zip(&mut times) {
-            times.push(timed(scene).0);
+    let mut times = [const { Vec::new() }; N];
+    while times[0].is_empty() || times[0].len() < TURNS && start.elapsed().as_secs_f64() < LONGEST {
+        for (work, times) in work.iter().zip(&mut times) {
+            let start = Instant::now();
+            work();
+            times.push(1e3 * start.elapsed().as_secs_f64());
         }
     }
     times.map(median)
+}
+
+/// The program of a structure that hangs together.
+fn program(scene: &Scene) -> Program {
+    let found = Interfaces::of(scene);
+    let frame = &scene.frames[0];
+    let (assembly, _) = assemble(&Situation {
+        scene,
+        frame,
+        interfaces: &found.in_frame(scene, frame),
+    });
+    let component = assembly.split().remove(0);
+    Program::of(&component, Scale::of_assembly(&component))
+}
+
+/// The source's hard program: its soft one without the twins of its unknowns, which stand last in columns and rows.
+fn hard(program: &Program) -> Conic {
+    let soft = source(program, 1.0);
+    let (unknowns, rows) = (soft.unknowns / 2, soft.bound.len() - soft.unknowns / 2);
+    let kept = |entry: &(usize, usize, f64)| entry.0 < rows && entry.1 < unknowns;
+    Conic {
+        unknowns,
+        linear: soft.linear[..unknowns].to_vec(),
+        matrix: soft.matrix.into_iter().filter(kept).collect(),
+        bound: soft.bound[..rows].to_vec(),
+        ..soft
+    }
 }
 
 fn median(mut times: Vec<f64>) -> f64 {

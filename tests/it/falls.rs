@@ -1,7 +1,7 @@
 //! What falls: its failures are named, whatever the turn of gravity, and with them every block is in balance.
 
 use drystone::Analysis;
-use drystone::analysis::{Failure, FrameAnalysis, Verdict};
+use drystone::analysis::{Ask, Failure, FrameAnalysis, Options, Verdict};
 use drystone::geometry::{Point, Vector, cross};
 use drystone::scene::{BodyId, Scene};
 use serde_json::{Value, json};
@@ -110,4 +110,57 @@ fn an_arch_of_a_thousand_is_carried_the_same_way_from_either_end() {
         used.fold(0.0, f64::max)
     };
     assert!((worst(&before) - worst(&after)).abs() < 1e-6 * worst(&before));
+}
+
+/// With the verdict alone the verdict and its proof are there, no soft program was posed, and the result says so.
+#[test]
+fn the_verdict_alone_is_proved_and_says_what_it_leaves_out() {
+    let asked = Options {
+        verdict_only: Ask::Yes,
+        ..Options::default()
+    };
+    let files = [
+        (wall(10, 10), 0.0, Verdict::Stable),
+        (wall(10, 10), 28.0, Verdict::Stable),
+        (wall(10, 10), 30.0, Verdict::Unstable),
+        (wall(20, 20), 60.0, Verdict::Unstable),
+        (arch(101, 0.3, 0.7), 0.0, Verdict::Stable),
+        (arch(101, 0.3, 0.7), 40.0, Verdict::Unstable),
+    ];
+    for (file, degrees, verdict) in files {
+        let scene = scene(&turned(file, degrees));
+        let frame = Analysis::with(&scene, &asked).frames.remove(0);
+        let whole = Analysis::of(&scene).frames.remove(0);
+        assert_eq!(
+            (frame.verdict, whole.verdict),
+            (verdict, verdict),
+            "{degrees}°"
+        );
+        assert!(frame.proof.holds());
+        let programs = |frame: &FrameAnalysis| frame.solve.programs;
+        assert!(programs(&frame) <= programs(&whole), "{degrees}°");
+        let sticking = |frame: &FrameAnalysis| {
+            let effect = frame.effects.iter().find(|e| e.effect == "sticking");
+            let effect = effect.expect("every effect is told");
+            (effect.simulated, effect.why.contains("only the verdict"))
+        };
+        let falls = verdict == Verdict::Unstable;
+        assert_eq!(sticking(&frame), (false, falls));
+        assert_eq!(sticking(&whole), (falls, false));
+        assert!(
+            frame
+                .notices
+                .iter()
+                .any(|n| n.starts_with("only the verdict"))
+        );
+        assert!(frame.failures.is_empty() && frame.total_sticking == 0.0);
+        if falls {
+            assert!(2 * programs(&frame) < programs(&whole), "{degrees}°");
+            assert_eq!(frame.total_force, 0.0);
+            assert!(!frame.mechanism.is_empty());
+        } else {
+            let off = (frame.total_force - whole.total_force).abs();
+            assert!(off < 1e-6 * whole.total_force, "{degrees}°: off by {off} N");
+        }
+    }
 }

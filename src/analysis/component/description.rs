@@ -8,8 +8,11 @@ use crate::program::Program;
 use crate::solve::{Choice, balance_in, stick_in};
 
 impl Case<'_> {
-    /// A decision with its description.
+    /// A decision with its description, where that is asked for.
     pub fn described(&self, program: &Program, decision: Decision) -> Decision {
+        if !self.described {
+            return decision;
+        }
         match decision.verdict {
             Verdict::Stable if !decision.least_force => self.with_least_force(program, decision),
             Verdict::Unstable if !decision.in_part => self.with_failures(program, decision),

@@ -116,6 +116,7 @@ impl Case<'_> {
             scale: Scale::of_assembly(&part.assembly),
             settings: self.settings.clone(),
             demand: self.demand,
+            described: self.described,
         };
         // Loads near the smallest numbers there are have no scale of their own.
         let ratio = self.scale.force / case.scale.force;

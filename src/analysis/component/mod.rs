@@ -14,7 +14,7 @@ mod rung;
 
 pub(super) use question::{judged, only_by_wedging};
 
-use super::{Failure, Options, Verdict};
+use super::{Ask, Failure, Options, Verdict};
 use crate::assembly::Assembly;
 use crate::program::{Count, Program, Scale, columns, sticking_columns};
 use crate::proof::{Demand, Forces, Motion, Proof, fastest};
@@ -50,6 +50,8 @@ struct Case<'a> {
     /// The solver's settings, in the order in which they are tried.
     settings: Vec<Manner>,
     demand: Demand,
+    /// Whether what belongs to a verdict is found after it.
+    described: bool,
 }
 
 /// Solves one component, proves its verdict, and finds what belongs to it.
@@ -86,6 +88,7 @@ impl<'a> Case<'a> {
             scale: Scale::of_assembly(assembly),
             settings: options.manners(),
             demand: options.accuracy.demand(),
+            described: options.verdict_only == Ask::No,
         }
     }
 
@@ -153,10 +156,15 @@ impl<'a> Case<'a> {
             motion.velocity = motion.velocity.map(plain);
             motion.spin = plain(motion.spin * self.assembly.length) / self.assembly.length;
         }
+        // Forces beside a fall mean something together with what sticks.
+        let forces = match decision.verdict {
+            Verdict::Unstable if !self.described => Forces::none(self.assembly),
+            _ => self.carried(&decision.amounts).forces,
+        };
         Findings {
             verdict: decision.verdict,
             doubt: decision.doubt,
-            forces: self.carried(&decision.amounts).forces,
+            forces,
             force_bound: decision.force_bound,
             least_force: decision.least_force,
             failures,

@@ -129,6 +129,32 @@ fn margins_are_there_where_asked_for() {
 }
 
 #[test]
+fn the_verdict_alone_has_the_same_shape() {
+    let bench = Bench::new();
+    let object =
+        |line: &str| -> Value { serde_json::from_str(&bench.run(line).out).expect("JSON") };
+    let whole = object("check --json --no-timing falls.json");
+    let asked = object("check --json --no-timing --verdict-only falls.json");
+    let keys = |value: &Value| -> Vec<String> {
+        let keys = value.as_object().expect("an object").keys();
+        keys.filter(|key| *key != "notices").cloned().collect()
+    };
+    for number in 0..2 {
+        let (whole, asked) = (&whole["frames"][number], &asked["frames"][number]);
+        assert_eq!(keys(whole), keys(asked));
+        assert_eq!(whole["verdict"], asked["verdict"]);
+    }
+    let notices = asked["frames"][0]["notices"].to_string();
+    assert!(
+        notices.contains("only the verdict was asked for"),
+        "{notices}"
+    );
+    let told = bench.run("check --verdict-only falls.json");
+    assert_eq!(told.code, 1);
+    assert!(told.out.contains("unknown"), "{}", told.out);
+}
+
+#[test]
 fn without_timing_the_same_scene_gives_the_same_bytes() {
     let bench = Bench::new();
     for line in [
