@@ -42,6 +42,7 @@
 //! | | makes | from |
 //! |---|---|---|
 //! | [`Scene::from_json`] | [`Scene`], checked | text |
+//! | [`starter`] | a scene file | a few lengths and counts |
 //! | [`import`](mod@import) | a scene file | a drawing: SVG, GeoJSON or WKT |
 //! | [`interface`] | what touches what | a scene |
 //! | [`effect::assemble`] | [`assembly::Assembly`]: bodies, contacts, grips | a frame, by the effects it calls for |
@@ -68,6 +69,8 @@ pub mod text;
 pub mod geometry;
 
 pub mod scene;
+
+pub mod starter;
 
 pub mod import;
 
@@ -111,6 +114,12 @@ pub mod doc {
 
     #[doc = include_str!("doc/conventions.md")]
     pub mod conventions {}
+
+    #[doc = include_str!("doc/format.md")]
+    pub mod format {}
+
+    #[doc = include_str!("doc/result.md")]
+    pub mod result {}
 
     #[doc = include_str!("doc/numerics.md")]
     pub mod numerics {}

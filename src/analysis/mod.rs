@@ -27,7 +27,7 @@ use crate::program::Count;
 pub use crate::proof::{Demand, Motion, Proof};
 pub use crate::resultant::Resultant;
 use crate::resultant::{friction_used, of as resultant_of};
-use crate::scene::{BlockId, BodyId, RobotId, Scene};
+use crate::scene::{BlockId, BodyId, Note, RobotId, Scene};
 use crate::solve::{Effort, Until};
 pub use component::Method;
 use component::{Findings, solved};
@@ -53,6 +53,8 @@ pub struct Analysis<'s> {
     pub scene: &'s Scene,
     /// One entry per frame of the scene, in order.
     pub frames: Vec<FrameAnalysis>,
+    /// What is allowed and seldom meant: the scene's notes, and gaps that are nearly contacts.
+    pub notes: Vec<Note>,
 }
 
 /// What was found out about one frame.
@@ -235,7 +237,12 @@ impl<'s> Analysis<'s> {
     pub fn with(scene: &'s Scene, options: &Options) -> Analysis<'s> {
         let (found, mut frames) = examine(scene, options);
         near::judge(scene, &found, &mut frames, options);
-        Analysis { scene, frames }
+        let notes = near::notes(scene, &found);
+        Analysis {
+            scene,
+            frames,
+            notes,
+        }
     }
 
     /// The worst verdict of all frames.

@@ -11,10 +11,12 @@ use std::collections::BTreeMap;
 use super::{Ask, FrameAnalysis, Options, Verdict, examine};
 use crate::geometry::Point;
 use crate::interface::{Interface, Interfaces, Near};
-use crate::scene::{BodyId, Penetration, Scene, ToleranceSource};
+use crate::scene::{BodyId, Note, NoteCode, Penetration, Scene, ToleranceSource};
 
 /// So many places are named.
 const NAMED: usize = 3;
+/// So many gaps that are nearly contacts are noted one by one.
+const NOTED: usize = 10;
 /// What may have been meant to touch is closed by so many times the widest of it.
 const ENOUGH: f64 = 1.01;
 
@@ -116,6 +118,55 @@ pub(super) fn judge(
             ));
         }
     }
+}
+
+/// The scene's own notes, and one for each of the first few gaps that are nearly contacts.
+pub(super) fn notes(scene: &Scene, found: &Interfaces) -> Vec<Note> {
+    let mut notes = scene.notes.clone();
+    let code = NoteCode::NearMiss;
+    if scene.healed.source == ToleranceSource::Given || scene.silences(code) {
+        return notes;
+    }
+    let mut touching: BTreeMap<BodyId, Vec<&Interface>> = BTreeMap::new();
+    for interface in &found.all {
+        for body in interface.bodies {
+            touching.entry(body).or_default().push(interface);
+        }
+    }
+    let gaps: Vec<&Near> = (found.near.iter())
+        .filter(|gap| {
+            scene.frames.iter().any(|frame| {
+                let stands = |body: &BodyId| match body {
+                    BodyId::Ground(_) => true,
+                    BodyId::Block(id) => frame.placed.contains(id),
+                };
+                gap.bodies.iter().all(stands)
+                    && !held_open(gap, &touching, stands, scene.tolerance.gap)
+            })
+        })
+        .take(NOTED + 1)
+        .collect();
+    for (number, gap) in gaps.iter().take(NOTED).enumerate() {
+        let [a, b] = gap.bodies.map(|body| scene.name(body));
+        let is_last = number + 1 == NOTED && gaps.len() > NOTED;
+        let more = if is_last {
+            "; there are more such gaps"
+        } else {
+            ""
+        };
+        let message = format!(
+            "{a} and {b} nearly touch at ({:.4}, {:.4}), {:.2e} m apart{more}",
+            gap.at.x, gap.at.y, gap.distance
+        );
+        let hint = format!(
+            "close it, or give \"contact_tolerance\": {:.1e} to count it as a contact",
+            1.06 * gap.distance
+        );
+        // A block rather than the ground, of two blocks the later one.
+        let body = gap.bodies[0].max(gap.bodies[1]);
+        notes.push(scene.note(code, body, &message, &hint));
+    }
+    notes
 }
 
 /// Whether a stone that stands between the two bodies keeps the gap open: a pinning stone is meant, and so is its gap.

@@ -14,15 +14,16 @@ use crate::cli::progress::{Progress, Shown};
 use crate::cli::source::{self, FrameChoice};
 use crate::cli::table;
 use crate::cli::terminal::Terminal;
-use crate::report::result::{Layout, Timing, to_json};
+use crate::report::result::{Layout, Timing, refusal, to_json_of};
+use crate::scene::Note;
 
 /// Say whether scenes stand, what fails, and how that is proved
 #[derive(Debug, Args)]
 pub(crate) struct Check {
-    /// Scene files; - reads standard input
+    /// Scene files, or folders of them; - reads standard input
     #[arg(required = true, value_name = "SCENE")]
     scenes: Vec<PathBuf>,
-    /// Print JSON: one object for a scene, or a line for each of several
+    /// Print JSON: one object for a scene, or a line for each of several; a file that is wrong gets its problems in its place
     #[arg(long)]
     json: bool,
     /// Leave out how long it took, so that the same scene gives the same bytes
@@ -35,6 +36,9 @@ pub(crate) struct Check {
     /// Tell the verdict with its proof and leave out the rest: what fails, and which of several balances is the one to draw
     #[arg(long)]
     verdict_only: bool,
+    /// Leave out notes of what is allowed and seldom meant; a scene silences single ones by "silence": ["code"]
+    #[arg(long)]
+    no_notes: bool,
     /// Examine one frame only, by number from 1 or by its letter in the strip
     #[arg(long, value_name = "N")]
     frame: Option<FrameChoice>,
@@ -44,7 +48,28 @@ pub(crate) struct Check {
 
 impl Check {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
-        let sources = source::read(&self.scenes, self.frame, self.level.contact_tolerance)?;
+        let outcomes = source::read_each(&self.scenes, self.frame, self.level.contact_tolerance)
+            .map_err(|c| vec![c])?;
+        // Programs get an object for every file, in its place; a person reads of what is wrong before anything else.
+        let layout = if outcomes.len() == 1 {
+            Layout::Lines
+        } else {
+            Layout::OneLine
+        };
+        let mut sources = Vec::new();
+        let mut refused = Vec::new();
+        for (number, (path, outcome)) in outcomes.into_iter().enumerate() {
+            match outcome {
+                Ok(source) => sources.push(source),
+                Err(complaint) => refused.push((number, path, complaint)),
+            }
+        }
+        if !self.json && !refused.is_empty() {
+            return Err(refused
+                .into_iter()
+                .map(|(.., complaint)| complaint)
+                .collect());
+        }
         let shown = if terminal.shows_progress() {
             Shown::WhenLong
         } else {
@@ -60,7 +85,10 @@ impl Check {
             .par_iter()
             .map(|source| {
                 progress.doing(&source.name());
-                let analysis = Analysis::with(&source.scene, &options);
+                let mut analysis = Analysis::with(&source.scene, &options);
+                if self.no_notes {
+                    analysis.notes.clear();
+                }
                 progress.step();
                 analysis
             })
@@ -72,19 +100,25 @@ impl Check {
         } else {
             Timing::Included
         };
-        let layout = if sources.len() == 1 {
-            Layout::Lines
-        } else {
-            Layout::OneLine
-        };
         let printed = if self.json {
-            let results = analyses.iter().map(|a| to_json(a, timing, layout));
-            terminal.print_bytes(results.collect::<String>().as_bytes())
+            let mut objects: Vec<String> = (sources.iter().zip(&analyses))
+                .map(|(source, analysis)| {
+                    let file = source.path.to_string_lossy();
+                    to_json_of(&file, analysis, timing, layout)
+                })
+                .collect();
+            for (number, path, complaint) in &refused {
+                let file = path.to_string_lossy();
+                objects.insert(*number, refusal(&file, &complaint.problems(), layout));
+                terminal.complain(&complaint.page());
+            }
+            terminal.print_bytes(objects.concat().as_bytes())
         } else {
             let mut page = Page::default();
             if !terminal.is_quiet() {
                 for (source, analysis) in sources.iter().zip(&analyses) {
                     page.append(&table::of(&source.name(), analysis, timing));
+                    page.append(&noted(&analysis.notes));
                     page.end();
                 }
                 page.ours(table::LIMITS);
@@ -92,9 +126,9 @@ impl Check {
             terminal.print(&page)
         };
         printed.map_err(|c| vec![c])?;
-        Ok(analyses
-            .iter()
-            .map(Ending::of)
+        let wrong = refused.iter().map(|(.., complaint)| complaint.ending());
+        Ok((analyses.iter().map(Ending::of))
+            .chain(wrong)
             .max()
             .unwrap_or(Ending::Done))
     }
@@ -102,4 +136,18 @@ impl Check {
 
 fn asked(flag: bool) -> Ask {
     if flag { Ask::Yes } else { Ask::No }
+}
+
+/// Notes below a table, a line each with what to do about it in the next.
+fn noted(notes: &[Note]) -> Page {
+    let mut page = Page::default();
+    for note in notes {
+        let line = match note.line {
+            0 => String::new(),
+            line => format!("line {line}, "),
+        };
+        page.line(&format!("  note: {line}{}: {}", note.path, note.message));
+        page.line(&format!("        {}", note.hint));
+    }
+    page
 }

@@ -11,7 +11,7 @@ use ariadne::{Color, Config, Label, Report, ReportKind, Source};
 use crate::cli::ending::Ending;
 use crate::cli::page::Page;
 use crate::drawing::style;
-use crate::scene::{Problem, Problems};
+use crate::scene::{Code, Problem, Problems};
 use crate::text::line;
 
 /// So many problems of one file are shown; a file with more has one cause, and it is among the first.
@@ -45,6 +45,8 @@ pub(crate) enum Complaint {
         /// The system's reason.
         why: String,
     },
+    /// A scene lacks the frame that is asked for.
+    NoSuchFrame(String),
     /// A drawing does not become a scene, in a person's words.
     Drawing(Page),
     /// Blocks of a book cannot be drawn, each in lines whose parts are [`line`].
@@ -68,9 +70,38 @@ impl Complaint {
             Complaint::Scene { .. }
             | Complaint::Style { .. }
             | Complaint::NotRead { .. }
+            | Complaint::NoSuchFrame(_)
             | Complaint::Drawing(_)
             | Complaint::Book(_)
             | Complaint::CommandLine(_) => Ending::WrongInput,
+        }
+    }
+
+    /// What a program is told of a scene that cannot be read.
+    pub(crate) fn problems(&self) -> Vec<Problem> {
+        let alone = |code, message: String, help: &str| {
+            vec![Problem {
+                code,
+                path: String::new(),
+                line: 0,
+                column: 0,
+                span: None,
+                message: line(&message),
+                help: help.into(),
+            }]
+        };
+        match self {
+            Complaint::Scene { problems, .. } => problems.list.clone(),
+            Complaint::NoSuchFrame(what) => {
+                alone(Code::NoSuchFrame, what.clone(), "give a smaller number")
+            }
+            Complaint::NotRead { what, why } => alone(
+                Code::NotReadable,
+                format!("cannot read {what}: {why}"),
+                "check the path, and that the file may be read",
+            ),
+            // No other complaint is about a single scene file.
+            other => alone(Code::NotReadable, other.page().text().to_owned(), ""),
         }
     }
 
@@ -90,7 +121,7 @@ impl Complaint {
                 page.line(&format!("error: cannot read {what}: {why}"));
             }
             Complaint::Drawing(page) => return page.clone(),
-            Complaint::CommandLine(what) => {
+            Complaint::CommandLine(what) | Complaint::NoSuchFrame(what) => {
                 page.line(&format!("error: {what}"));
                 page.ours("\nFor more information, try '--help'.\n");
             }
@@ -242,6 +273,7 @@ mod tests {
             .count()
             + 1;
         Problem {
+            code: Code::Negative,
             path: "blocks[1].weight".into(),
             line,
             column,

@@ -25,6 +25,7 @@ mod figures;
 mod import;
 mod level;
 mod look;
+mod man;
 mod mdbook;
 mod new;
 mod page;
@@ -39,6 +40,7 @@ mod source;
 mod style;
 mod table;
 mod terminal;
+mod watch;
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -81,6 +83,8 @@ enum Command {
     Shapes(shapes::Shapes),
     Style(style::Style),
     Completions(completions::Completions),
+    #[command(name = "man")]
+    Manual(man::Manual),
 }
 
 /// Runs the command line of this process and tells how it ended.
@@ -106,6 +110,7 @@ pub fn run() -> ExitCode {
         Command::Shapes(shapes) => shapes.run(&terminal),
         Command::Style(style) => style.run(&terminal),
         Command::Completions(completions) => completions.run(&terminal),
+        Command::Manual(manual) => manual.run(&terminal),
     };
     let ending = ended.unwrap_or_else(|complaints| complain(&terminal, &complaints));
     ending.code()

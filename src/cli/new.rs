@@ -1,36 +1,223 @@
-//! `drystone new`: a small scene to build on.
+//! `drystone new`: a scene to build on.
 
 use std::path::{Path, PathBuf};
 
-use clap::Args;
+use clap::builder::RangedU64ValueParser;
+use clap::{Args, Subcommand};
 
 use crate::cli::complaint::Complaint;
 use crate::cli::destination;
 use crate::cli::ending::Ending;
 use crate::cli::terminal::Terminal;
 use crate::output::file::Existing;
+use crate::starter::{Arch, Doorway, Lattice, Tower, Wall};
 
-/// Write a small starter scene to build on
+/// Write a scene to build on: a small example, or an arch, wall, tower, doorway or lattice to your measures
 #[derive(Debug, Args)]
 pub(crate) struct New {
+    #[command(subcommand)]
+    kind: Option<Kind>,
     /// The file to write; - or nothing prints the scene
-    #[arg(short, long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE", global = true)]
     output: Option<PathBuf>,
     /// Replace the file where it is there already
-    #[arg(long, requires = "output")]
+    #[arg(long, requires = "output", global = true)]
     force: bool,
+}
+
+#[derive(Debug, Subcommand)]
+enum Kind {
+    /// A round arch
+    Arch {
+        /// How many voussoirs
+        #[arg(long, value_name = "N", default_value = "13", value_parser = count().range(2..=1000))]
+        voussoirs: usize,
+        /// Clear width in metres
+        #[arg(long, value_name = "M", default_value = "4", value_parser = length)]
+        span: f64,
+        /// Thickness from the inner to the outer face in metres
+        #[arg(long, value_name = "M", default_value = "0.4", value_parser = length)]
+        thickness: f64,
+        /// Friction coefficient
+        #[arg(long, value_name = "MU", default_value = "0.7", value_parser = at_least_zero)]
+        friction: f64,
+    },
+    /// A wall in running bond
+    Wall {
+        /// How many courses
+        #[arg(long, value_name = "N", default_value = "6", value_parser = count())]
+        courses: usize,
+        /// Bricks in a course
+        #[arg(long, value_name = "N", default_value = "5", value_parser = count())]
+        bricks: usize,
+        /// Length of a brick in metres
+        #[arg(long, value_name = "M", default_value = "0.25", value_parser = length)]
+        length: f64,
+        /// Height of a course in metres
+        #[arg(long, value_name = "M", default_value = "0.08", value_parser = length)]
+        height: f64,
+        /// Friction coefficient
+        #[arg(long, value_name = "MU", default_value = "0.7", value_parser = at_least_zero)]
+        friction: f64,
+    },
+    /// A tower of blocks that leans to the right
+    Tower {
+        /// How many blocks
+        #[arg(long, value_name = "N", default_value = "8", value_parser = count())]
+        blocks: usize,
+        /// Width of a block in metres
+        #[arg(long, value_name = "M", default_value = "1", value_parser = length)]
+        width: f64,
+        /// Height of a block in metres
+        #[arg(long, value_name = "M", default_value = "0.5", value_parser = length)]
+        height: f64,
+        /// How far each block lies to the right of the one below, in metres
+        #[arg(long, value_name = "M", default_value = "0.1", value_parser = at_least_zero)]
+        lean: f64,
+        /// Friction coefficient
+        #[arg(long, value_name = "MU", default_value = "0.7", value_parser = at_least_zero)]
+        friction: f64,
+    },
+    /// Two jambs and a lintel, in three steps with a robot
+    Doorway {
+        /// Blocks in each jamb
+        #[arg(long, value_name = "N", default_value = "4", value_parser = count())]
+        courses: usize,
+        /// Clear width in metres
+        #[arg(long, value_name = "M", default_value = "1", value_parser = length)]
+        width: f64,
+        /// Clear height in metres
+        #[arg(long, value_name = "M", default_value = "2", value_parser = length)]
+        height: f64,
+        /// Width of a jamb in metres
+        #[arg(long, value_name = "M", default_value = "0.4", value_parser = length)]
+        jamb: f64,
+        /// Height of the lintel in metres
+        #[arg(long, value_name = "M", default_value = "0.3", value_parser = length)]
+        lintel: f64,
+        /// Friction coefficient
+        #[arg(long, value_name = "MU", default_value = "0.7", value_parser = at_least_zero)]
+        friction: f64,
+    },
+    /// A pile of triangles on the triangular lattice
+    Lattice {
+        /// How many rows
+        #[arg(long, value_name = "N", default_value = "3", value_parser = count())]
+        rows: usize,
+        /// Edge length of a cell in metres
+        #[arg(long, value_name = "M", default_value = "1", value_parser = length)]
+        side: f64,
+        /// Friction coefficient
+        #[arg(long, value_name = "MU", default_value = "0.7", value_parser = at_least_zero)]
+        friction: f64,
+    },
+}
+
+fn count() -> RangedU64ValueParser<usize> {
+    RangedU64ValueParser::new().range(1..=1000)
+}
+
+fn length(typed: &str) -> Result<f64, String> {
+    match typed.parse::<f64>() {
+        Ok(metres) if (1e-6..=1e6).contains(&metres) => Ok(metres),
+        _ => Err("it is a length in metres, from 0.000001 to 1000000".into()),
+    }
+}
+
+fn at_least_zero(typed: &str) -> Result<f64, String> {
+    match typed.parse::<f64>() {
+        Ok(number) if (0.0..=1e6).contains(&number) => Ok(number),
+        _ => Err("it is a number, at least 0".into()),
+    }
+}
+
+impl Kind {
+    fn text(&self) -> String {
+        let scene = match *self {
+            Kind::Arch {
+                voussoirs,
+                span,
+                thickness,
+                friction,
+            } => Arch {
+                voussoirs,
+                span,
+                thickness,
+                friction,
+            }
+            .scene(),
+            Kind::Wall {
+                courses,
+                bricks,
+                length,
+                height,
+                friction,
+            } => Wall {
+                courses,
+                bricks,
+                length,
+                height,
+                friction,
+            }
+            .scene(),
+            Kind::Tower {
+                blocks,
+                width,
+                height,
+                lean,
+                friction,
+            } => Tower {
+                blocks,
+                width,
+                height,
+                lean,
+                friction,
+            }
+            .scene(),
+            Kind::Doorway {
+                courses,
+                width,
+                height,
+                jamb,
+                lintel,
+                friction,
+            } => Doorway {
+                courses,
+                width,
+                height,
+                jamb,
+                lintel,
+                friction,
+            }
+            .scene(),
+            Kind::Lattice {
+                rows,
+                side,
+                friction,
+            } => Lattice {
+                rows,
+                side,
+                friction,
+            }
+            .scene(),
+        };
+        scene.to_json()
+    }
 }
 
 impl New {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
-        let text = crate::scene::starter();
+        let text = match &self.kind {
+            Some(kind) => kind.text(),
+            None => crate::scene::starter().to_owned(),
+        };
         match self
             .output
             .as_deref()
             .filter(|path| *path != Path::new("-"))
         {
             None => terminal.print_bytes(text.as_bytes()),
-            Some(path) => self.write(path, text, terminal),
+            Some(path) => self.write(path, &text, terminal),
         }
         .map_err(|c| vec![c])?;
         Ok(Ending::Done)

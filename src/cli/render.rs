@@ -17,6 +17,7 @@ use crate::cli::progress::{Progress, Shown};
 use crate::cli::script;
 use crate::cli::source::{self, FrameChoice, Source};
 use crate::cli::terminal::Terminal;
+use crate::cli::watch;
 use crate::drawing::{Drawing, Theme};
 use crate::figure;
 use crate::output::file::Existing;
@@ -27,7 +28,7 @@ use crate::scene::{self, BlockId, Scene};
 /// Draw scenes with their forces, and what fails, as SVG, PNG, PDF or TikZ
 #[derive(Debug, Args)]
 pub(crate) struct Render {
-    /// Scene files; - reads standard input
+    /// Scene files, or folders of them; - reads standard input
     #[arg(required = true, value_name = "SCENE")]
     scenes: Vec<PathBuf>,
     /// Where to: a .svg, .png, .pdf or .tikz file, a folder (existing, or ending in a slash), or - for standard output
@@ -91,6 +92,9 @@ pub(crate) struct Render {
     /// Panels per row of a strip
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     columns: Option<u16>,
+    /// Draw again whenever a scene or the style file is saved, until the program is stopped
+    #[arg(long)]
+    watch: bool,
     /// Draw one frame only, by number from 1 or by its letter in the strip
     #[arg(long, value_name = "N")]
     frame: Option<FrameChoice>,
@@ -192,6 +196,20 @@ fn seconds(typed: &str) -> Result<f64, String> {
 
 impl Render {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
+        if !self.watch {
+            return self.once(terminal);
+        }
+        let mut files = source::files(&self.scenes).map_err(|c| vec![c])?;
+        if files.iter().any(|file| file == Path::new("-")) {
+            let why = "--watch looks at files; standard input (-) cannot be saved again";
+            return Err(vec![Complaint::CommandLine(why.into())]);
+        }
+        files.extend(self.look.file().map(Path::to_path_buf));
+        watch::repeat(&files, terminal, || self.once(terminal))
+    }
+
+    /// Draws everything once.
+    fn once(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
         let destination = Destination::of(&self.output);
         let format = destination
             .format(self.picture.asked())
@@ -209,8 +227,8 @@ impl Render {
             let why = "--animate makes a PNG of the frames of a figure; write a .png, of any kind but freebody";
             return Err(vec![Complaint::CommandLine(why.into())]);
         }
-        self.check_count(&destination, format, terminal)
-            .map_err(|c| vec![c])?;
+        let scenes = source::files(&self.scenes).map_err(|c| vec![c])?;
+        check_count(&scenes, &destination, format, terminal).map_err(|c| vec![c])?;
         if self.panels
             && (self.kind.panels().is_none() || matches!(destination, Destination::Stdout))
         {
@@ -220,7 +238,7 @@ impl Render {
         let fonts = self.picture.fonts().map_err(|c| vec![c])?;
         let (theme, sources) = match (
             self.look.theme(),
-            source::read(&self.scenes, self.frame, self.level.contact_tolerance),
+            source::read(&scenes, self.frame, self.level.contact_tolerance),
         ) {
             (Ok(theme), Ok(sources)) => (theme, sources),
             (theme, sources) => {
@@ -230,7 +248,7 @@ impl Render {
         };
         let options = self.options(theme);
         let paths = paths(&destination, &sources, format).map_err(|c| vec![c])?;
-        let inputs = self.scenes.iter().map(PathBuf::as_path);
+        let inputs = scenes.iter().map(PathBuf::as_path);
         let inputs: Vec<&Path> = inputs.chain(self.look.file()).collect();
         destination::apart(&paths, &inputs).map_err(|c| vec![c])?;
 
@@ -285,32 +303,6 @@ impl Render {
             }
         }
         Ok(if self.strict { ending } else { Ending::Done })
-    }
-
-    /// What can be refused before any scene is read.
-    fn check_count(
-        &self,
-        destination: &Destination,
-        format: Format,
-        terminal: &Terminal,
-    ) -> Result<(), Complaint> {
-        let why = match destination {
-            Destination::File(path) if self.scenes.len() > 1 => {
-                let (count, shown) = (self.scenes.len(), path.display());
-                format!(
-                    "{count} scenes do not go into the one file {shown}; give a folder, its name ending in a slash"
-                )
-            }
-            Destination::Stdout if self.scenes.len() > 1 => {
-                "only one picture at a time goes to standard output; give a folder".into()
-            }
-            Destination::Stdout if terminal.is_watched() => match format.unreadable() {
-                Some(why) => why,
-                None => return Ok(()),
-            },
-            _ => return Ok(()),
-        };
-        Err(Complaint::CommandLine(why))
     }
 
     fn render(
@@ -450,6 +442,32 @@ impl Render {
             ..figure::Options::default()
         }
     }
+}
+
+/// What can be refused before any scene is read.
+fn check_count(
+    scenes: &[PathBuf],
+    destination: &Destination,
+    format: Format,
+    terminal: &Terminal,
+) -> Result<(), Complaint> {
+    let why = match destination {
+        Destination::File(path) if scenes.len() > 1 => {
+            let (count, shown) = (scenes.len(), path.display());
+            format!(
+                "{count} scenes do not go into the one file {shown}; give a folder, its name ending in a slash"
+            )
+        }
+        Destination::Stdout if scenes.len() > 1 => {
+            "only one picture at a time goes to standard output; give a folder".into()
+        }
+        Destination::Stdout if terminal.is_watched() => match format.unreadable() {
+            Some(why) => why,
+            None => return Ok(()),
+        },
+        _ => return Ok(()),
+    };
+    Err(Complaint::CommandLine(why))
 }
 
 /// Where a panel of a figure goes: `name-a.svg` beside `name.svg`.

@@ -1,23 +1,29 @@
-//! `drystone schema`: the JSON Schema of a scene file, for editors and other programs.
+//! `drystone schema`: the JSON Schemas of scene files and of results, for editors and other programs.
 
 use clap::Args;
 
 use crate::cli::complaint::Complaint;
 use crate::cli::ending::Ending;
 use crate::cli::terminal::Terminal;
+use crate::report::result;
 
-/// Print the JSON Schema of scene files
+/// Print the JSON Schema of scene files, or of results
 ///
 /// An editor that is given it completes and checks a scene while it is written. Put its path into the scene as "$schema".
 #[derive(Debug, Args)]
-pub(crate) struct Schema {}
+pub(crate) struct Schema {
+    /// The schema of what check --json prints, in place of that of scene files
+    #[arg(long)]
+    result: bool,
+}
 
 impl Schema {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
-        let mut text = crate::scene::schema();
-        if !text.ends_with('\n') {
-            text.push('\n');
-        }
+        let text = if self.result {
+            result::schema()
+        } else {
+            crate::scene::schema()
+        };
         terminal.print_bytes(text.as_bytes()).map_err(|c| vec![c])?;
         Ok(Ending::Done)
     }

@@ -48,7 +48,7 @@ impl Source {
                 number + 1,
                 self.name()
             );
-            return Err(Complaint::CommandLine(why));
+            return Err(Complaint::NoSuchFrame(why));
         }
         self.scene.frames = vec![self.scene.frames[number].clone()];
         Ok(())
@@ -99,18 +99,9 @@ pub(crate) fn read(
     frame: Option<FrameChoice>,
     tolerance: Option<f64>,
 ) -> Result<Vec<Source>, Vec<Complaint>> {
-    if paths.iter().filter(|p| *p == Path::new("-")).count() > 1 {
-        return Err(vec![Complaint::CommandLine(
-            "standard input (-) can be read only once".into(),
-        )]);
-    }
     let mut sources = Vec::new();
     let mut complaints = Vec::new();
-    for path in paths {
-        let source = read_one(path, tolerance).and_then(|mut source| match frame {
-            Some(choice) => source.only_frame(choice).map(|()| source),
-            None => Ok(source),
-        });
+    for (_, source) in read_each(paths, frame, tolerance).map_err(|c| vec![c])? {
         match source {
             Ok(source) => sources.push(source),
             Err(complaint) => complaints.push(complaint),
@@ -121,6 +112,62 @@ pub(crate) fn read(
     } else {
         Err(complaints)
     }
+}
+
+/// A path as given, with the scene that was read from it or what is wrong with it.
+pub(crate) type Outcome = (PathBuf, Result<Source, Complaint>);
+
+/// Every scene, or what is wrong with it, in the order given; of a folder its `.json` files in the order of their names.
+pub(crate) fn read_each(
+    paths: &[PathBuf],
+    frame: Option<FrameChoice>,
+    tolerance: Option<f64>,
+) -> Result<Vec<Outcome>, Complaint> {
+    let paths = files(paths)?;
+    if paths.iter().filter(|p| *p == Path::new("-")).count() > 1 {
+        return Err(Complaint::CommandLine(
+            "standard input (-) can be read only once".into(),
+        ));
+    }
+    let outcome = |path: PathBuf| {
+        let source = read_one(&path, tolerance).and_then(|mut source| match frame {
+            Some(choice) => source.only_frame(choice).map(|()| source),
+            None => Ok(source),
+        });
+        (path, source)
+    };
+    Ok(paths.into_iter().map(outcome).collect())
+}
+
+/// The paths with the `.json` files of every folder in its place, sorted by name; a folder's own folders are left alone.
+pub(crate) fn files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Complaint> {
+    let mut all = Vec::new();
+    for path in paths {
+        if !path.is_dir() {
+            all.push(path.clone());
+            continue;
+        }
+        let listed = fs::read_dir(path).and_then(|entries| {
+            (entries.map(|entry| entry.map(|e| e.path()))).collect::<io::Result<Vec<PathBuf>>>()
+        });
+        let listed = listed.map_err(|error| Complaint::NotRead {
+            what: name(path),
+            why: error.to_string(),
+        })?;
+        let is_scene = |file: &PathBuf| file.extension() == Some(OsStr::new("json"));
+        let mut scenes: Vec<PathBuf> = (listed.into_iter())
+            .filter(|file| is_scene(file) && file.is_file())
+            .collect();
+        if scenes.is_empty() {
+            return Err(Complaint::NotRead {
+                what: name(path),
+                why: "the folder holds no .json files".into(),
+            });
+        }
+        scenes.sort();
+        all.append(&mut scenes);
+    }
+    Ok(all)
 }
 
 fn read_one(path: &Path, tolerance: Option<f64>) -> Result<Source, Complaint> {
@@ -145,7 +192,8 @@ fn read_one(path: &Path, tolerance: Option<f64>) -> Result<Source, Complaint> {
     })
 }
 
-fn name(path: &Path) -> String {
+/// How a person is told which file is meant.
+pub(crate) fn name(path: &Path) -> String {
     if path == Path::new("-") {
         "standard input".into()
     } else {

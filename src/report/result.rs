@@ -11,13 +11,18 @@
 
 mod accuracy;
 mod import;
+pub mod key;
 mod margin;
+mod note;
+mod refusal;
 
 use serde::{Serialize, Serializer};
 
 pub use accuracy::accuracy_json;
 pub use import::import_json;
+pub use key::schema;
 use margin::Margins;
+pub use refusal::refusal;
 
 use crate::analysis::{
     Analysis, Contact, Failure, FrameAnalysis, Motion as Moved, Proof, RobotForce, Verdict,
@@ -67,7 +72,17 @@ pub enum Layout {
 /// # Ok::<(), drystone::scene::Problems>(())
 /// ```
 pub fn to_json(analysis: &Analysis, timing: Timing, layout: Layout) -> String {
-    let result = Result::of(analysis, timing);
+    written(&Result::of(analysis, timing), layout)
+}
+
+/// Likewise, with the `file` that the scene was read from, as it was given.
+pub fn to_json_of(file: &str, analysis: &Analysis, timing: Timing, layout: Layout) -> String {
+    let mut result = Result::of(analysis, timing);
+    result.file = Some(file);
+    written(&result, layout)
+}
+
+fn written(result: &Result, layout: Layout) -> String {
     let mut bytes = Vec::new();
     let written = match layout {
         Layout::Lines => result.serialize(&mut serde_json::Serializer::with_formatter(
@@ -84,8 +99,12 @@ pub fn to_json(analysis: &Analysis, timing: Timing, layout: Layout) -> String {
 #[derive(Serialize)]
 struct Result<'a> {
     drystone: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    file: Option<&'a str>,
     scene: &'a str,
     contact_tolerance: Tolerance,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    notes: Vec<note::Entry<'a>>,
     frames: Vec<Frame<'a>>,
 }
 
@@ -264,8 +283,10 @@ impl<'a> Result<'a> {
         let frames = scene.frames.iter().zip(&analysis.frames);
         Result {
             drystone: env!("CARGO_PKG_VERSION"),
+            file: None,
             scene: &scene.title,
             contact_tolerance: Tolerance::of(scene),
+            notes: analysis.notes.iter().map(note::Entry::of).collect(),
             frames: frames
                 .map(|(step, frame)| Frame::of(scene, &step.title, frame, timing))
                 .collect(),

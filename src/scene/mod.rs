@@ -5,12 +5,12 @@
 
 mod body;
 mod collision;
-mod expectation;
 mod finding;
 pub mod format;
 mod frame;
 mod heal;
 mod name;
+mod note;
 mod number;
 mod outline;
 mod path;
@@ -23,6 +23,7 @@ pub mod shape;
 mod source;
 mod starter;
 mod syntax;
+mod tree;
 
 pub use body::{
     Block, BlockId, Body, BodyId, Grip, Ground, Limits, Load, Material, Rgb, Robot, RobotId,
@@ -33,7 +34,8 @@ pub use frame::{Frame, Hold, Plan};
 pub(crate) use heal::size;
 pub use heal::{Healed, ToleranceSource};
 pub(crate) use name::nearest;
-pub use problem::{Problem, Problems};
+pub use note::{Note, NoteCode};
+pub use problem::{Code, Problem, Problems};
 pub use starter::starter;
 
 use crate::geometry::{Lattice, Tolerance, Vector};
@@ -75,6 +77,12 @@ pub struct Scene {
     pub corner_contacts: bool,
     /// The frames, at least one.
     pub frames: Vec<Frame>,
+    /// What is allowed and seldom meant, in the order of looking.
+    pub notes: Vec<Note>,
+    /// Sorts of notes that the author does not want.
+    pub(crate) silenced: Vec<NoteCode>,
+    /// In which lines of the file the bodies stand.
+    pub(crate) lines: note::Lines,
 }
 
 impl Scene {

@@ -3,8 +3,10 @@
 //! All sentences of the room stand in the files below this one, one function each: what was found, and what to do
 //! about it.
 
+mod code;
 pub(super) mod entry;
 pub(super) mod name;
+pub(super) mod note;
 pub(super) mod number;
 pub(super) mod outline;
 pub(super) mod step;
@@ -13,6 +15,9 @@ pub(super) mod text;
 use std::fmt;
 use std::ops::Range;
 
+pub use code::Code;
+pub(super) use code::codes;
+
 use super::finding::Finding;
 use super::source::Source;
 use crate::geometry::Point;
@@ -20,6 +25,8 @@ use crate::geometry::Point;
 /// One thing that is wrong with a scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {
+    /// What sort of problem it is.
+    pub code: Code,
     /// Where in the scene, as `blocks[3].polygon[1]`; empty for the whole file.
     pub path: String,
     /// Line in the text, from 1; 0 where there is no text.
@@ -82,6 +89,7 @@ impl Problem {
             _ => (0, 0),
         };
         Problem {
+            code: wording.code,
             path: crate::text::line(&path),
             line,
             column,
@@ -127,13 +135,22 @@ impl std::error::Error for Problems {}
 /// What to say of a problem.
 #[derive(Clone, Debug)]
 pub(super) struct Wording {
+    code: Code,
     message: String,
     help: String,
 }
 
-fn say(message: impl Into<String>, help: impl Into<String>) -> Wording {
+impl Wording {
+    /// What is wrong, and what to do about it.
+    pub(super) fn parts(&self) -> (&str, &str) {
+        (&self.message, &self.help)
+    }
+}
+
+fn say(code: Code, message: impl Into<String>, help: impl Into<String>) -> Wording {
     // Names and pieces of the file are quoted in these sentences; a line break in one would begin a sentence of its own.
     Wording {
+        code,
         message: crate::text::line(&message.into()),
         help: crate::text::line(&help.into()),
     }

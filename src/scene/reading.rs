@@ -1,13 +1,19 @@
 //! From a text, or a [`SceneFile`] made in code, to a checked [`Scene`], or to all its problems at once.
 //!
-//! A sound file is read once, straight into its types. Only where that fails is the text walked beside what the types
-//! expect, so that every misfit is told, and what could be read is still examined for its meaning.
+//! A text is read once, into a syntax tree. The scene file is made from that tree, and so is every problem: what does not
+//! fit is noted and left out, and what could be read is still examined for its meaning.
 
+mod object;
+mod value;
+
+#[cfg(test)]
+pub(super) use self::object::KEYS;
+use self::value::Reader;
 use super::Scene;
-use super::expectation;
-use super::finding::Doubt;
-use super::format::{self, RefusalKind, SceneFile};
-use super::problem::{self, Problems};
+use super::finding::{Doubt, Finding};
+use super::format::SceneFile;
+use super::note::{self, Lines};
+use super::problem::Problems;
 use super::resolution::resolve;
 use super::source::Source;
 use super::syntax;
@@ -40,20 +46,19 @@ impl Scene {
     /// As [`Scene::from_json`].
     pub fn from_json_within(text: &str, tolerance: Option<f64>) -> Result<Scene, Problems> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        match format::parse(text) {
-            Ok(mut file) => {
-                file.contact_tolerance = tolerance.or(file.contact_tolerance);
-                resolve(&file, Doubt::default())
-                    .map_err(|findings| Problems::place(findings, Some(&Source::parse(text))))
+        let source = Source::parse(text).map_err(|fault| syntax::problem(text, fault))?;
+        let (mut file, findings, doubt) = read(&source);
+        file.contact_tolerance = tolerance.or(file.contact_tolerance);
+        let all = match resolve(&file, doubt) {
+            Ok(mut scene) if findings.is_empty() => {
+                scene.lines = Lines::of(&source);
+                scene.notes = note::of(&file, &scene, Some(&source));
+                return Ok(scene);
             }
-            Err(refusal) if refusal.kind != RefusalKind::Data => {
-                Err(syntax::problem(text, &refusal))
-            }
-            Err(refusal) => match format::parse_any(text) {
-                Err(deeper) => Err(syntax::problem(text, &deeper)),
-                Ok(()) => Err(misfits(text, &refusal)),
-            },
-        }
+            Ok(_) => findings,
+            Err(more) => findings.into_iter().chain(more).collect(),
+        };
+        Err(Problems::place(all, Some(&source)))
     }
 
     /// Reads and checks a scene file as it lies on a disk.
@@ -91,31 +96,113 @@ impl Scene {
     /// # Ok::<(), drystone::scene::Problems>(())
     /// ```
     pub fn new(file: SceneFile) -> Result<Scene, Problems> {
-        resolve(&file, Doubt::default()).map_err(|findings| Problems::place(findings, None))
+        let mut scene =
+            resolve(&file, Doubt::default()).map_err(|findings| Problems::place(findings, None))?;
+        scene.notes = note::of(&file, &scene, None);
+        Ok(scene)
     }
 }
 
-/// The problems of a text that is JSON but not of the right types.
-fn misfits(text: &str, refusal: &format::Refusal) -> Problems {
-    let source = Source::parse(text);
-    let checked = source
-        .root
-        .as_ref()
-        .map(|root| expectation::check(&source, root, &format::expected()));
-    let Some(checked) = checked.filter(|c| !c.findings.is_empty()) else {
-        // The two readers disagree: the first one's words are right, if less kind.
-        let byte = source.byte(refusal.line, refusal.column);
-        return Problems::of_text(
-            &source,
-            byte..byte,
-            problem::entry::reader_says(&refusal.words),
-        );
+/// The scene file that a syntax tree holds, all that does not fit, and where that is.
+pub(super) fn read(source: &Source<'_>) -> (SceneFile, Vec<Finding>, Doubt) {
+    let mut reader = Reader::new(source);
+    let file = match &source.root {
+        Some(root) => object::scene(&mut reader, root),
+        None => SceneFile::default(),
     };
-    let mut findings = checked.findings;
-    if let Ok(file) = format::parse(&checked.text)
-        && let Err(more) = resolve(&file, checked.doubt)
-    {
-        findings.extend(more);
+    (file, reader.findings.list, reader.doubt)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::format;
+
+    /// What serde makes of a text, which knows the types only.
+    fn by_types(text: &str) -> Option<SceneFile> {
+        format::parse(text)
     }
-    Problems::place(findings, Some(&source))
+
+    fn by_tree(text: &str) -> Option<SceneFile> {
+        let source = Source::parse(text).ok()?;
+        let (file, findings, _) = read(&source);
+        findings.is_empty().then_some(file)
+    }
+
+    const EVERYTHING: &str = r##"{ "$schema": "s", "drystone": 1, "title": null, "gravity": [1, -2], "friction": 0.5, "kernel": 0,
+        "density": 2, "thickness": 3, "materials": { "oak": { "density": 700, "friction": 0.1, "fill": "#123" }, "b": {} },
+        "friction_pairs": [{ "between": ["oak", "b"], "friction": 1e-3 }], "grid": { "kind": "square", "side": 2 },
+        "shapes": { "s": { "polygon": [[0, 0], [1, 0], [1, 1]], "holes": [[[0.1, 0.1]]] }, "t": { "cells": [[0, 1]] } },
+        "ground": [{ "shape": "s", "at": [1, 2], "angle": 90, "material": "b", "friction": 2, "fill": "#abc" },
+                   { "polygon": [[0, 0]], "holes": [] }, { "cells": [[1, 2, "up"], [3, 4, "down"]] }],
+        "blocks": [{ "id": "a", "polygon": [[0, 0]], "holes": [[[1, 2]]], "material": "oak", "weight": 1, "mass": 2, "density": 3,
+                     "friction": 4, "fill": "#fff", "shape": null, "at": [5, 6], "angle": -90, "cells": [[7, 8]] }, {}],
+        "robots": [{ "id": "r", "holds": "a", "at": [1, 1], "limits": { "fx": 1, "fy": 2, "torque": 3, "force": 4 } }, {}],
+        "loads": [{ "block": "a", "force": [1, 2], "at": [3, 4], "torque": 5 }], "contact_tolerance": 1e-9,
+        "corner_contacts": true, "steps": [{ "title": "t", "release": ["r"], "remove": ["a"], "place": ["a"],
+            "hold": { "r": "a", "q": { "block": "a", "at": [1, 2] } }, "plan": { "r": "a" } }, {}], "silence": ["x"] }"##;
+
+    #[test]
+    fn the_tree_and_the_types_read_the_same() {
+        let file = by_tree(EVERYTHING).expect("it fits");
+        assert_eq!(Some(&file), by_types(EVERYTHING).as_ref());
+        assert_eq!(by_tree(&file.to_json()), Some(file));
+        for text in [
+            include_str!("../../assets/starter.json"),
+            include_str!("../../assets/thesis/figure-4.json"),
+        ] {
+            assert_eq!(by_tree(text), by_types(text));
+        }
+    }
+
+    #[test]
+    fn the_tree_and_the_types_refuse_the_same() {
+        // Every value in turn is replaced, or its key changed.
+        let source = Source::parse(EVERYTHING).expect("JSON");
+        let mut places = Vec::new();
+        places_of(source.root.as_ref().expect("there"), &mut places);
+        assert!(places.len() > 100);
+        let mut refused = 0;
+        for range in places {
+            for other in [
+                "null",
+                "true",
+                "-1",
+                "0.5",
+                "\"x\"",
+                "[]",
+                "{}",
+                "[1, 2]",
+                "\"up\"",
+                "[1, 2, \"up\"]",
+                "1e999",
+            ] {
+                let text = format!(
+                    "{}{other}{}",
+                    &EVERYTHING[..range.start],
+                    &EVERYTHING[range.end..]
+                );
+                // serde takes the values of an object's keys as a list, too; the format does not.
+                let is_list = other.starts_with('[') && by_tree(&text).is_none();
+                assert!(is_list || by_tree(&text) == by_types(&text), "{text}");
+                refused += usize::from(by_tree(&text).is_none());
+            }
+        }
+        assert!(refused > 800, "{refused}");
+    }
+
+    fn places_of(node: &crate::scene::tree::Node<'_>, places: &mut Vec<std::ops::Range<usize>>) {
+        use crate::scene::tree::NodeKind;
+        places.push(node.range.clone());
+        match &node.kind {
+            NodeKind::List(items) => items.iter().for_each(|n| places_of(n, places)),
+            NodeKind::Object(entries) => {
+                for entry in entries {
+                    places.push(entry.name_range.clone());
+                    places_of(&entry.value, places);
+                }
+            }
+            _ => {}
+        }
+    }
 }

@@ -12,6 +12,7 @@ use super::format::{self, Pair, SceneFile};
 use super::frame::Hold;
 use super::heal::{self, Healed, Reach, ToleranceSource};
 use super::name::Names;
+use super::note::{Lines, NoteCode};
 use super::number::{SMALLEST_EXTENT, at_least_zero, is_amount, is_sane};
 use super::outline::Outline;
 use super::path::Trail;
@@ -269,6 +270,9 @@ impl<'f> Resolution<'f> {
             friction_pairs,
             corner_contacts: self.file.corner_contacts.unwrap_or(false),
             frames,
+            notes: Vec::new(),
+            silenced: silenced(findings, self.file),
+            lines: Lines::default(),
         })
     }
 
@@ -372,6 +376,23 @@ impl<'f> Resolution<'f> {
         }
         pairs
     }
+}
+
+/// The sorts of notes that the file silences.
+fn silenced(findings: &mut Findings, file: &SceneFile) -> Vec<NoteCode> {
+    let top = Trail::Top;
+    let list = top.key("silence");
+    let mut codes = Vec::new();
+    for (i, word) in file.silence.iter().enumerate() {
+        match NoteCode::named(word) {
+            Some(code) => codes.push(code),
+            None => {
+                let words: Vec<String> = NoteCode::ALL.iter().map(|c| c.to_string()).collect();
+                findings.add(&list.index(i), problem::entry::unknown_choice(word, &words));
+            }
+        }
+    }
+    codes
 }
 
 fn lattice(findings: &mut Findings, entry: Option<&format::GridEntry>) -> Option<Lattice> {

@@ -1,56 +1,18 @@
 //! [`Source`]: the text of a scene file with every value's place in it.
-//!
-//! Made only once something is wrong: a sound file is read without it. The only file that names jsonc-parser.
 
 use std::ops::Range;
 
-use jsonc_parser::ast::Value;
-use jsonc_parser::{CollectOptions, ParseOptions, parse_to_ast};
-
 use super::path::{Path, Segment};
+use super::tree::{Entry, Fault, Node, NodeKind, parse};
 
 /// A text and its JSON values.
 pub(super) struct Source<'t> {
     /// The text, from which all byte ranges count.
     pub(super) text: &'t str,
     /// The topmost value; absent where the text is no JSON.
-    pub(super) root: Option<Node>,
+    pub(super) root: Option<Node<'t>>,
     /// First byte of every line.
     lines: Vec<usize>,
-}
-
-/// A JSON value with its place.
-pub(super) struct Node {
-    /// Its bytes in the text.
-    pub(super) range: Range<usize>,
-    /// What it is.
-    pub(super) kind: NodeKind,
-}
-
-/// What a JSON value is.
-pub(super) enum NodeKind {
-    /// `null`
-    Null,
-    /// `true` or `false`
-    Flag,
-    /// A number, as written.
-    Number(String),
-    /// A string, its escapes resolved.
-    Text(String),
-    /// A list.
-    List(Vec<Node>),
-    /// An object's entries in their order, keys perhaps twice.
-    Object(Vec<Entry>),
-}
-
-/// A key and its value.
-pub(super) struct Entry {
-    /// The key, its escapes resolved.
-    pub(super) name: String,
-    /// The key's bytes in the text, quotes included.
-    pub(super) name_range: Range<usize>,
-    /// The value.
-    pub(super) value: Node,
 }
 
 /// Which part of an entry a problem points at.
@@ -63,26 +25,13 @@ pub(super) enum Mark {
 }
 
 impl<'t> Source<'t> {
-    /// A text known to be JSON of bounded nesting, with its values' places.
-    pub(super) fn parse(text: &'t str) -> Source<'t> {
-        let strict = ParseOptions {
-            allow_comments: false,
-            allow_loose_object_property_names: false,
-            allow_trailing_commas: false,
-            allow_missing_commas: false,
-            allow_single_quoted_strings: false,
-            allow_hexadecimal_numbers: false,
-            allow_unary_plus_numbers: false,
-            allow_bare_decimal_point_numbers: false,
-            allow_non_finite_numbers: false,
-            allow_extended_string_escapes: false,
-        };
-        let parsed = parse_to_ast(text, &CollectOptions::default(), &strict);
-        let root = parsed.ok().and_then(|p| p.value).map(node);
-        Source {
+    /// A text with its values' places, or where it is no JSON.
+    pub(super) fn parse(text: &'t str) -> Result<Source<'t>, Fault> {
+        let root = Some(parse(text)?);
+        Ok(Source {
             root,
             ..Source::plain(text)
-        }
+        })
     }
 
     /// Any text, without values.
@@ -104,18 +53,19 @@ impl<'t> Source<'t> {
         (line, before.chars().count() + 1)
     }
 
-    /// The byte at a line (from 1) and a column in bytes (from 1; 0 and columns beyond the line are moved onto it).
-    pub(super) fn byte(&self, line: usize, column: usize) -> usize {
-        let line = line.clamp(1, self.lines.len());
-        let end = self
-            .lines
-            .get(line)
-            .map_or(self.text.len(), |next| next - 1);
-        let mut byte = (self.lines[line - 1] + column.saturating_sub(1)).min(end);
-        while !self.text.is_char_boundary(byte) {
-            byte -= 1;
+    /// The first bytes of the entries of a list at the top.
+    pub(super) fn starts(&self, list: &str) -> Vec<usize> {
+        let Some(NodeKind::Object(entries)) = self.root.as_ref().map(|n| &n.kind) else {
+            return Vec::new();
+        };
+        match entries
+            .iter()
+            .find(|e| e.name == list)
+            .map(|e| &e.value.kind)
+        {
+            Some(NodeKind::List(items)) => items.iter().map(|n| n.range.start).collect(),
+            _ => Vec::new(),
         }
-        byte
     }
 
     /// Where a path leads, or as far along it as the text goes; the first line of it.
@@ -126,7 +76,7 @@ impl<'t> Source<'t> {
                 (Segment::Index(number), NodeKind::List(entries)) => entries.get(*number),
                 (Segment::Key(key), NodeKind::Object(entries)) => {
                     // Of a key given twice the second is the one to point at.
-                    let wanted = |e: &&Entry| e.name == *key;
+                    let wanted = |e: &&Entry<'_>| e.name == *key;
                     let last = mark == Mark::Key && i + 1 == path.0.len();
                     let entry = if last {
                         entries.iter().rev().find(wanted)
@@ -156,48 +106,6 @@ impl<'t> Source<'t> {
     }
 }
 
-fn node(value: Value<'_>) -> Node {
-    let range = |r: jsonc_parser::common::Range| r.start..r.end;
-    match value {
-        Value::NullKeyword(v) => Node {
-            range: range(v.range),
-            kind: NodeKind::Null,
-        },
-        Value::BooleanLit(v) => Node {
-            range: range(v.range),
-            kind: NodeKind::Flag,
-        },
-        Value::NumberLit(v) => Node {
-            range: range(v.range),
-            kind: NodeKind::Number(v.value.to_string()),
-        },
-        Value::StringLit(v) => Node {
-            range: range(v.range),
-            kind: NodeKind::Text(v.value.into_owned()),
-        },
-        Value::Array(v) => Node {
-            range: range(v.range),
-            kind: NodeKind::List(v.elements.into_iter().map(node).collect()),
-        },
-        Value::Object(v) => Node {
-            range: range(v.range),
-            kind: NodeKind::Object(
-                v.properties
-                    .into_iter()
-                    .map(|p| {
-                        use jsonc_parser::common::Ranged;
-                        Entry {
-                            name_range: range(p.name.range()),
-                            name: p.name.into_string(),
-                            value: node(p.value),
-                        }
-                    })
-                    .collect(),
-            ),
-        },
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -206,7 +114,7 @@ mod tests {
     #[test]
     fn values_are_found_where_they_stand() {
         let text = "{\n  \"é\": [1, {\"b\": 22}],\n  \"a\": 1, \"a\": 2\n}";
-        let source = Source::parse(text);
+        let source = Source::parse(text).expect("JSON");
         let top = Trail::Top;
         let e = top.key("é");
         let one = e.index(1);

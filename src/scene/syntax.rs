@@ -1,16 +1,15 @@
-//! What is wrong with a text that is no JSON, in words that help: the reader's own are for programmers.
+//! What is wrong with a text that is no JSON, in words that help.
 
 use std::ops::Range;
 
-use super::format::{Refusal, RefusalKind};
 use super::problem::{self, Problems, Wording};
 use super::source::Source;
+use super::tree::{Fault, Why};
 
 /// The one problem of a text that is no JSON.
-pub(super) fn problem(text: &str, refusal: &Refusal) -> Problems {
+pub(super) fn problem(text: &str, fault: Fault) -> Problems {
     let source = Source::plain(text);
-    let byte = source.byte(refusal.line, refusal.column);
-    let (span, wording) = explain(&source, byte, refusal);
+    let (span, wording) = explain(&source, fault);
     Problems::of_text(&source, span, wording)
 }
 
@@ -21,61 +20,108 @@ pub(super) fn not_utf8(bytes: &[u8], valid: usize) -> Problems {
     let utf16 = bytes.starts_with(&[0xFF, 0xFE]) || bytes.starts_with(&[0xFE, 0xFF]);
     let byte = bytes.get(valid).copied().unwrap_or(0);
     // The replacement character stands where the text breaks off; up to there text and bytes agree.
-    let end = text[valid..]
-        .chars()
-        .next()
-        .map_or(valid, |c| valid + c.len_utf8());
-    Problems::of_text(&source, valid..end, problem::text::not_utf8(byte, utf16))
+    Problems::of_text(
+        &source,
+        one(&text, valid),
+        problem::text::not_utf8(byte, utf16),
+    )
 }
 
-fn explain(source: &Source<'_>, byte: usize, refusal: &Refusal) -> (Range<usize>, Wording) {
+/// The character at a byte.
+fn one(text: &str, byte: usize) -> Range<usize> {
+    let length = text[byte..].chars().next().map_or(0, char::len_utf8);
+    byte..byte + length
+}
+
+fn explain(source: &Source<'_>, fault: Fault) -> (Range<usize>, Wording) {
     let text = source.text;
-    let one = byte..text[byte..]
-        .chars()
-        .next()
-        .map_or(byte, |c| byte + c.len_utf8());
     if text.trim().is_empty() {
         return (0..0, problem::text::empty_text());
     }
-    if refusal.kind == RefusalKind::End {
-        let opened = open_bracket(text).map(|(c, at)| {
-            let (line, column) = source.place(at);
-            (c, line, column)
-        });
-        let end = text.trim_end().len();
-        return (end..end, problem::text::early_end(opened));
+    if let Some((line, format)) = other_format(text) {
+        return (line, problem::text::other_format(format));
     }
-    let words = refusal.words.as_str();
-    if words.contains("recursion limit") {
-        return (one, problem::text::too_deep());
+    let here = one(text, fault.at);
+    match fault.why {
+        Why::End(open) => {
+            let opened = open.map(|(c, at)| {
+                let (line, column) = source.place(at);
+                (c, line, column)
+            });
+            let end = text.trim_end().len();
+            (end..end, problem::text::early_end(opened))
+        }
+        Why::TooDeep => (here, problem::text::too_deep()),
+        Why::Control(quote) => {
+            let broken = text[..fault.at].trim_end_matches(['\n', '\r']).len();
+            (quote..broken.max(quote + 1), problem::text::open_string())
+        }
+        Why::Escape => (here, problem::text::escape()),
+        Why::Surrogate => (here, problem::text::surrogate()),
+        Why::TrailingComma(comma) => (comma..comma + 1, problem::text::trailing_comma()),
+        Why::Value | Why::Key | Why::Colon | Why::Comma(_) | Why::Behind => {
+            unexpected(text, fault, here)
+        }
     }
-    if words.contains("control character") {
-        return open_string(source, byte);
-    }
-    if words.contains("escape") || words.contains("surrogate") {
-        return (one, problem::text::not_json(words));
-    }
-    let token = token(text, byte);
-    let found = &text[token.clone()];
-    if words.contains("number out of range") {
-        return (token.clone(), problem::text::number_too_large(found));
-    }
-    if let Some(wording) = known_token(found) {
+}
+
+/// What to say where something else stands than JSON has there.
+fn unexpected(text: &str, fault: Fault, here: Range<usize>) -> (Range<usize>, Wording) {
+    let token = token(text, fault.at);
+    if let Some(wording) = known_token(&text[token.clone()]) {
         return (token, wording);
     }
-    match text[byte..].trim_start().chars().next() {
-        Some('/' | '#') => return (one, problem::text::comment()),
-        Some('\'') => return (one, problem::text::single_quotes()),
+    match text[fault.at..].chars().next() {
+        Some('/' | '#') => return (here, problem::text::comment()),
+        Some('\'') => return (here, problem::text::single_quotes()),
         _ => {}
     }
-    if words.contains("trailing comma") {
-        let comma = text[..byte].rfind(',').map_or(one, |c| c..c + 1);
-        return (comma, problem::text::trailing_comma());
-    }
-    if words.contains("expected `,`") {
-        return (one, problem::text::missing_comma(words));
-    }
-    (one, problem::text::not_json(words))
+    let wording = match fault.why {
+        Why::Comma(close) => problem::text::missing_comma(close),
+        Why::Colon => problem::text::not_json("`:`"),
+        Why::Key => problem::text::not_json("a key in double quotes"),
+        Why::Behind => problem::text::behind_the_end(),
+        _ => problem::text::not_json("a value"),
+    };
+    (here, wording)
+}
+
+/// The first line that says something, where it is written as YAML, TOML or XML have it, and which of them.
+fn other_format(text: &str) -> Option<(Range<usize>, &'static str)> {
+    let line = text
+        .split('\n')
+        .map(str::trim)
+        .find(|line| !line.is_empty() && !line.starts_with('#'))?;
+    let start = line.as_ptr() as usize - text.as_ptr() as usize;
+    let found = Some(start..start + line.len());
+    let is_name = |name: &str| {
+        let name = name.trim();
+        !name.is_empty()
+            && name
+                .chars()
+                .all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | '.' | '$'))
+    };
+    let table = line
+        .strip_prefix('[')
+        .and_then(|l| l.split_once(']'))
+        .map(|l| l.0.trim_start_matches('['));
+    let format = if line.starts_with('<') {
+        "XML"
+    } else if line.starts_with("---") || line.starts_with("- ") || line.starts_with("%YAML") {
+        "YAML"
+    } else if line.split_once('=').is_some_and(|(name, _)| is_name(name)) {
+        "TOML"
+    } else if line
+        .split_once(':')
+        .is_some_and(|(name, rest)| is_name(name) && (rest.is_empty() || rest.starts_with(' ')))
+    {
+        "YAML"
+    } else if table.is_some_and(|name| is_name(name) && name.starts_with(char::is_alphabetic)) {
+        "TOML"
+    } else {
+        return None;
+    };
+    found.map(|range| (range, format))
 }
 
 /// What to say of words and numbers that other languages know.
@@ -96,73 +142,15 @@ fn known_token(found: &str) -> Option<Wording> {
         return Some(problem::text::bare_word(found));
     }
     let digits = found.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '.' | '+' | '-'));
-    let sound = found.parse::<f64>().is_ok() && is_json_number(found);
+    let sound = super::tree::parse(found).is_ok();
     (digits && !sound).then(|| problem::text::odd_number(found))
-}
-
-/// Whether a text that is a number for Rust is one for JSON.
-fn is_json_number(text: &str) -> bool {
-    let whole = text.strip_prefix('-').unwrap_or(text);
-    let digits = whole.bytes().take_while(u8::is_ascii_digit).count();
-    let rest = &whole[digits..];
-    digits > 0
-        && (digits == 1 || !whole.starts_with('0'))
-        && rest
-            .strip_prefix('.')
-            .is_none_or(|f| f.starts_with(|c: char| c.is_ascii_digit()))
 }
 
 /// The word or number that touches a byte.
 fn token(text: &str, byte: usize) -> Range<usize> {
-    let part = |c: char| c.is_alphanumeric() || matches!(c, '_' | '.' | '+' | '-');
-    let before = text[..byte]
-        .chars()
-        .rev()
-        .take_while(|c| part(*c))
-        .map(char::len_utf8)
-        .sum::<usize>();
-    let after = text[byte..]
-        .chars()
-        .take_while(|c| part(*c))
-        .map(char::len_utf8)
-        .sum::<usize>();
+    let part = |c: &char| c.is_alphanumeric() || matches!(c, '_' | '.' | '+' | '-');
+    let length = |all: &mut dyn Iterator<Item = char>| all.map(char::len_utf8).sum::<usize>();
+    let before = length(&mut text[..byte].chars().rev().take_while(part));
+    let after = length(&mut text[byte..].chars().take_while(part));
     byte - before..byte + after
-}
-
-/// A string that is still open where its line ends.
-fn open_string(source: &Source<'_>, byte: usize) -> (Range<usize>, Wording) {
-    let text = source.text;
-    let broken = text[..byte].trim_end_matches(['\n', '\r']).len();
-    let start = match open_bracket(&text[..broken]) {
-        Some(('"', start)) => start,
-        _ => broken,
-    };
-    (start..broken, problem::text::open_string())
-}
-
-/// The innermost bracket, brace or quote that is still open at the end.
-fn open_bracket(text: &str) -> Option<(char, usize)> {
-    let mut open = Vec::new();
-    let mut quote = None;
-    let mut escaped = false;
-    for (i, c) in text.char_indices() {
-        if quote.is_some() {
-            match c {
-                _ if escaped => escaped = false,
-                '\\' => escaped = true,
-                '"' => quote = None,
-                _ => {}
-            }
-            continue;
-        }
-        match c {
-            '"' => quote = Some((c, i)),
-            '[' | '{' => open.push((c, i)),
-            ']' | '}' => {
-                open.pop();
-            }
-            _ => {}
-        }
-    }
-    quote.or(open.last().copied())
 }

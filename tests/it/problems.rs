@@ -4,7 +4,7 @@
 //! writes what is said now in place of what was.
 
 use drystone::scene::format::{BlockEntry, SceneFile};
-use drystone::scene::{Problems, Scene, starter};
+use drystone::scene::{Code, Problems, Scene, starter};
 use serde_json::{Value, json};
 
 const REFERENCE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/problems.txt");
@@ -78,6 +78,69 @@ fn every_case_is_said_as_agreed() {
         return;
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+}
+
+#[test]
+fn every_code_of_a_problem_occurs() {
+    let mut missing: Vec<Code> = Code::ALL.to_vec();
+    for case in cases() {
+        let found = refused(&case.scene);
+        missing.retain(|code| !found.list.iter().any(|p| p.code == *code));
+    }
+    // What no text can show: a number that only code can hold, bytes, and what the command line finds
+    // (tests/it/program/check.rs); and lists too long for a case.
+    let elsewhere = [
+        Code::NotReadable,
+        Code::NoSuchFrame,
+        Code::NotUtf8,
+        Code::NotFinite,
+        Code::TooManySteps,
+        Code::MoreProblems,
+    ];
+    assert_eq!(missing, elsewhere);
+    let only = |problems: Problems| problems.list[0].code;
+    assert_eq!(
+        only(Scene::from_slice(b"\xE9").expect_err("refused")),
+        Code::NotUtf8
+    );
+    let infinite = SceneFile {
+        kernel: Some(f64::INFINITY),
+        ..SceneFile::default()
+    };
+    assert_eq!(
+        only(Scene::new(infinite).expect_err("refused")),
+        Code::NotFinite
+    );
+    let block = r#"{ "polygon": [[0, 0], [1, 0], [0, 1]] }"#;
+    let text = format!(
+        r#"{{ "drystone": 1, "blocks": [{}] }}"#,
+        vec![block; 1000].join(",")
+    );
+    assert!(
+        refused(&text)
+            .list
+            .iter()
+            .any(|p| p.code == Code::MoreProblems)
+    );
+    // A block placed once and shown in 8 000 001 frames.
+    let text = format!(
+        r#"{{ "drystone": 1, "blocks": [{}], "steps": [{{ "place": [{}] }}{}] }}"#,
+        (0..4000)
+            .map(|i| format!(r#"{{ "polygon": [[{i}, 0], [{i}.5, 0], [{i}, 1]] }}"#))
+            .collect::<Vec<_>>()
+            .join(","),
+        (1..=4000)
+            .map(|i| format!("\"{i}\""))
+            .collect::<Vec<_>>()
+            .join(","),
+        ",{}".repeat(2000),
+    );
+    assert!(
+        refused(&text)
+            .list
+            .iter()
+            .any(|p| p.code == Code::TooManySteps)
+    );
 }
 
 const SMALL: &str = r##"{ "drystone": 1, "title": "é", "grid": { "kind": "triangular", "side": 1e0 },

@@ -51,6 +51,9 @@ fn scene() -> Scene {
             holds: vec![],
             plans: vec![],
         }],
+        notes: vec![],
+        silenced: vec![],
+        lines: Default::default(),
     }
 }
 
@@ -200,6 +203,7 @@ fn the_names_are_the_contract_and_stay() {
     let analysis = Analysis {
         scene: &scene,
         frames: vec![frame()],
+        notes: vec![],
     };
     let expected = LINES.replace("VERSION", env!("CARGO_PKG_VERSION"));
     assert_eq!(to_json(&analysis, Timing::LeftOut, Layout::Lines), expected);
@@ -228,6 +232,7 @@ fn what_is_worth_saying_is_said() {
         &Analysis {
             scene: &scene,
             frames: vec![frame],
+            notes: vec![],
         },
         Timing::LeftOut,
         Layout::Lines,

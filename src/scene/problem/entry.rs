@@ -1,17 +1,11 @@
 //! What is said of keys and values that are not what a scene file holds.
 
-use super::{Wording, choice, say, shortened};
+use super::{Code, Wording, choice, say, shortened};
 use crate::scene::name::nearest;
-
-pub(in crate::scene) fn reader_says(words: &str) -> Wording {
-    say(
-        words,
-        "see `drystone schema` for what a scene file may hold",
-    )
-}
 
 pub(in crate::scene) fn wrong_type(expected: &str, found: &str) -> Wording {
     say(
+        Code::WrongType,
         format!("expected {expected}, found {found}"),
         format!("write {expected} here"),
     )
@@ -19,21 +13,45 @@ pub(in crate::scene) fn wrong_type(expected: &str, found: &str) -> Wording {
 
 pub(in crate::scene) fn quoted_number(expected: &str, found: &str) -> Wording {
     say(
+        Code::WrongType,
         format!("expected {expected}, found the string \"{found}\""),
         format!("write {found} without quotes"),
     )
 }
 
-pub(in crate::scene) fn wrong_length(found: usize, expected: &str) -> Wording {
-    let entries = if found == 1 {
-        "1 entry".into()
-    } else {
-        format!("{found} entries")
+pub(in crate::scene) fn coordinates(found: usize) -> Wording {
+    let help = match found {
+        3.. => "write [x, y]: a scene is plane, x to the right and y up",
+        _ => "write [x, y]",
     };
     say(
-        format!("expected {expected}, found {entries}"),
-        format!("write {expected} here"),
+        Code::WrongLength,
+        format!("a point has two coordinates; this one has {}", count(found)),
+        help,
     )
+}
+
+pub(in crate::scene) fn components(found: usize) -> Wording {
+    let help = match found {
+        3.. => "write [x, y]: a scene is plane, x to the right and y up",
+        _ => "write [x, y]",
+    };
+    say(
+        Code::WrongLength,
+        format!("a vector has two components; this one has {}", count(found)),
+        help,
+    )
+}
+
+/// A small number in words.
+fn count(n: usize) -> String {
+    match n {
+        0 => "none".into(),
+        1 => "one".into(),
+        3 => "three".into(),
+        4 => "four".into(),
+        _ => n.to_string(),
+    }
 }
 
 pub(in crate::scene) fn unknown_choice(text: &str, known: &[String]) -> Wording {
@@ -43,6 +61,7 @@ pub(in crate::scene) fn unknown_choice(text: &str, known: &[String]) -> Wording 
         None => format!("write {names}"),
     };
     say(
+        Code::UnknownChoice,
         format!("expected {names}, found \"{}\"", shortened(text)),
         help,
     )
@@ -56,11 +75,16 @@ pub(in crate::scene) fn unknown_key<'k>(
         Some(near) => format!("the nearest known key is `{near}`"),
         None => format!("known keys are {}", known.collect::<Vec<_>>().join(", ")),
     };
-    say(format!("unknown key `{}`", shortened(key)), help)
+    say(
+        Code::UnknownKey,
+        format!("unknown key `{}`", shortened(key)),
+        help,
+    )
 }
 
 pub(in crate::scene) fn duplicate_key(key: &str, line: usize, column: usize) -> Wording {
     say(
+        Code::DuplicateKey,
         format!(
             "the key `{}` stands here twice; first in line {line}, column {column}",
             shortened(key)
@@ -75,5 +99,9 @@ pub(in crate::scene) fn missing_key(key: &str) -> Wording {
         "blocks" => "add `\"blocks\": […]`, the list of blocks; it may be empty".into(),
         _ => format!("add `\"{key}\"`"),
     };
-    say(format!("the key `{key}` is missing"), help)
+    say(
+        Code::MissingKey,
+        format!("the key `{key}` is missing"),
+        help,
+    )
 }

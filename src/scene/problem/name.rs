@@ -1,6 +1,6 @@
 //! What is said of names and ids.
 
-use super::{Wording, say, shortened};
+use super::{Code, Wording, say, shortened};
 use crate::scene::name::nearest;
 
 pub(in crate::scene) fn unknown_name(sort: &str, name: &str, known: &[&str]) -> Wording {
@@ -22,11 +22,16 @@ pub(in crate::scene) fn unknown_name(sort: &str, name: &str, known: &[&str]) -> 
             known.len()
         ),
     };
-    say(format!("unknown {sort} `{}`", shortened(name)), help)
+    say(
+        Code::UnknownName,
+        format!("unknown {sort} `{}`", shortened(name)),
+        help,
+    )
 }
 
 pub(in crate::scene) fn another_unknown_name(sort: &str, name: &str) -> Wording {
     say(
+        Code::UnknownName,
         format!("unknown {sort} `{}`", shortened(name)),
         "see the first of these for the known names",
     )
@@ -34,6 +39,7 @@ pub(in crate::scene) fn another_unknown_name(sort: &str, name: &str) -> Wording 
 
 pub(in crate::scene) fn id_twice(sort: &str, id: &str, first: &str) -> Wording {
     say(
+        Code::DuplicateId,
         format!(
             "the {sort} id `{}` is used twice; first by {first}",
             shortened(id)
@@ -44,6 +50,7 @@ pub(in crate::scene) fn id_twice(sort: &str, id: &str, first: &str) -> Wording {
 
 pub(in crate::scene) fn reserved_id() -> Wording {
     say(
+        Code::ReservedName,
         "the id `ground` is reserved: results name the ground so",
         "give the block another id",
     )
@@ -51,6 +58,7 @@ pub(in crate::scene) fn reserved_id() -> Wording {
 
 pub(in crate::scene) fn empty_id(sort: &str) -> Wording {
     say(
+        Code::EmptyId,
         format!("the {sort}'s id is empty"),
         "give it a name of at least one letter",
     )
@@ -58,6 +66,7 @@ pub(in crate::scene) fn empty_id(sort: &str) -> Wording {
 
 pub(in crate::scene) fn built_in_shape(name: &str) -> Wording {
     say(
+        Code::ReservedName,
         format!("`{name}` is the name of a built-in shape"),
         "give the shape another name",
     )
@@ -65,6 +74,7 @@ pub(in crate::scene) fn built_in_shape(name: &str) -> Wording {
 
 pub(in crate::scene) fn pair_twice(names: &[String; 2], first: usize) -> Wording {
     say(
+        Code::DuplicatePair,
         format!(
             "the pair {}, {} is listed twice; first in friction_pairs[{first}]",
             shortened(&names[0]),

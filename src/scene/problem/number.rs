@@ -1,20 +1,26 @@
 //! What is said of numbers and colours.
 
-use super::{Wording, digits, say, shortened};
+use super::{Code, Wording, digits, say, shortened};
 
 pub(in crate::scene) fn version(found: i64) -> Wording {
     say(
+        Code::UnknownVersion,
         format!("version {found} of the scene format is not known"),
         "write `\"drystone\": 1`",
     )
 }
 
 pub(in crate::scene) fn not_finite(x: f64) -> Wording {
-    say(format!("the number is {x}"), "give a finite number")
+    say(
+        Code::NotFinite,
+        format!("the number is {x}"),
+        "give a finite number",
+    )
 }
 
 pub(in crate::scene) fn absurd(x: f64, largest: f64) -> Wording {
     say(
+        Code::TooLarge,
         format!("the number {} is beyond ±{}", digits(x), digits(largest)),
         "check the units: metres, kilograms, newtons",
     )
@@ -22,6 +28,7 @@ pub(in crate::scene) fn absurd(x: f64, largest: f64) -> Wording {
 
 pub(in crate::scene) fn tiny(x: f64, smallest: f64) -> Wording {
     say(
+        Code::TooSmall,
         format!(
             "the number {} is within ±{} of 0",
             digits(x),
@@ -33,6 +40,7 @@ pub(in crate::scene) fn tiny(x: f64, smallest: f64) -> Wording {
 
 pub(in crate::scene) fn tiny_extent(extent: f64, smallest: f64) -> Wording {
     say(
+        Code::TooSmall,
         format!(
             "it extends over {} m, less than {} m",
             digits(extent),
@@ -44,6 +52,7 @@ pub(in crate::scene) fn tiny_extent(extent: f64, smallest: f64) -> Wording {
 
 pub(in crate::scene) fn negative(what: &str, x: f64) -> Wording {
     say(
+        Code::Negative,
         format!("negative {what} {}", digits(x)),
         format!("`{what}` has to be at least 0"),
     )
@@ -51,6 +60,7 @@ pub(in crate::scene) fn negative(what: &str, x: f64) -> Wording {
 
 pub(in crate::scene) fn kernel(x: f64) -> Wording {
     say(
+        Code::OutOfRange,
         format!("the kernel {} is outside 0 … 1", digits(x)),
         "give the share of each contact to stay clear of: 0 for none, 0.2 for a fifth",
     )
@@ -58,6 +68,7 @@ pub(in crate::scene) fn kernel(x: f64) -> Wording {
 
 pub(in crate::scene) fn side(x: f64) -> Wording {
     say(
+        Code::OutOfRange,
         format!("the grid's side {} is not more than 0", digits(x)),
         "give the edge length of a cell in metres",
     )
@@ -65,6 +76,7 @@ pub(in crate::scene) fn side(x: f64) -> Wording {
 
 pub(in crate::scene) fn too_heavy(weight: f64, largest: f64) -> Wording {
     say(
+        Code::TooLarge,
         format!(
             "the block comes out {} N heavy, beyond {}",
             digits(weight),
@@ -76,6 +88,7 @@ pub(in crate::scene) fn too_heavy(weight: f64, largest: f64) -> Wording {
 
 pub(in crate::scene) fn colour(text: &str) -> Wording {
     say(
+        Code::NoColour,
         format!("\"{}\" is not a colour", shortened(text)),
         "write a colour as \"#8b6b3d\" or \"#863\"",
     )

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::{Wording, digits, pair, point, say};
+use super::{Code, Wording, digits, pair, point, say};
 use crate::geometry::Point;
 
 /// A side of an outline, by its corners' numbers.
@@ -32,6 +32,7 @@ pub(in crate::scene) fn too_few_corners(found: usize) -> Wording {
         _ => format!("only {found} different corners"),
     };
     say(
+        Code::TooFewCorners,
         format!("the outline has {corners}"),
         "give at least three corners",
     )
@@ -39,6 +40,7 @@ pub(in crate::scene) fn too_few_corners(found: usize) -> Wording {
 
 pub(in crate::scene) fn zero_area() -> Wording {
     say(
+        Code::ZeroArea,
         "the outline encloses no area",
         "give corners that do not all lie on one line",
     )
@@ -46,6 +48,7 @@ pub(in crate::scene) fn zero_area() -> Wording {
 
 pub(in crate::scene) fn crossing(a: &Side, b: &Side, at: Point) -> Wording {
     say(
+        Code::CrossingOutline,
         format!("{a} meets {b} at {}", point(at)),
         "list the corners in order around the outline, without crossing or touching it; corners count from 0",
     )
@@ -53,6 +56,7 @@ pub(in crate::scene) fn crossing(a: &Side, b: &Side, at: Point) -> Wording {
 
 pub(in crate::scene) fn hole_outside() -> Wording {
     say(
+        Code::HoleOutside,
         "the hole does not lie inside the outline, or lies inside another hole",
         "move the hole, or make it a block of its own",
     )
@@ -60,6 +64,7 @@ pub(in crate::scene) fn hole_outside() -> Wording {
 
 pub(in crate::scene) fn no_outline() -> Wording {
     say(
+        Code::NoOutline,
         "it has no `polygon`, no `cells` and no `shape`",
         "give one of the three",
     )
@@ -67,6 +72,7 @@ pub(in crate::scene) fn no_outline() -> Wording {
 
 pub(in crate::scene) fn no_shape_outline() -> Wording {
     say(
+        Code::NoOutline,
         "the shape has no `polygon` and no `cells`",
         "give one of the two",
     )
@@ -74,6 +80,7 @@ pub(in crate::scene) fn no_shape_outline() -> Wording {
 
 pub(in crate::scene) fn two_outlines(first: &str, second: &str) -> Wording {
     say(
+        Code::TwoOutlines,
         format!("it has both `{first}` and `{second}`"),
         "give one of the two",
     )
@@ -81,6 +88,7 @@ pub(in crate::scene) fn two_outlines(first: &str, second: &str) -> Wording {
 
 pub(in crate::scene) fn holes_alone() -> Wording {
     say(
+        Code::HolesWithoutPolygon,
         "`holes` go with a `polygon`",
         "give the outline as `polygon`, or leave the holes out; cells simply leave theirs out",
     )
@@ -88,6 +96,7 @@ pub(in crate::scene) fn holes_alone() -> Wording {
 
 pub(in crate::scene) fn cells_without_grid() -> Wording {
     say(
+        Code::NeedsGrid,
         "cells need a grid",
         "add `\"grid\": { \"kind\": \"triangular\", \"side\": 1 }` to the scene, or give a polygon",
     )
@@ -95,17 +104,23 @@ pub(in crate::scene) fn cells_without_grid() -> Wording {
 
 pub(in crate::scene) fn shape_without_grid(name: &str) -> Wording {
     say(
+        Code::NeedsGrid,
         format!("the built-in shape `{name}` needs a triangular grid"),
         "add `\"grid\": { \"kind\": \"triangular\", \"side\": 1 }` to the scene, or describe a shape of your own in `shapes`",
     )
 }
 
 pub(in crate::scene) fn no_cells() -> Wording {
-    say("the list of cells is empty", "give at least one cell")
+    say(
+        Code::NoOutline,
+        "the list of cells is empty",
+        "give at least one cell",
+    )
 }
 
 pub(in crate::scene) fn square_cell() -> Wording {
     say(
+        Code::WrongCell,
         "a cell of the triangular grid says which triangle it is",
         "write [x, y, \"up\"] or [x, y, \"down\"]",
     )
@@ -113,6 +128,7 @@ pub(in crate::scene) fn square_cell() -> Wording {
 
 pub(in crate::scene) fn triangle_cell() -> Wording {
     say(
+        Code::WrongCell,
         "a cell of the square grid has no \"up\" or \"down\"",
         "write [x, y]",
     )
@@ -120,6 +136,7 @@ pub(in crate::scene) fn triangle_cell() -> Wording {
 
 pub(in crate::scene) fn cell_twice(first: usize) -> Wording {
     say(
+        Code::DuplicateCell,
         format!("the cell is listed twice; first as number {first}, counting from 0"),
         "take one of the two out",
     )
@@ -127,6 +144,7 @@ pub(in crate::scene) fn cell_twice(first: usize) -> Wording {
 
 pub(in crate::scene) fn cells_apart() -> Wording {
     say(
+        Code::CellsApart,
         "the cells are not all joined by edges",
         "make each connected part a block of its own",
     )
@@ -134,6 +152,7 @@ pub(in crate::scene) fn cells_apart() -> Wording {
 
 pub(in crate::scene) fn not_whole(p: [f64; 2]) -> Wording {
     say(
+        Code::OffLattice,
         format!("{} is not a lattice point", pair(p)),
         "cells lie at whole numbers; a polygon may lie anywhere",
     )
@@ -141,6 +160,7 @@ pub(in crate::scene) fn not_whole(p: [f64; 2]) -> Wording {
 
 pub(in crate::scene) fn beyond_lattice(p: [f64; 2], reach: f64) -> Wording {
     say(
+        Code::TooLarge,
         format!("{} is beyond ±{} lattice steps", pair(p), digits(reach)),
         "move the scene towards the origin",
     )
@@ -148,6 +168,7 @@ pub(in crate::scene) fn beyond_lattice(p: [f64; 2], reach: f64) -> Wording {
 
 pub(in crate::scene) fn angle_off_lattice(angle: f64, turn: f64) -> Wording {
     say(
+        Code::OffLattice,
         format!("a turn by {}° leaves the lattice", digits(angle)),
         format!("give a multiple of {}°, or use a polygon", digits(turn)),
     )
@@ -174,6 +195,7 @@ pub(in crate::scene) fn overlap(a: &str, b: &str, common: &Common, frame: Option
     // Rounded up, so that the number given is enough.
     let enough = format!("{:.1e}", 1.06 * depth);
     say(
+        Code::Overlap,
         format!(
             "{a} and {b} overlap {} m deep, {} m² in all, around {}{when}",
             digits(*depth),
@@ -190,6 +212,7 @@ pub(in crate::scene) fn overlap(a: &str, b: &str, common: &Common, frame: Option
 
 pub(in crate::scene) fn more_overlaps(listed: usize) -> Wording {
     say(
+        Code::MoreProblems,
         format!("there are more overlaps than the {listed} listed"),
         "correct these first",
     )

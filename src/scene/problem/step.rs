@@ -1,9 +1,10 @@
 //! What is said of steps that cannot be played.
 
-use super::{Wording, say, shortened};
+use super::{Code, Wording, say, shortened};
 
 pub(in crate::scene) fn too_many(steps: usize, most: usize) -> Wording {
     say(
+        Code::TooManySteps,
         format!("{steps} steps show their blocks more than {most} times in all"),
         "take steps out, or give several scenes",
     )
@@ -16,6 +17,7 @@ pub(in crate::scene) fn placed_twice(block: &str, since: usize, now: usize) -> W
         format!("by steps[{since}]")
     };
     say(
+        Code::PlacedTwice,
         format!("the block `{}` is already placed, {when}", shortened(block)),
         "place a block once; `remove` it first to place it anew",
     )
@@ -23,6 +25,7 @@ pub(in crate::scene) fn placed_twice(block: &str, since: usize, now: usize) -> W
 
 pub(in crate::scene) fn removed_unplaced(block: &str) -> Wording {
     say(
+        Code::NotPlaced,
         format!("the block `{}` is removed but not placed", shortened(block)),
         "remove only blocks that an earlier step placed",
     )
@@ -30,6 +33,7 @@ pub(in crate::scene) fn removed_unplaced(block: &str) -> Wording {
 
 pub(in crate::scene) fn removed_held(block: &str, robot: &str) -> Wording {
     say(
+        Code::RemovedWhileHeld,
         format!(
             "the block `{}` is removed while the robot `{}` holds it",
             shortened(block),
@@ -44,6 +48,7 @@ pub(in crate::scene) fn removed_held(block: &str, robot: &str) -> Wording {
 
 pub(in crate::scene) fn held_unplaced(robot: &str, block: &str) -> Wording {
     say(
+        Code::NotPlaced,
         format!(
             "the robot `{}` holds the block `{}`, which is not placed",
             shortened(robot),
@@ -59,6 +64,7 @@ pub(in crate::scene) fn held_unplaced(robot: &str, block: &str) -> Wording {
 pub(in crate::scene) fn holds_two(robot: &str, held: &str, block: &str) -> Wording {
     let (robot, held, block) = (shortened(robot), shortened(held), shortened(block));
     say(
+        Code::HoldsTwo,
         format!("the robot `{robot}` is to hold the block `{block}` while it still holds `{held}`"),
         format!("a robot holds one block; add \"{robot}\" to `release` of this step first"),
     )
@@ -66,6 +72,7 @@ pub(in crate::scene) fn holds_two(robot: &str, held: &str, block: &str) -> Wordi
 
 pub(in crate::scene) fn planned_placed(robot: &str, block: &str) -> Wording {
     say(
+        Code::PlacedTwice,
         format!(
             "the robot `{}` plans the block `{}`, which is already placed",
             shortened(robot),

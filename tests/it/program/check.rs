@@ -189,3 +189,74 @@ fn all_problems_of_a_scene_are_shown_where_they_are() {
         both.err
     );
 }
+
+#[test]
+fn a_file_that_is_wrong_gets_its_problems_in_its_place_and_the_others_are_answered() {
+    let bench = Bench::new();
+    for quiet in ["", "-q "] {
+        let line = format!(
+            "{quiet}check --json --frame 2 falls.json wrong.json missing.json stands.json falls.json"
+        );
+        let ran = bench.run(&line);
+        assert_eq!(ran.code, 2);
+        let lines: Vec<Value> = (ran.out.lines())
+            .map(|line| serde_json::from_str(line).expect("nothing but JSON"))
+            .collect();
+        let files: Vec<&str> = lines.iter().filter_map(|l| l["file"].as_str()).collect();
+        assert_eq!(
+            files,
+            [
+                "falls.json",
+                "wrong.json",
+                "missing.json",
+                "stands.json",
+                "falls.json"
+            ]
+        );
+        assert_eq!(lines[0]["frames"][0]["verdict"], "stable");
+        let problem = &lines[1]["problems"][0];
+        assert_eq!(
+            (&problem["code"], &problem["line"]),
+            (&"unknown_key".into(), &3.into())
+        );
+        assert_eq!(problem["path"], "blocks[0].frction");
+        assert_eq!(problem["hint"], "the nearest known key is `friction`");
+        assert_eq!(lines[2]["problems"][0]["code"], "not_readable");
+        assert!(lines[2]["problems"][0]["line"].is_null());
+        assert_eq!(lines[3]["problems"][0]["code"], "no_such_frame");
+        assert_eq!(lines[4]["frames"][0]["title"], "Held");
+        assert!(
+            ran.err.contains("wrong.json:3:") && ran.err.contains("missing.json"),
+            "{}",
+            ran.err
+        );
+    }
+    let alone = bench.run("check --json wrong.json");
+    let object: Value = serde_json::from_str(&alone.out).expect("JSON");
+    assert_eq!((alone.code, &object["file"]), (2, &"wrong.json".into()));
+}
+
+#[test]
+fn a_folder_stands_for_its_scenes() {
+    let bench = Bench::new();
+    let ran = bench.run("check --json .");
+    let files: Vec<Value> = (ran.out.lines())
+        .map(|line| serde_json::from_str::<Value>(line).expect("JSON")["file"].clone())
+        .collect();
+    assert_eq!(files, ["./falls.json", "./stands.json", "./wrong.json"]);
+    std::fs::create_dir(bench.path("none")).expect("made");
+    let ran = bench.run("check none");
+    assert!(
+        ran.code == 2 && ran.err.contains("no .json files"),
+        "{}",
+        ran.err
+    );
+    std::fs::remove_file(bench.path("wrong.json")).expect("removed");
+    assert_eq!(
+        bench.run("render . -o one.svg").code,
+        2,
+        "two scenes, one file"
+    );
+    assert_eq!(bench.run("render . -o out/").code, 0);
+    assert!(bench.path("out/falls.svg").exists() && bench.path("out/stands.svg").exists());
+}

@@ -291,3 +291,38 @@ fn every_kind_of_figure_says_what_it_shows() {
     );
     assert_eq!(bench.made(), Vec::<String>::new());
 }
+
+#[test]
+fn watching_draws_again_on_every_save() {
+    use std::time::{Duration, Instant};
+
+    let bench = Bench::new();
+    let mut command = bench.command("render stands.json -o seen.svg --watch");
+    let mut child = (command.stdout(Stdio::null()).stderr(Stdio::null()).spawn()).expect("starts");
+    let shown = |wanted: &str| {
+        let start = Instant::now();
+        while start.elapsed() < Duration::from_secs(60) {
+            let text = fs::read_to_string(bench.path("seen.svg")).unwrap_or_default();
+            if text.contains(wanted) {
+                return true;
+            }
+            std::thread::sleep(Duration::from_millis(50));
+        }
+        false
+    };
+    let first = shown("A lintel");
+    // A save that breaks the scene leaves the picture, and the next one is drawn.
+    fs::write(bench.path("stands.json"), "{ \"drystone\": 1,").expect("writable");
+    std::thread::sleep(Duration::from_millis(600));
+    let kept = shown("A lintel");
+    fs::write(
+        bench.path("stands.json"),
+        STANDS.replace("A lintel", "Another lintel"),
+    )
+    .expect("writable");
+    let second = shown("Another lintel");
+    child.kill().expect("it runs until it is stopped");
+    child.wait().expect("ends");
+    assert!(first && kept && second, "{first} {kept} {second}");
+    assert_eq!(bench.run("render - -o a.svg --watch").code, 2);
+}

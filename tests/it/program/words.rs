@@ -269,3 +269,113 @@ fn a_wrong_style_is_told_with_all_else_that_is_wrong_and_nothing_is_written() {
     );
     assert_eq!(bench.made(), ["a.svg", "bad.json"]);
 }
+
+#[test]
+fn notes_stand_below_the_table_and_in_json_and_can_be_left_out() {
+    let bench = Bench::new();
+    let text = STANDS.replace("0.6", "6");
+    fs::write(bench.path("noted.json"), text).expect("writable");
+    let told = bench.run("check noted.json");
+    assert_eq!(told.code, 0);
+    assert!(
+        told.out
+            .contains("note: line 1, friction: a friction coefficient of 6"),
+        "{}",
+        told.out
+    );
+    assert!(
+        told.out.contains("\"silence\": [\"friction_high\"]"),
+        "{}",
+        told.out
+    );
+    let object: Value =
+        serde_json::from_str(&bench.run("check --json noted.json").out).expect("JSON");
+    assert_eq!(object["notes"][0]["code"], "friction_high");
+    assert_eq!(object["notes"][0]["line"], 1);
+    for line in [
+        "check --no-notes noted.json",
+        "check --no-notes --json noted.json",
+        "check stands.json",
+    ] {
+        let ran = bench.run(line);
+        assert!(
+            ran.code == 0 && !ran.out.contains("note:") && !ran.out.contains("\"notes\""),
+            "{line}: {}",
+            ran.out
+        );
+    }
+    assert_eq!(bench.run("check -q noted.json").out, "");
+}
+
+#[test]
+fn new_writes_structures_to_measure() {
+    let bench = Bench::new();
+    for (line, blocks, code) in [
+        ("new arch --voussoirs 9 --span 3 -o a.json", 9, 0),
+        ("new arch --thickness 0.15 -o a.json --force", 13, 1),
+        ("new wall --courses 2 --bricks 3 -o a.json --force", 7, 0),
+        ("new tower --lean 0.13 -o a.json --force", 8, 1),
+        ("new doorway -o a.json --force", 9, 0),
+        ("new lattice --rows 2 -o a.json --force", 4, 0),
+    ] {
+        let ran = bench.run(line);
+        assert_eq!(ran.code, 0, "{line}: {}", ran.err);
+        let text = fs::read_to_string(bench.path("a.json")).expect("written");
+        let scene: Value = serde_json::from_str(&text).expect("JSON");
+        assert_eq!(
+            scene["blocks"].as_array().map(Vec::len),
+            Some(blocks),
+            "{line}"
+        );
+        assert_eq!(bench.run("check -q a.json").code, code, "{line}");
+    }
+    for line in [
+        "new arch --voussoirs 1",
+        "new arch --span -1",
+        "new tower --lean x",
+        "new wall --length nan",
+    ] {
+        assert_eq!(bench.run(line).code, 2, "{line}");
+    }
+    assert!(
+        bench
+            .run("new arch")
+            .out
+            .contains("\"A round arch of 13 voussoirs over 4 m, 0.4 m thick\"")
+    );
+}
+
+#[test]
+fn the_schema_of_results_is_printed() {
+    let ran = Bench::new().run("schema --result");
+    let schema: Value = serde_json::from_str(&ran.out).expect("JSON");
+    assert_eq!((ran.code, &schema["title"]), (0, &"drystone result".into()));
+}
+
+#[test]
+fn there_is_a_manual_page_for_every_command() {
+    let bench = Bench::new();
+    let ran = bench.run("man pages");
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    for (page, words) in [
+        ("drystone.1", "drystone"),
+        ("drystone-check.1", "no\\-notes"),
+        ("drystone-new-arch.1", "voussoirs"),
+        ("drystone-man.1", "manual pages"),
+    ] {
+        let text = fs::read_to_string(bench.path(&format!("pages/{page}"))).expect(page);
+        assert!(text.starts_with(".ie") || text.contains(".TH"), "{page}");
+        assert!(text.contains(words), "{page}: {text}");
+    }
+}
+
+#[test]
+fn the_readmes_style_works_as_it_is_typed() {
+    let readme = include_str!("../../../README.md");
+    assert!(readme.contains("\ndrystone style > mine.json "));
+    assert!(readme.contains("--theme dark --style mine.json\n"));
+    let bench = Bench::new();
+    fs::write(bench.path("mine.json"), bench.run("style").out).expect("writable");
+    let ran = bench.run("render stands.json -o scene.svg --theme dark --style mine.json");
+    assert_eq!(ran.code, 0, "{}", ran.err);
+}

@@ -1,0 +1,63 @@
+//! `drystone man`: the command line's manual pages. The only file that names clap_mangen.
+
+use std::path::PathBuf;
+
+use clap::{Args, Command, CommandFactory};
+use clap_mangen::Man;
+
+use crate::cli::CommandLine;
+use crate::cli::complaint::Complaint;
+use crate::cli::destination;
+use crate::cli::ending::Ending;
+use crate::cli::terminal::Terminal;
+use crate::output::file::Existing;
+
+/// Write the manual pages into a folder, one for each command
+///
+/// Where man finds them without further ado: drystone man ~/.local/share/man/man1
+#[derive(Debug, Args)]
+pub(crate) struct Manual {
+    /// The folder, made where there is none
+    #[arg(value_name = "FOLDER")]
+    folder: PathBuf,
+}
+
+impl Manual {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
+        let mut pages = Vec::new();
+        let mut command = CommandLine::command();
+        command.build();
+        collect(&command, &mut pages).map_err(|error| {
+            let what = self.folder.display().to_string();
+            vec![Complaint::NotWritten {
+                what,
+                why: error.to_string(),
+            }]
+        })?;
+        let files: Vec<(PathBuf, Vec<u8>)> = (pages.into_iter())
+            .map(|(name, page)| (self.folder.join(name), page))
+            .collect();
+        destination::make_folder(&self.folder).map_err(|c| vec![c])?;
+        destination::write(&files, Existing::Replace).map_err(|c| vec![c])?;
+        terminal.note(&format!(
+            "wrote {} pages into {}",
+            files.len(),
+            self.folder.display()
+        ));
+        Ok(Ending::Done)
+    }
+}
+
+/// The page of a command and those of the commands below it, `drystone-new-arch.1` for `drystone new arch`.
+fn collect(command: &Command, pages: &mut Vec<(String, Vec<u8>)>) -> std::io::Result<()> {
+    let man = Man::new(command.clone());
+    let mut page = Vec::new();
+    man.render(&mut page)?;
+    pages.push((man.get_filename(), page));
+    for inner in command.get_subcommands() {
+        if inner.get_name() != "help" {
+            collect(inner, pages)?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,56 @@
+//! `--watch`: a command again whenever one of its inputs is saved.
+//!
+//! Looked for by size and time of change, a few times a second: that works on every system and on network drives.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::thread;
+use std::time::{Duration, SystemTime};
+
+use crate::cli::complaint::Complaint;
+use crate::cli::ending::Ending;
+use crate::cli::terminal::Terminal;
+
+/// How long to wait between two looks.
+const PAUSE: Duration = Duration::from_millis(200);
+
+/// What is known of a file: when it changed, and how long it is; `None` while an editor replaces it.
+type Mark = Option<(SystemTime, u64)>;
+
+/// Runs a command, and runs it again after every change of a file, until the process is ended from outside.
+///
+/// What is wrong is told, and watching goes on: the next save may mend it.
+pub(crate) fn repeat(
+    files: &[PathBuf],
+    terminal: &Terminal,
+    mut run: impl FnMut() -> Result<Ending, Vec<Complaint>>,
+) -> Result<Ending, Vec<Complaint>> {
+    loop {
+        let before = marks(files);
+        if let Err(complaints) = run() {
+            for complaint in &complaints {
+                terminal.complain(&complaint.page());
+            }
+        }
+        // A change while the command ran is a change; one that is still going on is waited for.
+        let mut last = marks(files);
+        loop {
+            thread::sleep(PAUSE);
+            let now = marks(files);
+            let is_settled = now == last && !now.contains(&None);
+            if is_settled && now != before {
+                break;
+            }
+            last = now;
+        }
+    }
+}
+
+fn marks(files: &[PathBuf]) -> Vec<Mark> {
+    files.iter().map(|file| mark(file)).collect()
+}
+
+fn mark(file: &Path) -> Mark {
+    let known = fs::metadata(file).ok()?;
+    Some((known.modified().ok()?, known.len()))
+}

@@ -1,0 +1,333 @@
+//! [`KEYS`]: every key of a result with its kind, unit and meaning, and the JSON Schema made from them.
+//!
+//! A test walks the results of many scenes and fails where a key is missing here, or where one here never occurs.
+
+use serde_json::{Value, json};
+
+use crate::scene::Code;
+
+/// What stands behind a key.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Any text.
+    Text,
+    /// One of these words.
+    Word(&'static [&'static str]),
+    /// `true` or `false`.
+    Flag,
+    /// `true`, `false`, or `null` where it stays open.
+    FlagOrOpen,
+    /// A whole number, at least 0.
+    Count,
+    /// A whole number from 1, or `null` where there is no text to count in.
+    Place,
+    /// A number; `null` where it could not be computed, which happens in undecided frames only.
+    Number,
+    /// A number, or `"unbounded"`.
+    Bound,
+    /// A number, `null` where no value will do, or `"unbounded"` where any will.
+    Margin,
+    /// A point or vector, `[x, y]`.
+    Pair,
+    /// Two points, `[[x, y], [x, y]]`.
+    Pairs,
+    /// Two names.
+    Names,
+    /// A list of names.
+    NameList,
+    /// A list of `{ "block", "velocity", "spin" }`: how blocks move.
+    Motions,
+    /// An object.
+    Object,
+    /// A list of objects.
+    Objects,
+    /// An object with a key for each robot, by its name.
+    ByRobot,
+}
+
+/// A key of a result.
+#[derive(Clone, Copy, Debug)]
+pub struct Key {
+    /// Where it stands: `frames[].robots[].force`; `*` is any robot's name.
+    pub path: &'static str,
+    /// What stands behind it.
+    pub kind: Kind,
+    /// Its unit; empty where it has none.
+    pub unit: &'static str,
+    /// When it is there; empty for always.
+    pub when: &'static str,
+    /// What it means.
+    pub meaning: &'static str,
+}
+
+const fn key(
+    path: &'static str,
+    kind: Kind,
+    unit: &'static str,
+    when: &'static str,
+    meaning: &'static str,
+) -> Key {
+    Key {
+        path,
+        kind,
+        unit,
+        when,
+        meaning,
+    }
+}
+
+const ASKED: &str = "with `--margins`";
+
+/// Every key of a result, in the order in which a result has them.
+#[rustfmt::skip]
+pub const KEYS: &[Key] = &[
+    key("drystone", Kind::Text, "", "", "version of the program"),
+    key("file", Kind::Text, "", "from the command line", "the path as given"),
+    key("scene", Kind::Text, "", "", "the scene's title"),
+    key("contact_tolerance", Kind::Object, "", "", "how close is close, and what was moved within it"),
+    key("contact_tolerance.gap", Kind::Number, "m", "", "edges this close touch"),
+    key("contact_tolerance.from", Kind::Word(&["lattice", "given", "decimals", "significant_digits", "float32", "size", "noise"]), "", "", "where it comes from: the lattice is exact, it was given, or it was estimated from how coordinates are written or from the scene's size"),
+    key("contact_tolerance.digits", Kind::Count, "", "from decimals or digits", "how many digits the coordinates have"),
+    key("contact_tolerance.healed_within", Kind::Number, "m", "", "corners and edges this close were made one"),
+    key("contact_tolerance.moved_corners", Kind::Count, "", "", "how many corners that moved"),
+    key("contact_tolerance.largest_move", Kind::Number, "m", "", "how far the farthest moved"),
+    key("notes", Kind::Objects, "", "where there are some", "what is allowed in the scene and seldom meant"),
+    key("notes[].code", Kind::Text, "", "", "what sort of note, a stable word; see the list"),
+    key("notes[].path", Kind::Text, "", "", "where in the scene, as `robots[0].at`"),
+    key("notes[].line", Kind::Place, "", "", "line in the text, from 1"),
+    key("notes[].message", Kind::Text, "", "", "what was found"),
+    key("notes[].hint", Kind::Text, "", "", "what to do about it, and how to silence it"),
+    key("frames", Kind::Objects, "", "", "one for each step; one for a scene without steps"),
+    key("frames[].title", Kind::Text, "", "", "the step's title"),
+    key("frames[].verdict", Kind::Word(&["stable", "unstable", "undecided"]), "", "", "a balance of forces exists; a motion exists that nothing stops; neither is proved"),
+    key("frames[].doubt", Kind::Text, "", "where there is one", "why the frame is undecided"),
+    key("frames[].length", Kind::Number, "m", "", "the length L by which torques are weighed against forces in the sums: the median length of the frame's interfaces"),
+    key("frames[].total_force", Kind::Number, "N", "", "sum of the amounts of all forces, Σ(N₁ + N₂ + \\|T\\|) + Σ(\\|Fx\\| + \\|Fy\\| + \\|M\\|/L)"),
+    key("frames[].total_force_least", Kind::Flag, "", "where `false`", "whether that sum is the least possible"),
+    key("frames[].total_sticking", Kind::Number, "N", "", "the same sum over what would have to stick, 0 where stable"),
+    key("frames[].weight", Kind::Number, "N", "", "weight of all blocks that stand"),
+    key("frames[].interfaces", Kind::Objects, "", "", "where bodies touch; forces are those on `bodies[0]`"),
+    key("frames[].interfaces[].bodies", Kind::Names, "", "", "who touches; `ground` is the ground"),
+    key("frames[].interfaces[].kind", Kind::Word(&["corner"]), "", "at corner contacts", "a tip that touches an edge or a tip"),
+    key("frames[].interfaces[].ends", Kind::Pairs, "m", "", "the ends of the stretch"),
+    key("frames[].interfaces[].application_points", Kind::Pairs, "m", "", "where its two normal forces act: the ends, moved inward by the kernel"),
+    key("frames[].interfaces[].normal", Kind::Pair, "", "", "unit vector into `bodies[0]`"),
+    key("frames[].interfaces[].mu", Kind::Number, "", "", "friction coefficient"),
+    key("frames[].interfaces[].normal_forces", Kind::Pair, "N", "", "the two normal forces, at least 0"),
+    key("frames[].interfaces[].friction_force", Kind::Number, "N", "", "along (−n_y, n_x), n the normal"),
+    key("frames[].interfaces[].resultant", Kind::Object, "", "", "the force of the whole interface"),
+    key("frames[].interfaces[].resultant.at", Kind::Pair, "m", "", "where it acts"),
+    key("frames[].interfaces[].resultant.force", Kind::Pair, "N", "", "the force"),
+    key("frames[].interfaces[].friction_used", Kind::Number, "", "", "share of the available friction that is used, 0 to 1"),
+    key("frames[].robots", Kind::Objects, "", "", "robots that hold a block in this frame"),
+    key("frames[].robots[].id", Kind::Text, "", "", "the robot"),
+    key("frames[].robots[].holds", Kind::Text, "", "", "the block it holds"),
+    key("frames[].robots[].at", Kind::Pair, "m", "", "its grip point"),
+    key("frames[].robots[].force", Kind::Pair, "N", "", "its force on the block"),
+    key("frames[].robots[].torque", Kind::Number, "N·m", "", "its torque on the block, anticlockwise positive"),
+    key("frames[].robots[].limit_used", Kind::Number, "", "", "largest share of a limit that is used"),
+    key("frames[].failures", Kind::Objects, "", "", "what would have to stick, empty where stable"),
+    key("frames[].failures[].kind", Kind::Word(&["tension", "friction", "robot_force", "robot_torque"]), "", "", "a contact pulled open, one that slides, a robot's missing force or torque"),
+    key("frames[].failures[].bodies", Kind::Names, "", "at contacts", "between whom"),
+    key("frames[].failures[].robot", Kind::Text, "", "at robots", "which robot"),
+    key("frames[].failures[].holds", Kind::Text, "", "at robots", "the block it holds"),
+    key("frames[].failures[].at", Kind::Pair, "m", "", "where"),
+    key("frames[].failures[].force", Kind::Pair, "N", "unless a torque is missing", "the missing force, on `bodies[0]` or on the block"),
+    key("frames[].failures[].torque", Kind::Number, "N·m", "where a torque is missing", "the missing torque"),
+    key("frames[].failures[].amount", Kind::Number, "N or N·m", "", "how much is missing: the force's amount, \\|Fx\\| + \\|Fy\\| of a robot, N·m for a torque"),
+    key("frames[].unsupported", Kind::NameList, "", "where there are some", "blocks that nothing holds at all"),
+    key("frames[].mechanism", Kind::Motions, "", "", "how the blocks begin to move, empty where stable"),
+    key("frames[].margins", Kind::Object, "", ASKED, "how far the frame is from its edge"),
+    key("frames[].margins.friction", Kind::Margin, "", ASKED, "least friction coefficient, the same everywhere, at which it stands"),
+    key("frames[].margins.tilt", Kind::Object, "", ASKED, "largest turn of gravity"),
+    key("frames[].margins.tilt.left", Kind::Margin, "°", ASKED, "gravity's tip moves to the left"),
+    key("frames[].margins.tilt.right", Kind::Margin, "°", ASKED, "gravity's tip moves to the right"),
+    key("frames[].margins.horizontal_load", Kind::Object, "", ASKED, "largest horizontal share of all weights"),
+    key("frames[].margins.horizontal_load.left", Kind::Margin, "", ASKED, "to the left"),
+    key("frames[].margins.horizontal_load.right", Kind::Margin, "", ASKED, "to the right"),
+    key("frames[].margins.kernel", Kind::Margin, "", ASKED, "largest kernel"),
+    key("frames[].margins.load_factor", Kind::Margin, "", ASKED, "largest factor on the loads"),
+    key("frames[].margins.robots", Kind::ByRobot, "", ASKED, "each robot's least limits, by its name"),
+    key("frames[].margins.robots.*.fx", Kind::Margin, "N", ASKED, "least limit of its horizontal force"),
+    key("frames[].margins.robots.*.fy", Kind::Margin, "N", ASKED, "least limit of its vertical force"),
+    key("frames[].margins.robots.*.torque", Kind::Margin, "N·m", ASKED, "least limit of its torque"),
+    key("frames[].margins.mechanisms", Kind::Object, "", ASKED, "how the blocks begin to move just beyond each margin"),
+    key("frames[].margins.mechanisms.friction", Kind::Motions, "", ASKED, "beyond the friction margin"),
+    key("frames[].margins.mechanisms.tilt", Kind::Object, "", ASKED, "beyond the tilts"),
+    key("frames[].margins.mechanisms.tilt.left", Kind::Motions, "", ASKED, "to the left"),
+    key("frames[].margins.mechanisms.tilt.right", Kind::Motions, "", ASKED, "to the right"),
+    key("frames[].margins.mechanisms.horizontal_load", Kind::Object, "", ASKED, "beyond the horizontal loads"),
+    key("frames[].margins.mechanisms.horizontal_load.left", Kind::Motions, "", ASKED, "to the left"),
+    key("frames[].margins.mechanisms.horizontal_load.right", Kind::Motions, "", ASKED, "to the right"),
+    key("frames[].margins.mechanisms.kernel", Kind::Motions, "", ASKED, "beyond the largest kernel"),
+    key("frames[].margins.mechanisms.load_factor", Kind::Motions, "", ASKED, "beyond the largest factor on the loads"),
+    key("frames[].margins.mechanisms.robots", Kind::ByRobot, "", ASKED, "below each robot's least limits, by its name"),
+    key("frames[].margins.mechanisms.robots.*.fx", Kind::Motions, "", ASKED, "below its least horizontal limit"),
+    key("frames[].margins.mechanisms.robots.*.fy", Kind::Motions, "", ASKED, "below its least vertical limit"),
+    key("frames[].margins.mechanisms.robots.*.torque", Kind::Motions, "", ASKED, "below its least limit of torque"),
+    key("frames[].only_by_wedging", Kind::FlagOrOpen, "", "with `--wedging`", "whether it stands only because blocks are pressed together by their own tightness"),
+    key("frames[].effects", Kind::Objects, "", "", "what the frame's mechanics consists of"),
+    key("frames[].effects[].effect", Kind::Text, "", "", "the effect's name"),
+    key("frames[].effects[].simulated", Kind::Flag, "", "", "whether the frame calls for it"),
+    key("frames[].effects[].why", Kind::Text, "", "", "why, or why not"),
+    key("frames[].effects[].unknowns", Kind::Count, "", "", "how many unknowns it adds"),
+    key("frames[].proof", Kind::Object, "", "", "how well the verdict is proved, from outlines and forces alone"),
+    key("frames[].proof.worst_imbalance", Kind::Number, "", "of forces", "the share by which each force on a block would have to change, and to move of the block's radius, for balance; the worst block"),
+    key("frames[].proof.worst_share", Kind::Number, "", "of forces", "worst imbalance of a block in parts of its own load"),
+    key("frames[].proof.worst_pull", Kind::Number, "", "of forces", "largest pull at a contact, in parts of its forces"),
+    key("frames[].proof.worst_slip", Kind::Number, "", "of forces", "largest friction beyond μN, or robot's force beyond its limit, in parts of the forces there"),
+    key("frames[].proof.power", Kind::Number, "", "of a motion", "power of the loads along the motion less what robots can hold, in parts of the loads of what moves"),
+    key("frames[].proof.worst_violation", Kind::Number, "", "of a motion", "worst velocity against which an admissible force could act, the fastest point moving with 1"),
+    key("frames[].proof.no_balance_below", Kind::Bound, "", "of a motion", "below this sum of forces, in loads of what moves, nothing balances"),
+    key("frames[].solve", Kind::Object, "", "", "how it was found"),
+    key("frames[].solve.method", Kind::Text, "", "", "the program or formula that decided"),
+    key("frames[].solve.iterations", Kind::Count, "", "", "iterations of the solver"),
+    key("frames[].solve.programs", Kind::Count, "", "", "programs that were solved"),
+    key("frames[].solve.groups", Kind::Count, "", "", "groups of blocks that do not touch each other"),
+    key("frames[].solve.reused", Kind::Count, "", "", "groups that were taken over from an earlier frame"),
+    key("frames[].solve.seconds", Kind::Number, "s", "unless `--no-timing`", "time taken; the only value that may differ from run to run"),
+    key("frames[].notices", Kind::NameList, "", "where there are some", "what a person should know of this frame"),
+];
+
+/// Every key of what stands in the place of a result where a file is refused.
+#[rustfmt::skip]
+pub const REFUSAL_KEYS: &[Key] = &[
+    key("file", Kind::Text, "", "", "the path as given"),
+    key("problems", Kind::Objects, "", "", "all that is wrong with it, at least one"),
+    key("problems[].code", Kind::Text, "", "", "what sort of problem, a stable word; see the list"),
+    key("problems[].path", Kind::Text, "", "", "where in the scene, as `blocks[3].polygon[1]`; empty for the whole file"),
+    key("problems[].line", Kind::Place, "", "", "line in the text, from 1"),
+    key("problems[].column", Kind::Place, "", "", "column in characters, from 1"),
+    key("problems[].message", Kind::Text, "", "", "what is wrong, with the numbers found"),
+    key("problems[].hint", Kind::Text, "", "", "what to do about it"),
+];
+
+impl Kind {
+    /// What stands there, in words.
+    pub fn words(self) -> String {
+        let fixed = match self {
+            Kind::Word(words) => {
+                let quoted: Vec<String> = words.iter().map(|w| format!("`\"{w}\"`")).collect();
+                return quoted.join(", ");
+            }
+            Kind::Text => "text",
+            Kind::Flag => "true or false",
+            Kind::FlagOrOpen => "true, false or null",
+            Kind::Count => "whole number",
+            Kind::Place => "whole number or null",
+            Kind::Number => "number",
+            Kind::Bound => "number or `\"unbounded\"`",
+            Kind::Margin => "number, null or `\"unbounded\"`",
+            Kind::Pair => "[x, y]",
+            Kind::Pairs => "[[x, y], [x, y]]",
+            Kind::Names => "two names",
+            Kind::NameList => "list of texts",
+            Kind::Motions => "list of motions",
+            Kind::Object => "object",
+            Kind::Objects => "list of objects",
+            Kind::ByRobot => "object by robot",
+        };
+        fixed.into()
+    }
+
+    fn schema(self) -> Value {
+        let number = json!({ "type": ["number", "null"] });
+        let pair = json!({ "type": "array", "items": number, "minItems": 2, "maxItems": 2 });
+        let unbounded = json!({ "const": "unbounded" });
+        match self {
+            Kind::Text => json!({ "type": "string" }),
+            Kind::Word(words) => json!({ "type": "string", "enum": words }),
+            Kind::Flag => json!({ "type": "boolean" }),
+            Kind::FlagOrOpen => json!({ "type": ["boolean", "null"] }),
+            Kind::Count => json!({ "type": "integer", "minimum": 0 }),
+            Kind::Place => json!({ "type": ["integer", "null"], "minimum": 1 }),
+            Kind::Number => number,
+            Kind::Bound | Kind::Margin => json!({ "anyOf": [number, unbounded] }),
+            Kind::Pair => pair,
+            Kind::Pairs => json!({ "type": "array", "items": pair, "minItems": 2, "maxItems": 2 }),
+            Kind::Names => {
+                json!({ "type": "array", "items": { "type": "string" }, "minItems": 2, "maxItems": 2 })
+            }
+            Kind::NameList => json!({ "type": "array", "items": { "type": "string" } }),
+            Kind::Motions => {
+                json!({ "type": "array", "items": { "$ref": "#/$defs/motion" } })
+            }
+            Kind::Object => json!({ "type": "object" }),
+            Kind::Objects => json!({ "type": "array", "items": { "type": "object" } }),
+            Kind::ByRobot => {
+                json!({ "type": "object", "additionalProperties": { "type": "object" } })
+            }
+        }
+    }
+}
+
+/// The JSON Schema (draft 2020-12) of what `check --json` prints for one file: a result, or the problems of a refused file.
+///
+/// Later versions add keys; so a program should not refuse those it does not know, and neither does the schema.
+///
+/// ```
+/// assert!(drystone::report::result::schema().contains("\"total_sticking\""));
+/// ```
+pub fn schema() -> String {
+    let mut refusal = object(REFUSAL_KEYS);
+    let codes: Vec<&str> = Code::ALL.iter().map(|code| code.word()).collect();
+    refusal["properties"]["problems"]["items"]["properties"]["code"]["examples"] = json!(codes);
+    let velocity = described(
+        Kind::Pair,
+        "velocity of its centroid, relative to the fastest point, which moves with 1",
+    );
+    let spin = described(Kind::Number, "1/m, anticlockwise positive");
+    let schema = json!({
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "drystone result",
+        "description": "What `drystone check --json` prints for one scene file. SI units, y up.",
+        "anyOf": [object(KEYS), refusal],
+        "$defs": { "motion": {
+            "type": "object",
+            "properties": {
+                "block": described(Kind::Text, "the block"),
+                "velocity": velocity,
+                "spin": spin,
+            },
+            "required": ["block", "velocity", "spin"],
+        } },
+    });
+    format!("{schema:#}\n")
+}
+
+fn described(kind: Kind, meaning: &str) -> Value {
+    let mut schema = kind.schema();
+    schema["description"] = meaning.into();
+    schema
+}
+
+/// The schema of an object with these keys, and with the objects in it.
+fn object(keys: &[Key]) -> Value {
+    let mut root = json!({ "type": "object" });
+    for key in keys {
+        let mut here = &mut root;
+        let mut segments: Vec<&str> = key.path.split('.').collect();
+        let last = segments.pop().unwrap_or_default();
+        for segment in segments {
+            here = match (segment, segment.strip_suffix("[]")) {
+                ("*", _) => &mut here["additionalProperties"],
+                (_, Some(list)) => &mut here["properties"][list]["items"],
+                (name, None) => &mut here["properties"][name],
+            };
+        }
+        let meaning = match (key.unit, key.when) {
+            ("", "") => key.meaning.to_owned(),
+            (unit, "") => format!("{} ({unit})", key.meaning),
+            ("", when) => format!("{}; {when}", key.meaning),
+            (unit, when) => format!("{} ({unit}); {when}", key.meaning),
+        };
+        here["properties"][last] = described(key.kind, &meaning.replace('\\', ""));
+        if key.when.is_empty() {
+            match here.get_mut("required") {
+                Some(Value::Array(required)) => required.push(last.into()),
+                _ => here["required"] = json!([last]),
+            }
+        }
+    }
+    root
+}

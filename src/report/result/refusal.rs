@@ -1,0 +1,65 @@
+//! A refused file as one JSON object, in the place where its result would stand.
+
+use serde::Serialize;
+
+use super::Layout;
+use crate::scene::Problem;
+use crate::scene::format::Lines;
+use crate::text;
+
+#[derive(Serialize)]
+struct Refusal<'a> {
+    file: &'a str,
+    problems: Vec<Entry<'a>>,
+}
+
+#[derive(Serialize)]
+struct Entry<'a> {
+    code: &'static str,
+    path: &'a str,
+    line: Option<usize>,
+    column: Option<usize>,
+    message: &'a str,
+    hint: &'a str,
+}
+
+/// All that is wrong with a file, as one JSON object: `{ "file", "problems": [{ code, path, line, column, message, hint }] }`.
+///
+/// Lines and columns count from 1, columns in characters; both are `null` where the problem has no place in a text.
+///
+/// # Example
+/// ```
+/// use drystone::report::result::{Layout, refusal};
+/// use drystone::scene::Scene;
+///
+/// let problems = Scene::from_json("{ }").unwrap_err();
+/// let json = refusal("empty.json", &problems.list, Layout::OneLine);
+/// assert!(json.starts_with(r#"{"file":"empty.json","problems":[{"code":"missing_key","path":"blocks","line":1,"#));
+/// ```
+pub fn refusal(file: &str, problems: &[Problem], layout: Layout) -> String {
+    let place = |number: usize| (number > 0).then_some(number);
+    let refusal = Refusal {
+        file,
+        problems: (problems.iter())
+            .map(|problem| Entry {
+                code: problem.code.word(),
+                path: &problem.path,
+                line: place(problem.line),
+                column: place(problem.column),
+                message: &problem.message,
+                hint: &problem.help,
+            })
+            .collect(),
+    };
+    let mut bytes = Vec::new();
+    let written = match layout {
+        Layout::Lines => refusal.serialize(&mut serde_json::Serializer::with_formatter(
+            &mut bytes,
+            Lines::new(1),
+        )),
+        Layout::OneLine => serde_json::to_writer(&mut bytes, &refusal),
+    };
+    written.expect("plain structures with text keys always serialise into memory");
+    bytes.push(b'\n');
+    text::json(&String::from_utf8(bytes).expect("serde_json writes UTF-8"))
+}

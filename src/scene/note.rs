@@ -1,0 +1,303 @@
+//! [`Note`]: what is allowed in a scene, and is seldom meant.
+//!
+//! A note is no problem: the scene is examined as it is written. Each can be silenced by its code, in the scene's
+//! `silence`.
+
+use std::collections::BTreeSet;
+
+use super::finding::Finding;
+use super::format::{HoldEntry, Pair, SceneFile};
+use super::path::{Path, Trail};
+use super::problem::{Wording, codes, note as say};
+use super::source::{Mark, Source};
+use super::{BlockId, BodyId, RobotId, Scene};
+use crate::geometry::{Point, Polygon};
+
+/// Friction coefficients above this are seldom meant: dry stone, brick, wood and rubber stay below.
+pub(super) const MOST_FRICTION: f64 = 2.0;
+
+codes! {
+    /// What sort of note it is. Words are added in later versions, never renamed.
+    NoteCode;
+    FrictionHigh "friction_high" "a friction coefficient above 2",
+    GripOutside "grip_outside" "a grip point that lies outside the block",
+    LoadOutside "load_outside" "a load that acts outside its block",
+    UnusedRobot "unused_robot" "a robot that never holds or plans a block",
+    UnusedBlock "unused_block" "a block that no step places or plans",
+    DefaultDensity "default_density" "blocks of the default density, 1 kg/m³, beside loads or limits in newtons",
+    NoGround "no_ground" "a scene without ground",
+    NearMiss "near_miss" "edges that nearly touch, with a gap of up to 1 % of a block",
+}
+
+/// Something that is allowed, and seldom meant.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Note {
+    /// What sort of note it is.
+    pub code: NoteCode,
+    /// Where in the scene, as `robots[0].at`.
+    pub path: String,
+    /// Line in the text, from 1; 0 where there is no text.
+    pub line: usize,
+    /// What was found, with its numbers.
+    pub message: String,
+    /// What to do about it, and how to silence it.
+    pub hint: String,
+}
+
+impl NoteCode {
+    /// The code behind a word.
+    pub fn named(word: &str) -> Option<NoteCode> {
+        NoteCode::ALL.iter().copied().find(|c| c.word() == word)
+    }
+}
+
+impl Note {
+    /// A note, with the way to silence it added to its hint.
+    fn new(code: NoteCode, path: String, line: usize, message: &str, hint: &str) -> Note {
+        Note {
+            code,
+            path: crate::text::line(&path),
+            line,
+            message: crate::text::line(message),
+            hint: crate::text::line(&format!(
+                "{hint}; if it is meant: \"silence\": [\"{code}\"]"
+            )),
+        }
+    }
+}
+
+impl Scene {
+    /// A note about a body, in its line of the file.
+    pub(crate) fn note(&self, code: NoteCode, body: BodyId, message: &str, hint: &str) -> Note {
+        let (list, lines, number) = match body {
+            BodyId::Ground(i) => ("ground", &self.lines.ground, i),
+            BodyId::Block(BlockId(i)) => ("blocks", &self.lines.blocks, i),
+        };
+        let line = lines.get(number).copied().unwrap_or(0);
+        Note::new(code, format!("{list}[{number}]"), line, message, hint)
+    }
+
+    /// Whether the author does not want notes of a sort.
+    pub(crate) fn silences(&self, code: NoteCode) -> bool {
+        self.silenced.contains(&code)
+    }
+}
+
+/// In which lines of the file the bodies stand, from 1; empty for a scene made in code.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Lines {
+    pub(crate) ground: Vec<usize>,
+    pub(crate) blocks: Vec<usize>,
+}
+
+impl Lines {
+    /// Of the file that a scene was read from.
+    pub(super) fn of(source: &Source<'_>) -> Lines {
+        let list = |key| {
+            let starts = source.starts(key).into_iter();
+            starts.map(|byte| source.place(byte).0).collect()
+        };
+        Lines {
+            ground: list("ground"),
+            blocks: list("blocks"),
+        }
+    }
+}
+
+/// The notes of a scene that was read without problems; near misses are found where contacts are.
+pub(super) fn of(file: &SceneFile, scene: &Scene, source: Option<&Source<'_>>) -> Vec<Note> {
+    let mut notes = Notes {
+        list: Vec::new(),
+        scene,
+    };
+    notes.friction(file);
+    notes.grips(file);
+    notes.loads(file);
+    notes.unused(file);
+    notes.weights(file);
+    if file.ground.is_empty() && !file.blocks.is_empty() {
+        let at = Trail::Top;
+        notes.add(NoteCode::NoGround, &at.key("ground"), say::no_ground());
+    }
+    let place = |finding: &Finding| {
+        let span = source.and_then(|s| Some((s, s.find(&finding.path, finding.mark)?)));
+        span.map_or(0, |(source, span)| source.place(span.start).0)
+    };
+    (notes.list.iter())
+        .map(|(code, finding)| {
+            let (message, hint) = finding.wording.parts();
+            let path = finding.path.to_string();
+            Note::new(*code, path, place(finding), message, hint)
+        })
+        .collect()
+}
+
+struct Notes<'s> {
+    list: Vec<(NoteCode, Finding)>,
+    scene: &'s Scene,
+}
+
+impl Notes<'_> {
+    fn add(&mut self, code: NoteCode, at: &Trail<'_>, wording: Wording) {
+        if !self.scene.silences(code) {
+            let path: Path = at.path();
+            let mark = Mark::Value;
+            self.list.push((
+                code,
+                Finding {
+                    path,
+                    mark,
+                    wording,
+                },
+            ));
+        }
+    }
+
+    fn friction(&mut self, file: &SceneFile) {
+        let top = Trail::Top;
+        let mut check = |at: &Trail<'_>, friction: Option<f64>| {
+            if let Some(mu) = friction.filter(|mu| *mu > MOST_FRICTION) {
+                self.add(
+                    NoteCode::FrictionHigh,
+                    &at.key("friction"),
+                    say::friction_high(mu),
+                );
+            }
+        };
+        check(&top, file.friction);
+        for (name, material) in &file.materials.0 {
+            check(&top.key("materials").key(name), material.friction);
+        }
+        for (i, pair) in file.friction_pairs.iter().enumerate() {
+            check(&top.key("friction_pairs").index(i), Some(pair.friction));
+        }
+        for (i, part) in file.ground.iter().enumerate() {
+            check(&top.key("ground").index(i), part.friction);
+        }
+        for (i, block) in file.blocks.iter().enumerate() {
+            check(&top.key("blocks").index(i), block.friction);
+        }
+    }
+
+    fn grips(&mut self, file: &SceneFile) {
+        let scene = self.scene;
+        let top = Trail::Top;
+        for (i, robot) in file.robots.iter().enumerate() {
+            if let (Some(at), Some(grip)) = (robot.at, scene.robots[i].holds) {
+                self.grip(&top.key("robots").index(i).key("at"), at, grip.block);
+            }
+        }
+        let numbers: std::collections::BTreeMap<&str, usize> =
+            (scene.blocks.iter().enumerate().rev())
+                .map(|(i, b)| (b.id.as_str(), i))
+                .collect();
+        for (k, step) in file.steps.iter().enumerate() {
+            for (robot, hold) in &step.hold.0 {
+                if let HoldEntry::Grip(grip) = hold
+                    && let Some(at) = grip.at
+                    && let Some(block) = numbers.get(grip.block.as_str())
+                {
+                    let steps = top.key("steps");
+                    let step = steps.index(k);
+                    let hold = step.key("hold");
+                    self.grip(&hold.key(robot).key("at"), at, BlockId(*block));
+                }
+            }
+        }
+    }
+
+    fn grip(&mut self, path: &Trail<'_>, at: Pair, block: BlockId) {
+        let held = &self.scene.blocks[block.0];
+        if let Some(distance) = outside(&held.body.polygon, at, held.body.gap) {
+            let wording = say::grip_outside(&held.id, at, distance);
+            self.add(NoteCode::GripOutside, path, wording);
+        }
+    }
+
+    fn loads(&mut self, file: &SceneFile) {
+        let top = Trail::Top;
+        for ((i, entry), load) in file.loads.iter().enumerate().zip(&self.scene.loads) {
+            let loaded = &self.scene.blocks[load.block.0];
+            if let Some(at) = entry.at
+                && let Some(distance) = outside(&loaded.body.polygon, at, loaded.body.gap)
+            {
+                let wording = say::load_outside(&loaded.id, at, distance);
+                let loads = top.key("loads");
+                self.add(NoteCode::LoadOutside, &loads.index(i).key("at"), wording);
+            }
+        }
+    }
+
+    fn unused(&mut self, file: &SceneFile) {
+        let scene = self.scene;
+        let top = Trail::Top;
+        let mut blocks: BTreeSet<BlockId> = BTreeSet::new();
+        let mut robots: BTreeSet<RobotId> = BTreeSet::new();
+        for frame in &scene.frames {
+            blocks.extend(&frame.placed);
+            blocks.extend(frame.plans.iter().map(|p| p.block));
+            robots.extend(frame.holds.iter().map(|h| h.robot));
+            robots.extend(frame.plans.iter().map(|p| p.robot));
+        }
+        for (i, robot) in scene.robots.iter().enumerate() {
+            if !robots.contains(&RobotId(i)) {
+                let wording = say::unused_robot(&robot.id, file.steps.is_empty());
+                self.add(NoteCode::UnusedRobot, &top.key("robots").index(i), wording);
+            }
+        }
+        for (i, block) in scene.blocks.iter().enumerate() {
+            if !blocks.contains(&BlockId(i)) {
+                let wording = say::unused_block(&block.id);
+                self.add(NoteCode::UnusedBlock, &top.key("blocks").index(i), wording);
+            }
+        }
+    }
+
+    fn weights(&mut self, file: &SceneFile) {
+        let is_limited = |limits: &super::Limits| {
+            limits.fx.is_finite() || limits.fy.is_finite() || limits.torque > 0.0
+        };
+        let beside = match (&self.scene.loads[..], &self.scene.robots) {
+            ([_, ..], _) => "loads",
+            (_, robots) if robots.iter().any(|r| is_limited(&r.limits)) => "limits",
+            _ => return,
+        };
+        if file.density.is_some() {
+            return;
+        }
+        let has_density =
+            |name: &str| (file.materials.0.iter()).any(|m| m.0 == name && m.1.density.is_some());
+        let light: Vec<usize> = (file.blocks.iter().enumerate())
+            .filter(|(_, b)| b.weight.is_none() && b.mass.is_none() && b.density.is_none())
+            .filter(|(_, b)| !b.material.as_deref().is_some_and(has_density))
+            .map(|(i, _)| i)
+            .collect();
+        if let Some(first) = light.first() {
+            let top = Trail::Top;
+            let wording = say::default_density(light.len(), beside);
+            self.add(
+                NoteCode::DefaultDensity,
+                &top.key("blocks").index(*first),
+                wording,
+            );
+        }
+    }
+}
+
+/// How far a point lies outside an outline, metres; `None` where it lies inside, or within the gap of it.
+fn outside(polygon: &Polygon, at: Pair, gap: f64) -> Option<f64> {
+    let point = Point::new(at[0], at[1]);
+    if polygon.contains(point) {
+        return None;
+    }
+    let distance = (polygon.edges())
+        .map(|edge| {
+            let along = edge.vector();
+            let share = (point - edge.from).dot(&along) / along.norm_squared();
+            (point - (edge.from + along * share.clamp(0.0, 1.0))).norm()
+        })
+        .fold(f64::INFINITY, f64::min);
+    // A point on the boundary, written with the digits of a float, is not outside.
+    let noise = 1e-9 * polygon.bounds().diagonal();
+    (distance > gap.max(noise)).then_some(distance)
+}

@@ -1,0 +1,339 @@
+//! [`Reader`]: values of the kinds a scene file has, taken from the syntax tree.
+//!
+//! Every misfit is noted, with what is expected and what was found, and its place put in doubt: what follows is read as
+//! if nothing stood there, and nobody complains of what follows from that.
+
+use std::collections::BTreeMap;
+
+use super::super::finding::{Doubt, Findings};
+use super::super::format::{Map, Pair};
+use super::super::path::Trail;
+use super::super::problem::{self, Wording};
+use super::super::source::{Mark, Source};
+use super::super::tree::{Entry, Node, NodeKind};
+
+/// In objects of more keys than this a repeated one is looked for with a table.
+const FEW: usize = 16;
+
+/// Reads a scene file's values and keeps what is wrong with them.
+pub(super) struct Reader<'s, 't> {
+    pub(super) source: &'s Source<'t>,
+    pub(super) findings: Findings,
+    pub(super) doubt: Doubt,
+}
+
+/// An object that is known to be one.
+#[derive(Clone, Copy)]
+pub(super) struct Object<'n, 't> {
+    entries: &'n [Entry<'t>],
+}
+
+impl<'n, 't> Object<'n, 't> {
+    /// The value of a key; of a key given twice the first.
+    fn get(self, key: &str) -> Option<&'n Node<'t>> {
+        let found = self.entries.iter().find(|e| e.name == key);
+        found.map(|e| &e.value)
+    }
+}
+
+/// What a pair of numbers is, for those who read of it.
+#[derive(Clone, Copy)]
+pub(super) enum Meaning {
+    Point,
+    Vector,
+}
+
+impl<'s, 't> Reader<'s, 't> {
+    pub(super) fn new(source: &'s Source<'t>) -> Reader<'s, 't> {
+        Reader {
+            source,
+            findings: Findings::default(),
+            doubt: Doubt::default(),
+        }
+    }
+
+    fn misfit(&mut self, at: &Trail<'_>, mark: Mark, wording: Wording) {
+        if self.findings.is_full() {
+            // A file with so many misfits is not examined further.
+            self.doubt.paths = vec![Trail::Top.path()];
+            return;
+        }
+        self.doubt.paths.push(at.path());
+        match mark {
+            Mark::Key => self.findings.add_key(at, wording),
+            Mark::Value => self.findings.add(at, wording),
+        }
+    }
+
+    /// Notes that something else is expected here.
+    pub(super) fn wrong(&mut self, node: &Node<'_>, at: &Trail<'_>, expected: &str) {
+        let quoted = match &node.kind {
+            NodeKind::Text(text) if expected == "a number" => {
+                Some(text.trim()).filter(|t| t.parse::<f64>().is_ok_and(f64::is_finite))
+            }
+            _ => None,
+        };
+        let wording = match quoted {
+            Some(number) => problem::entry::quoted_number(expected, &problem::shortened(number)),
+            None => problem::entry::wrong_type(expected, &self.found(node)),
+        };
+        self.misfit(at, Mark::Value, wording);
+    }
+
+    /// What stands there, in words.
+    fn found(&self, node: &Node<'_>) -> String {
+        match &node.kind {
+            NodeKind::Null => "null".into(),
+            NodeKind::Flag(flag) => flag.to_string(),
+            NodeKind::Number(_) => format!("the number {}", problem::shortened(self.written(node))),
+            NodeKind::Text(text) => format!("the string \"{}\"", problem::shortened(text)),
+            NodeKind::List(entries) => format!("a list of {}", entries.len()),
+            NodeKind::Object(_) => "an object".into(),
+        }
+    }
+
+    /// A value as it is written.
+    pub(super) fn written(&self, node: &Node<'_>) -> &'t str {
+        &self.source.text[node.range.clone()]
+    }
+
+    pub(super) fn number(&mut self, node: &Node<'_>, at: &Trail<'_>) -> Option<f64> {
+        match node.kind {
+            NodeKind::Number(x) if x.is_finite() => return Some(x),
+            NodeKind::Number(_) => {
+                let wording = problem::text::number_too_large(self.written(node));
+                self.misfit(at, Mark::Value, wording);
+            }
+            _ => self.wrong(node, at, "a number"),
+        }
+        None
+    }
+
+    pub(super) fn text(&mut self, node: &Node<'_>, at: &Trail<'_>) -> Option<String> {
+        if let NodeKind::Text(text) = &node.kind {
+            return Some(text.clone().into_owned());
+        }
+        self.wrong(node, at, "a string");
+        None
+    }
+
+    pub(super) fn flag(&mut self, node: &Node<'_>, at: &Trail<'_>) -> Option<bool> {
+        if let NodeKind::Flag(flag) = node.kind {
+            return Some(flag);
+        }
+        self.wrong(node, at, "true or false");
+        None
+    }
+
+    /// One of some words.
+    pub(super) fn choice<T: Copy>(
+        &mut self,
+        node: &Node<'_>,
+        at: &Trail<'_>,
+        choices: &[(&str, T)],
+    ) -> Option<T> {
+        let names: Vec<String> = choices.iter().map(|c| c.0.to_owned()).collect();
+        let NodeKind::Text(text) = &node.kind else {
+            let expected = problem::choice(names.iter().map(|n| format!("\"{n}\"")));
+            self.wrong(node, at, &expected);
+            return None;
+        };
+        let chosen = choices.iter().find(|c| c.0 == text).map(|c| c.1);
+        if chosen.is_none() {
+            self.misfit(
+                at,
+                Mark::Value,
+                problem::entry::unknown_choice(text, &names),
+            );
+        }
+        chosen
+    }
+
+    /// Two numbers. Of a point in space the first two count, and the rest of the file is examined with them.
+    pub(super) fn pair(
+        &mut self,
+        node: &Node<'_>,
+        at: &Trail<'_>,
+        meaning: Meaning,
+    ) -> Option<Pair> {
+        let NodeKind::List(items) = &node.kind else {
+            let expected = match meaning {
+                Meaning::Point => "a point [x, y]",
+                Meaning::Vector => "a vector [x, y]",
+            };
+            self.wrong(node, at, expected);
+            return None;
+        };
+        let mut numbers = [0.0; 2];
+        let mut sound = true;
+        for (i, item) in items.iter().take(2).enumerate() {
+            match self.number(item, &at.index(i)) {
+                Some(x) => numbers[i] = x,
+                None => sound = false,
+            }
+        }
+        if items.len() != 2 {
+            let wording = match meaning {
+                Meaning::Point => problem::entry::coordinates(items.len()),
+                Meaning::Vector => problem::entry::components(items.len()),
+            };
+            if items.len() > 2 && sound {
+                self.findings.add(at, wording);
+                return Some(numbers);
+            }
+            if sound {
+                self.misfit(at, Mark::Value, wording);
+            }
+            return None;
+        }
+        sound.then_some(numbers)
+    }
+
+    pub(super) fn point(&mut self, node: &Node<'_>, at: &Trail<'_>) -> Option<Pair> {
+        self.pair(node, at, Meaning::Point)
+    }
+
+    pub(super) fn vector(&mut self, node: &Node<'_>, at: &Trail<'_>) -> Option<Pair> {
+        self.pair(node, at, Meaning::Vector)
+    }
+
+    /// An object with some of these keys and no others.
+    pub(super) fn object<'n>(
+        &mut self,
+        node: &'n Node<'t>,
+        at: &Trail<'_>,
+        keys: &[&str],
+    ) -> Option<Object<'n, 't>> {
+        let object = self.any_object(node, at)?;
+        for entry in object.entries {
+            if !keys.contains(&entry.name.as_ref()) {
+                let known = keys.iter().copied().filter(|k| *k != "$schema");
+                let wording = problem::entry::unknown_key(&entry.name, known);
+                self.misfit(&at.key(&entry.name), Mark::Key, wording);
+            }
+        }
+        Some(object)
+    }
+
+    /// An object with any keys, each once.
+    fn any_object<'n>(&mut self, node: &'n Node<'t>, at: &Trail<'_>) -> Option<Object<'n, 't>> {
+        let NodeKind::Object(entries) = &node.kind else {
+            self.wrong(node, at, "an object");
+            return None;
+        };
+        for (second, first) in repeated(entries) {
+            let (line, column) = self.source.place(first.name_range.start);
+            let wording = problem::entry::duplicate_key(&second.name, line, column);
+            self.misfit(&at.key(&second.name), Mark::Key, wording);
+        }
+        Some(Object { entries })
+    }
+
+    /// The value of a key that may be left out or be `null`.
+    pub(super) fn optional<T>(
+        &mut self,
+        object: Object<'_, 't>,
+        at: &Trail<'_>,
+        key: &str,
+        read: impl FnOnce(&mut Self, &Node<'t>, &Trail<'_>) -> Option<T>,
+    ) -> Option<T> {
+        let node = object.get(key)?;
+        match node.kind {
+            NodeKind::Null => None,
+            _ => read(self, node, &at.key(key)),
+        }
+    }
+
+    /// The value of a key that has to be there.
+    pub(super) fn required<T>(
+        &mut self,
+        object: Object<'_, 't>,
+        at: &Trail<'_>,
+        key: &str,
+        read: impl FnOnce(&mut Self, &Node<'t>, &Trail<'_>) -> Option<T>,
+    ) -> Option<T> {
+        if let Some(node) = object.get(key) {
+            return read(self, node, &at.key(key));
+        }
+        let wording = problem::entry::missing_key(key);
+        self.misfit(&at.key(key), Mark::Value, wording);
+        None
+    }
+
+    /// The list behind a key; empty where there is none.
+    pub(super) fn list<T: Default>(
+        &mut self,
+        object: Object<'_, 't>,
+        at: &Trail<'_>,
+        key: &str,
+        read: impl FnMut(&mut Self, &Node<'t>, &Trail<'_>) -> Option<T>,
+    ) -> Vec<T> {
+        let node = object.get(key);
+        node.and_then(|node| self.entries(node, &at.key(key), read))
+            .unwrap_or_default()
+    }
+
+    /// A list, each entry read; one that does not fit is as if nothing stood there, so that the others keep their numbers.
+    pub(super) fn entries<T: Default>(
+        &mut self,
+        node: &Node<'t>,
+        at: &Trail<'_>,
+        mut read: impl FnMut(&mut Self, &Node<'t>, &Trail<'_>) -> Option<T>,
+    ) -> Option<Vec<T>> {
+        let NodeKind::List(items) = &node.kind else {
+            self.wrong(node, at, "a list");
+            return None;
+        };
+        let mut list = Vec::with_capacity(items.len());
+        for (i, item) in items.iter().enumerate() {
+            list.push(read(self, item, &at.index(i)).unwrap_or_default());
+        }
+        Some(list)
+    }
+
+    /// The object of names behind a key; empty where there is none.
+    pub(super) fn map<T: Default>(
+        &mut self,
+        object: Object<'_, 't>,
+        at: &Trail<'_>,
+        key: &str,
+        mut read: impl FnMut(&mut Self, &Node<'t>, &Trail<'_>) -> Option<T>,
+    ) -> Map<T> {
+        let Some(node) = object.get(key) else {
+            return Map::default();
+        };
+        let at = at.key(key);
+        let Some(object) = self.any_object(node, &at) else {
+            return Map::default();
+        };
+        let mut map: Vec<(String, T)> = Vec::with_capacity(object.entries.len());
+        let again: Vec<usize> = (repeated(object.entries))
+            .map(|(second, _)| second.name_range.start)
+            .collect();
+        for entry in object.entries {
+            if again.contains(&entry.name_range.start) {
+                continue;
+            }
+            let value = read(self, &entry.value, &at.key(&entry.name)).unwrap_or_default();
+            map.push((entry.name.clone().into_owned(), value));
+        }
+        Map(map)
+    }
+}
+
+/// The entries whose keys stand before them, each with the first of its key.
+fn repeated<'n, 't>(
+    entries: &'n [Entry<'t>],
+) -> impl Iterator<Item = (&'n Entry<'t>, &'n Entry<'t>)> {
+    let mut table: BTreeMap<&str, &Entry<'t>> = BTreeMap::new();
+    entries.iter().enumerate().filter_map(move |(i, entry)| {
+        let first = if entries.len() <= FEW {
+            entries[..i].iter().find(|e| e.name == entry.name)
+        } else {
+            let first = table.get(entry.name.as_ref()).copied();
+            table.entry(entry.name.as_ref()).or_insert(entry);
+            first
+        };
+        first.map(|first| (entry, first))
+    })
+}

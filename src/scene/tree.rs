@@ -1,0 +1,412 @@
+//! [`Node`]: a JSON text as a syntax tree, every value and key with its place.
+//!
+//! Strict JSON (RFC 8259) and no more: what this file takes, serde_json takes, and the other way round; a test holds the
+//! two against each other. Reading ends at the first fault, of which [`Fault`] says what was expected there.
+
+use std::borrow::Cow;
+use std::ops::Range;
+
+/// So many brackets may be open at once.
+pub(super) const DEEPEST: usize = 127;
+
+/// A JSON value with its place.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Node<'t> {
+    /// Its bytes in the text.
+    pub(super) range: Range<usize>,
+    /// What it is.
+    pub(super) kind: NodeKind<'t>,
+}
+
+/// What a JSON value is.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum NodeKind<'t> {
+    /// `null`
+    Null,
+    /// `true` or `false`
+    Flag(bool),
+    /// A number; infinite where it is beyond all floats.
+    Number(f64),
+    /// A string, its escapes resolved.
+    Text(Cow<'t, str>),
+    /// A list.
+    List(Vec<Node<'t>>),
+    /// An object's entries in their order, keys perhaps twice.
+    Object(Vec<Entry<'t>>),
+}
+
+/// A key and its value.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Entry<'t> {
+    /// The key, its escapes resolved.
+    pub(super) name: Cow<'t, str>,
+    /// The key's bytes in the text, quotes included.
+    pub(super) name_range: Range<usize>,
+    /// The value.
+    pub(super) value: Node<'t>,
+}
+
+/// Where and why a text is no JSON.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Fault {
+    /// The byte at which reading stopped.
+    pub(super) at: usize,
+    /// Why.
+    pub(super) why: Why,
+}
+
+/// Why a text is no JSON.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Why {
+    /// The text ends; the innermost bracket or quote that is open, with its byte.
+    End(Option<(char, usize)>),
+    /// More brackets are open than [`DEEPEST`].
+    TooDeep,
+    /// A string that began at this byte holds a line break or another control character.
+    Control(usize),
+    /// A backslash is followed by something else than an escape.
+    Escape,
+    /// An escape is half of a surrogate pair.
+    Surrogate,
+    /// A comma, at this byte, stands before a closing bracket.
+    TrailingComma(usize),
+    /// A value is expected.
+    Value,
+    /// A key in quotes is expected.
+    Key,
+    /// A colon is expected.
+    Colon,
+    /// A comma, or this bracket, is expected.
+    Comma(char),
+    /// The end of the text is expected.
+    Behind,
+}
+
+/// Reads a text as one JSON value.
+pub(super) fn parse(text: &str) -> Result<Node<'_>, Fault> {
+    let mut reader = Parser {
+        text,
+        bytes: text.as_bytes(),
+        at: 0,
+        open: Vec::new(),
+    };
+    reader.blanks();
+    let root = reader.value()?;
+    reader.blanks();
+    match reader.peek() {
+        None => Ok(root),
+        Some(_) => Err(reader.fault(Why::Behind)),
+    }
+}
+
+struct Parser<'t> {
+    text: &'t str,
+    bytes: &'t [u8],
+    at: usize,
+    /// The brackets that are open, with their places.
+    open: Vec<(char, usize)>,
+}
+
+impl<'t> Parser<'t> {
+    fn peek(&self) -> Option<u8> {
+        self.bytes.get(self.at).copied()
+    }
+
+    fn blanks(&mut self) {
+        while let Some(b' ' | b'\t' | b'\n' | b'\r') = self.peek() {
+            self.at += 1;
+        }
+    }
+
+    /// A fault here, or that the text ends here.
+    fn fault(&self, why: Why) -> Fault {
+        let why = match self.peek() {
+            None => Why::End(self.open.last().copied()),
+            Some(_) => why,
+        };
+        Fault { at: self.at, why }
+    }
+
+    fn value(&mut self) -> Result<Node<'t>, Fault> {
+        let start = self.at;
+        let kind = match self.peek() {
+            Some(b'{') => NodeKind::Object(self.entries()?),
+            Some(b'[') => NodeKind::List(self.list()?),
+            Some(b'"') => NodeKind::Text(self.string()?),
+            Some(b'-' | b'0'..=b'9') => NodeKind::Number(self.number()?),
+            _ => self.word()?,
+        };
+        Ok(Node {
+            range: start..self.at,
+            kind,
+        })
+    }
+
+    fn word(&mut self) -> Result<NodeKind<'t>, Fault> {
+        let words = [
+            ("null", NodeKind::Null),
+            ("true", NodeKind::Flag(true)),
+            ("false", NodeKind::Flag(false)),
+        ];
+        for (word, kind) in words {
+            if self.text[self.at..].starts_with(word) {
+                self.at += word.len();
+                return Ok(kind);
+            }
+        }
+        Err(self.fault(Why::Value))
+    }
+
+    fn number(&mut self) -> Result<f64, Fault> {
+        let start = self.at;
+        let broken = Fault {
+            at: start,
+            why: Why::Value,
+        };
+        self.at += usize::from(self.peek() == Some(b'-'));
+        let whole = self.digits();
+        let leading_zero = whole > 1 && self.bytes[self.at - whole] == b'0';
+        if whole == 0 || leading_zero {
+            return Err(broken);
+        }
+        if self.peek() == Some(b'.') {
+            self.at += 1;
+            if self.digits() == 0 {
+                return Err(broken);
+            }
+        }
+        if let Some(b'e' | b'E') = self.peek() {
+            self.at += 1;
+            self.at += usize::from(matches!(self.peek(), Some(b'+' | b'-')));
+            if self.digits() == 0 {
+                return Err(broken);
+            }
+        }
+        self.text[start..self.at].parse().map_err(|_| broken)
+    }
+
+    fn digits(&mut self) -> usize {
+        let start = self.at;
+        while let Some(b'0'..=b'9') = self.peek() {
+            self.at += 1;
+        }
+        self.at - start
+    }
+
+    fn enter(&mut self, bracket: char) -> Result<(), Fault> {
+        if self.open.len() == DEEPEST {
+            return Err(self.fault(Why::TooDeep));
+        }
+        self.open.push((bracket, self.at));
+        self.at += 1;
+        self.blanks();
+        Ok(())
+    }
+
+    fn leave(&mut self) {
+        self.open.pop();
+        self.at += 1;
+    }
+
+    /// What follows a value in a list or object: whether another comes, after a comma.
+    fn another(&mut self, close: char) -> Result<bool, Fault> {
+        self.blanks();
+        let comma = self.at;
+        match self.peek() {
+            Some(b',') => self.at += 1,
+            Some(c) if char::from(c) == close => return Ok(false),
+            _ => return Err(self.fault(Why::Comma(close))),
+        }
+        self.blanks();
+        if self.peek().map(char::from) == Some(close) {
+            return Err(self.fault(Why::TrailingComma(comma)));
+        }
+        Ok(true)
+    }
+
+    fn list(&mut self) -> Result<Vec<Node<'t>>, Fault> {
+        self.enter('[')?;
+        let mut nodes = Vec::new();
+        let mut more = self.peek() != Some(b']');
+        while more {
+            nodes.push(self.value()?);
+            more = self.another(']')?;
+        }
+        self.leave();
+        Ok(nodes)
+    }
+
+    fn entries(&mut self) -> Result<Vec<Entry<'t>>, Fault> {
+        self.enter('{')?;
+        let mut entries = Vec::new();
+        let mut more = self.peek() != Some(b'}');
+        while more {
+            let start = self.at;
+            if self.peek() != Some(b'"') {
+                return Err(self.fault(Why::Key));
+            }
+            let name = self.string()?;
+            let name_range = start..self.at;
+            self.blanks();
+            if self.peek() != Some(b':') {
+                return Err(self.fault(Why::Colon));
+            }
+            self.at += 1;
+            self.blanks();
+            let value = self.value()?;
+            entries.push(Entry {
+                name,
+                name_range,
+                value,
+            });
+            more = self.another('}')?;
+        }
+        self.leave();
+        Ok(entries)
+    }
+
+    fn string(&mut self) -> Result<Cow<'t, str>, Fault> {
+        let quote = self.at;
+        self.at += 1;
+        let mut start = self.at;
+        let mut resolved: Option<String> = None;
+        loop {
+            match self.peek() {
+                Some(b'"') => break,
+                Some(b'\\') => {
+                    let before = &self.text[start..self.at];
+                    let c = self.escape(quote)?;
+                    let text = resolved.get_or_insert_default();
+                    text.push_str(before);
+                    text.push(c);
+                    start = self.at;
+                }
+                Some(0..0x20) => return Err(self.fault(Why::Control(quote))),
+                Some(_) => self.at += 1,
+                None => return Err(self.cut(quote)),
+            }
+        }
+        let rest = &self.text[start..self.at];
+        self.at += 1;
+        Ok(match resolved {
+            None => Cow::Borrowed(rest),
+            Some(text) => Cow::Owned(text + rest),
+        })
+    }
+
+    /// The text ends within a string.
+    fn cut(&self, quote: usize) -> Fault {
+        Fault {
+            at: self.at,
+            why: Why::End(Some(('"', quote))),
+        }
+    }
+
+    fn escape(&mut self, quote: usize) -> Result<char, Fault> {
+        let start = self.at;
+        let wrong = |why| Fault { at: start, why };
+        self.at += 1;
+        let c = match self.peek() {
+            Some(b'"') => '"',
+            Some(b'\\') => '\\',
+            Some(b'/') => '/',
+            Some(b'b') => '\u{8}',
+            Some(b'f') => '\u{c}',
+            Some(b'n') => '\n',
+            Some(b'r') => '\r',
+            Some(b't') => '\t',
+            Some(b'u') => {
+                self.at += 1;
+                let first = self.hex(quote, start)?;
+                let is_first = (0xD800..0xDC00).contains(&first);
+                if is_first && self.bytes[self.at..].starts_with(b"\\u") {
+                    self.at += 2;
+                    let second = self.hex(quote, start)?;
+                    if !(0xDC00..0xE000).contains(&second) {
+                        return Err(wrong(Why::Surrogate));
+                    }
+                    let code = 0x10000 + ((first - 0xD800) << 10) + (second - 0xDC00);
+                    return char::from_u32(code).ok_or(wrong(Why::Surrogate));
+                }
+                return char::from_u32(first).ok_or(wrong(Why::Surrogate));
+            }
+            Some(_) => return Err(wrong(Why::Escape)),
+            None => return Err(self.cut(quote)),
+        };
+        self.at += 1;
+        Ok(c)
+    }
+
+    /// Four hexadecimal digits.
+    fn hex(&mut self, quote: usize, start: usize) -> Result<u32, Fault> {
+        let mut code = 0;
+        for _ in 0..4 {
+            let digit = match self.peek() {
+                None => return Err(self.cut(quote)),
+                Some(c) => char::from(c).to_digit(16),
+            };
+            code = 16 * code
+                + digit.ok_or(Fault {
+                    at: start,
+                    why: Why::Escape,
+                })?;
+            self.at += 1;
+        }
+        Ok(code)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::format::agrees;
+
+    #[test]
+    fn a_text_is_taken_where_serde_json_takes_it_and_means_the_same() {
+        let sound = [
+            r#"{ "a": [1, -2.5e3, 0, -0, 1E+2, 0.1e-7], "é\n\u00e9\ud83d\ude00\/": { "b": [] }, "c": {} }"#,
+            "\t[ true , false, null, \"\", [[[]]], \"\\\"\\\\\\b\\f\\r\\t\" ]\r\n",
+            "123456789.123456789",
+            "\"\u{7f}\u{ffff}\"",
+        ];
+        for text in sound {
+            assert!(parse(text).is_ok(), "{text}");
+            assert!(agrees(text), "{text}");
+        }
+        for text in sound {
+            for (at, _) in text.char_indices() {
+                assert!(agrees(&text[..at]), "{}", &text[..at]);
+                let end = at + text[at..].chars().next().map_or(0, char::len_utf8);
+                for other in [
+                    "", "\"", "[", "}", ",", ":", "0", "-", ".", "e", "\\", "u", "\n", " ",
+                    "\u{1}", "t",
+                ] {
+                    let changed = format!("{}{other}{}", &text[..at], &text[end..]);
+                    assert!(agrees(&changed), "{changed}");
+                }
+            }
+        }
+        for wrong in [
+            "",
+            " ",
+            "nulll",
+            "1 2",
+            "[1,]",
+            "{\"a\":1,}",
+            "01",
+            "1.",
+            "+1",
+            "\u{a0}1",
+        ] {
+            assert!(parse(wrong).is_err() && agrees(wrong), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn brackets_may_be_open_as_deep_as_said() {
+        let nested = |depth: usize| format!("{}{}", "[".repeat(depth), "]".repeat(depth));
+        assert!(parse(&nested(DEEPEST)).is_ok());
+        let fault = parse(&nested(DEEPEST + 1)).expect_err("too deep");
+        assert_eq!((fault.at, fault.why), (DEEPEST, Why::TooDeep));
+    }
+}

@@ -1,0 +1,78 @@
+//! [`Lattice`]: a pile of triangles on the triangular lattice.
+
+use super::STONE;
+use crate::scene::format::{
+    BlockEntry, CellEntry, CellHalf, GridEntry, GridKind, GroundEntry, SceneFile,
+};
+
+/// A pile of triangular cells, point up and point down in turn, one row less at each level.
+///
+/// Contacts on a lattice are decided in whole numbers, and coordinates are whole.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lattice {
+    /// How many rows; the lowest has as many triangles that stand on the ground.
+    pub rows: usize,
+    /// Edge length of a cell, metres.
+    pub side: f64,
+    /// Friction coefficient.
+    pub friction: f64,
+}
+
+impl Default for Lattice {
+    /// 3 rows of cells of 1 m with a friction of 0.7: it stands.
+    fn default() -> Lattice {
+        Lattice {
+            rows: 3,
+            side: 1.0,
+            friction: 0.7,
+        }
+    }
+}
+
+impl Lattice {
+    /// The scene file.
+    ///
+    /// # Example
+    /// ```
+    /// use drystone::{Analysis, Scene, analysis::Verdict, starter::Lattice};
+    /// let pile = |friction| Scene::new(Lattice { friction, ..Lattice::default() }.scene());
+    /// assert_eq!(pile(0.7)?.blocks.len(), 9);
+    /// assert_eq!(Analysis::of(&pile(0.7)?).verdict(), Verdict::Stable);
+    /// assert_eq!(Analysis::of(&pile(0.05)?).verdict(), Verdict::Unstable);
+    /// # Ok::<(), drystone::scene::Problems>(())
+    /// ```
+    pub fn scene(&self) -> SceneFile {
+        let up = |x: usize, y: f64| CellEntry::Triangle(x as f64, y, CellHalf::Up);
+        let down = |x: usize, y: f64| CellEntry::Triangle(x as f64, y, CellHalf::Down);
+        let mut blocks = Vec::new();
+        for row in 0..self.rows {
+            let (count, y) = (self.rows - row, row as f64);
+            let cells = (0..count)
+                .map(|x| up(x, y))
+                .chain((1..count).map(|x| down(x - 1, y + 1.0)));
+            for cell in cells {
+                blocks.push(BlockEntry {
+                    cells: Some(vec![cell]),
+                    ..BlockEntry::default()
+                });
+            }
+        }
+        // A strip of cells below y = 0, one cell wider than the pile at its right end.
+        let strip = (0..=self.rows).flat_map(|x| [up(x, -1.0), down(x, 0.0)]);
+        SceneFile {
+            title: Some(format!("A pile of triangles in {} rows", self.rows)),
+            friction: Some(self.friction),
+            density: Some(STONE),
+            grid: Some(GridEntry {
+                kind: GridKind::Triangular,
+                side: Some(self.side),
+            }),
+            ground: vec![GroundEntry {
+                cells: Some(strip.collect()),
+                ..GroundEntry::default()
+            }],
+            blocks,
+            ..SceneFile::default()
+        }
+    }
+}

@@ -1,0 +1,400 @@
+//! The pages that tell every key of the formats, held against the types and against real results.
+//!
+//! Tables stand between marks in `src/doc/format.md` and `src/doc/result.md`. `UPDATE_SNAPSHOTS=1` writes them anew.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use drystone::analysis::{Analysis, Ask, Options};
+use drystone::report::result::key::{KEYS, Key, Kind, REFUSAL_KEYS};
+use drystone::report::result::{Layout, Timing, refusal, schema, to_json_of};
+use drystone::scene::{Code, NoteCode, Scene};
+use serde_json::Value;
+
+/// Puts a table between its marks, or fails where another stands there.
+fn table(page: &str, mark: &str, rows: &str) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(page);
+    let text = std::fs::read_to_string(&path).expect("the page is there");
+    let (begin, end) = (
+        format!("<!-- {mark} -->\n"),
+        format!("<!-- end of {mark} -->"),
+    );
+    let from = text.find(&begin).expect("the mark is there") + begin.len();
+    let to = text.find(&end).expect("the end is there");
+    let wanted = format!("\n{rows}\n");
+    if std::env::var_os("UPDATE_SNAPSHOTS").is_some() {
+        let new = format!("{}{wanted}{}", &text[..from], &text[to..]);
+        std::fs::write(&path, new).expect("the page can be written");
+        return;
+    }
+    assert_eq!(
+        &text[from..to],
+        wanted,
+        "{page}: run once with UPDATE_SNAPSHOTS=1"
+    );
+}
+
+/// What a value of the scene format may be, in words.
+fn words(schema: &Value, definitions: &Value) -> String {
+    if let Some(path) = schema["$ref"].as_str() {
+        let name = path.trim_start_matches("#/$defs/");
+        let inner = &definitions[name];
+        return match inner["type"].as_str() {
+            Some("object") => title(name).to_lowercase(),
+            _ => words(inner, definitions),
+        };
+    }
+    let choices = schema["anyOf"].as_array().or(schema["oneOf"].as_array());
+    if let Some(choices) = choices {
+        let all: Vec<String> = choices.iter().map(|c| words(c, definitions)).collect();
+        let some: Vec<String> = all.into_iter().filter(|w| w != "null").collect();
+        return some.join(" or ");
+    }
+    if let Some(word) = schema["const"].as_str() {
+        return format!("`\"{word}\"`");
+    }
+    if let Some(names) = schema["enum"].as_array() {
+        let names: Vec<String> = names.iter().map(|n| format!("`{n}`")).collect();
+        return names.join(" or ");
+    }
+    let kind = schema["type"].as_str().or_else(|| {
+        let kinds = schema["type"].as_array()?;
+        kinds
+            .iter()
+            .filter_map(Value::as_str)
+            .find(|k| *k != "null")
+    });
+    match kind.expect("a type") {
+        "number" => "number".into(),
+        "integer" => "whole number".into(),
+        "string" => "text".into(),
+        "boolean" => "true or false".into(),
+        "null" => "null".into(),
+        "object" => {
+            let entry = words(&schema["additionalProperties"], definitions);
+            format!("object: {entry} by name")
+        }
+        "array" => match schema["prefixItems"].as_array() {
+            Some(items) => {
+                let items: Vec<String> = items.iter().map(|i| words(i, definitions)).collect();
+                format!("[{}]", items.join(", ").replace("number, number", "x, y"))
+            }
+            None => {
+                let item = words(&schema["items"], definitions);
+                match (item.as_str(), schema["maxItems"].as_u64()) {
+                    ("number", Some(2)) => "[x, y]".into(),
+                    (_, Some(2)) => format!("[{item}, {item}]"),
+                    ("[x, y]", None) => "list of [x, y]".into(),
+                    _ => format!("list: {item}"),
+                }
+            }
+        },
+        other => panic!("{other} is not in the scene format"),
+    }
+}
+
+/// How the page calls a type of the format.
+fn title(name: &str) -> &str {
+    match name {
+        "MaterialEntry" => "A material",
+        "FrictionPairEntry" => "A friction pair",
+        "GridEntry" => "A grid",
+        "ShapeEntry" => "A shape",
+        "GroundEntry" => "A part of the ground",
+        "BlockEntry" => "A block",
+        "RobotEntry" => "A robot",
+        "LimitsEntry" => "Limits",
+        "LoadEntry" => "A load",
+        "StepEntry" => "A step",
+        "GripEntry" => "A grip",
+        other => panic!("{other} has no title on the page"),
+    }
+}
+
+/// The keys of one object as a table.
+fn object_table(schema: &Value, definitions: &Value) -> String {
+    let required: Vec<&str> = schema["required"]
+        .as_array()
+        .map(|keys| keys.iter().filter_map(Value::as_str).collect())
+        .unwrap_or_default();
+    let mut rows = String::from("| key | value | default | meaning |\n|---|---|---|---|\n");
+    let keys = schema["properties"].as_object().expect("keys");
+    for (key, value) in keys {
+        let meaning = value["description"]
+            .as_str()
+            .expect("every key is described");
+        let default = match &value["default"] {
+            _ if required.contains(&key.as_str()) => "required".to_owned(),
+            Value::Null => "none".into(),
+            Value::Array(list) if list.is_empty() => "none".into(),
+            Value::Object(map) if map.is_empty() => "none".into(),
+            other => format!("{other}"),
+        };
+        // What the text says of a default is what the schema says.
+        if let (Some(said), false) = (
+            meaning.split(" Default ").nth(1),
+            value["default"].is_null(),
+        ) {
+            let said: Value =
+                serde_json::from_str(said.trim_end_matches('.')).unwrap_or(Value::Null);
+            let (said, meant) = (said.to_string(), value["default"].to_string());
+            assert_eq!(said.replace(".0", ""), meant.replace(".0", ""), "{key}");
+        }
+        if words(value, definitions) == "number" {
+            let units = [
+                "metres",
+                "kg",
+                "newtons",
+                "N·m",
+                "degrees",
+                "coefficient",
+                "kernel",
+            ];
+            assert!(
+                units.iter().any(|u| meaning.contains(u)),
+                "{key} has no unit: {meaning}"
+            );
+        }
+        let cell = |text: &str| text.replace('|', "\\|");
+        let kind = cell(&words(value, definitions));
+        rows += &format!("| `{key}` | {kind} | {default} | {} |\n", cell(meaning));
+    }
+    rows
+}
+
+#[test]
+fn the_format_page_tells_every_key_of_a_scene_file() {
+    let root: Value = serde_json::from_str(&drystone::scene::schema()).expect("JSON");
+    let definitions = &root["$defs"];
+    let mut text = format!("## The scene\n\n{}", object_table(&root, definitions));
+    let order = [
+        "BlockEntry",
+        "GroundEntry",
+        "ShapeEntry",
+        "MaterialEntry",
+        "FrictionPairEntry",
+        "GridEntry",
+        "RobotEntry",
+        "LimitsEntry",
+        "LoadEntry",
+        "StepEntry",
+        "GripEntry",
+    ];
+    for name in order {
+        let about = definitions[name]["description"]
+            .as_str()
+            .expect("described");
+        let rows = object_table(&definitions[name], definitions);
+        text += &format!("\n## {}\n\n{about}\n\n{rows}", title(name));
+    }
+    let objects = definitions.as_object().expect("definitions").iter();
+    let told: BTreeSet<&str> = order.into_iter().collect();
+    let all: BTreeSet<&str> = (objects.filter(|d| d.1["type"] == "object"))
+        .map(|d| d.0.as_str())
+        .collect();
+    assert_eq!(told, all, "every object has its table");
+    table("src/doc/format.md", "keys", &text);
+}
+
+fn key_table(keys: &[Key]) -> String {
+    let mut rows =
+        String::from("| key | value | unit | there | meaning |\n|---|---|---|---|---|\n");
+    for key in keys {
+        let when = if key.when.is_empty() {
+            "always"
+        } else {
+            key.when
+        };
+        let kind = key.kind.words();
+        rows += &format!(
+            "| `{}` | {kind} | {} | {when} | {} |\n",
+            key.path, key.unit, key.meaning
+        );
+    }
+    rows
+}
+
+#[test]
+fn the_result_page_tells_every_key_and_code() {
+    table("src/doc/result.md", "keys", &key_table(KEYS));
+    table(
+        "src/doc/result.md",
+        "refusal keys",
+        &key_table(REFUSAL_KEYS),
+    );
+    let mut rows = String::from("| code | meaning |\n|---|---|\n");
+    for code in Code::ALL {
+        rows += &format!("| `{code}` | {} |\n", code.meaning());
+    }
+    table("src/doc/result.md", "codes", &rows);
+    let mut rows = String::from("| code | meaning |\n|---|---|\n");
+    for code in NoteCode::ALL {
+        rows += &format!("| `{code}` | {} |\n", code.meaning());
+    }
+    table("src/doc/result.md", "notes", &rows);
+}
+
+/// Whether a value is what a key says.
+fn fits(kind: Kind, value: &Value) -> bool {
+    let number = |v: &Value| v.is_number() || v.is_null();
+    let list =
+        |v: &Value, each: &dyn Fn(&Value) -> bool| v.as_array().is_some_and(|l| l.iter().all(each));
+    let two = |v: &Value| v.as_array().is_some_and(|l| l.len() == 2);
+    let pair = |v: &Value| two(v) && list(v, &number);
+    match kind {
+        Kind::Text => value.is_string(),
+        Kind::Word(words) => value.as_str().is_some_and(|w| words.contains(&w)),
+        Kind::Flag => value.is_boolean(),
+        Kind::FlagOrOpen => value.is_boolean() || value.is_null(),
+        Kind::Count => value.is_u64(),
+        Kind::Place => value.is_null() || value.as_u64().is_some_and(|n| n > 0),
+        Kind::Number => number(value),
+        Kind::Bound | Kind::Margin => number(value) || value == "unbounded",
+        Kind::Pair => pair(value),
+        Kind::Pairs => two(value) && list(value, &pair),
+        Kind::Names => two(value) && list(value, &Value::is_string),
+        Kind::NameList => list(value, &Value::is_string),
+        Kind::Motions => list(value, &|m: &Value| {
+            m["block"].is_string() && pair(&m["velocity"]) && number(&m["spin"])
+        }),
+        Kind::Object | Kind::ByRobot => value.is_object(),
+        Kind::Objects => list(value, &Value::is_object),
+    }
+}
+
+/// Holds an object against the keys, and marks those that occur.
+fn walk(object: &Value, path: &str, keys: &[Key], seen: &mut BTreeSet<&'static str>) {
+    let entries = object.as_object().expect("an object");
+    for (name, value) in entries {
+        let here = format!("{path}{name}");
+        let key =
+            (keys.iter().find(|k| k.path == here)).unwrap_or_else(|| panic!("{here} is not told"));
+        assert!(
+            fits(key.kind, value),
+            "{here}: {value} is no {:?}",
+            key.kind
+        );
+        seen.insert(key.path);
+        match key.kind {
+            Kind::Object => walk(value, &format!("{here}."), keys, seen),
+            Kind::Objects => {
+                for entry in value.as_array().into_iter().flatten() {
+                    walk(entry, &format!("{here}[]."), keys, seen);
+                }
+            }
+            Kind::ByRobot => {
+                for robot in value.as_object().into_iter().flatten() {
+                    walk(robot.1, &format!("{here}.*."), keys, seen);
+                }
+            }
+            _ => {}
+        }
+    }
+    let parent = |key: &Key| key.path.rsplit_once('.').map_or("", |p| p.0).to_owned();
+    let own = path.trim_end_matches('.');
+    for key in keys
+        .iter()
+        .filter(|k| k.when.is_empty() && parent(k) == own)
+    {
+        let last = key.path.rsplit('.').next().unwrap_or_default();
+        assert!(
+            entries.contains_key(last),
+            "{} is always there, but not in {object}",
+            key.path
+        );
+    }
+}
+
+#[test]
+fn every_key_of_real_results_is_told_and_every_told_key_occurs() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut seen = BTreeSet::new();
+    let extra = [
+        // Blocks that hang in the air, a robot that may not turn, a doubtful gap, coordinates with three decimals.
+        r#"{ "drystone": 1, "blocks": [{ "polygon": [[0, 0], [1, 0], [1, 1], [0, 1]] }] }"#.to_owned(),
+        r#"{ "drystone": 1, "friction": 0.6, "ground": [{ "polygon": [[0, -1], [1, -1], [1, 0], [0, 0]] },
+            { "polygon": [[3, -1], [4, -1], [4, 0], [3, 0]] }],
+            "blocks": [{ "polygon": [[0, 0], [4, 0.004], [4, 1], [0, 1]] }] }"#
+            .to_owned(),
+        r#"{ "drystone": 1, "ground": [{ "polygon": [[0.125, -1.001], [7.333, -1.002], [7.333, 0.001], [0.125, 0.002]] }],
+            "blocks": [{ "polygon": [[1.118, 0.002], [2.226, 0.001], [2.223, 1.007], [1.119, 1.003]] }] }"#
+            .to_owned(),
+    ];
+    let mut texts: Vec<String> = extra.into();
+    for folder in ["assets/thesis", "tests/scenes"] {
+        let mut files: Vec<_> = std::fs::read_dir(root.join(folder))
+            .expect("readable")
+            .map(|entry| entry.expect("readable").path())
+            .filter(|p| p.extension().is_some_and(|e| e == "json"))
+            .collect();
+        files.sort();
+        let large = ["wall200", "steps30", "tinyhuge", "archri4"];
+        files.retain(|p| !large.iter().any(|l| p.to_string_lossy().contains(l)));
+        texts.extend(
+            files
+                .iter()
+                .map(|p| std::fs::read_to_string(p).expect("readable")),
+        );
+    }
+    let options = Options {
+        margins: Ask::Yes,
+        wedging: Ask::Yes,
+        ..Options::default()
+    };
+    for text in &texts {
+        let scene = Scene::from_json(text).expect("sound");
+        let analysis = Analysis::with(&scene, &options);
+        let json = to_json_of("a.json", &analysis, Timing::Included, Layout::OneLine);
+        walk(
+            &serde_json::from_str(&json).expect("JSON"),
+            "",
+            KEYS,
+            &mut seen,
+        );
+    }
+    let missing: Vec<&str> = KEYS
+        .iter()
+        .map(|k| k.path)
+        .filter(|p| !seen.contains(p))
+        .collect();
+    assert!(missing.is_empty(), "no scene shows {missing:?}");
+}
+
+#[test]
+fn a_refused_file_has_the_keys_that_are_told() {
+    let problems = Scene::from_json(r#"{ "drystone": 1, "bloks": [] }"#).expect_err("refused");
+    let json: Value =
+        serde_json::from_str(&refusal("é.json", &problems.list, Layout::Lines)).expect("JSON");
+    let mut seen = BTreeSet::new();
+    walk(&json, "", REFUSAL_KEYS, &mut seen);
+    assert_eq!(seen.len(), REFUSAL_KEYS.len());
+    assert_eq!(json["problems"][1]["code"], "unknown_key");
+    assert_eq!(json["problems"][1]["path"], "bloks");
+}
+
+#[test]
+fn the_schema_of_results_tells_the_same_keys() {
+    let schema: Value = serde_json::from_str(&schema()).expect("JSON");
+    for (number, keys) in [KEYS, REFUSAL_KEYS].into_iter().enumerate() {
+        let object = &schema["anyOf"][number];
+        for key in keys {
+            let mut here = object;
+            for segment in key.path.split('.') {
+                here = match segment.strip_suffix("[]") {
+                    Some(list) => &here["properties"][list]["items"],
+                    None if segment == "*" => &here["additionalProperties"],
+                    None => &here["properties"][segment],
+                };
+            }
+            let described = here["description"].as_str().expect("described");
+            assert!(described.contains(key.unit), "{}: {described}", key.path);
+        }
+        assert!(
+            object["required"]
+                .as_array()
+                .expect("some")
+                .contains(&keys[0].path.into())
+                || number == 1
+        );
+    }
+}
