@@ -11,12 +11,14 @@
 
 mod accuracy;
 mod import;
+mod line;
 mod margin;
 
 use serde::{Serialize, Serializer};
 
 pub use accuracy::accuracy_json;
 pub use import::import_json;
+pub use line::{Fields, Picture, Place, UnknownField, line_of, problem_line, verdict_line};
 use margin::Margins;
 
 use crate::analysis::{

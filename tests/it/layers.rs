@@ -71,6 +71,11 @@ const ROOMS: &[(&str, &[&str])] = &[
             "import",
         ],
     ),
+    ("batch", &[]),
+    (
+        "session",
+        &["text", "geometry", "scene", "interface", "analysis"],
+    ),
     (
         "cli",
         &[
@@ -85,6 +90,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "study",
             "report",
             "import",
+            "batch",
         ],
     ),
     ("doc", &[]),
