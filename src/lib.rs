@@ -57,6 +57,8 @@
 //! | [`output::pdf::write`] | a PDF page | a drawing, through that text |
 //! | [`study::study`] | what accuracy costs | scenes |
 //! | [`report::result::to_json`] | JSON for other programs | an analysis |
+//! | [`batch`] | answers in order, by several threads | many scenes, one by one |
+//! | [`session::Session`] | a verdict after every step | blocks placed and held one by one |
 //! | [`text`] | words that do nothing | text of others |
 //!
 //! Why it is built so stands in [`doc::design`]; axes, units and signs in [`doc::conventions`]; tolerances and traps in
@@ -101,6 +103,10 @@ pub mod chart;
 pub mod study;
 
 pub mod report;
+
+pub mod batch;
+
+pub mod session;
 
 pub mod cli;
 

@@ -7,6 +7,7 @@
 
 mod component;
 mod frame;
+mod judgement;
 mod margin;
 mod mechanism;
 mod near;
@@ -32,6 +33,8 @@ use crate::solve::{Effort, Until};
 pub use component::Method;
 use component::{Findings, solved};
 use frame::{settle, worst};
+pub(crate) use judgement::{Guess, hinges_on_gaps};
+pub use judgement::{Source, verdicts};
 pub use margin::{Margin, Margins, RobotMargins, Sides};
 pub use option::{Accuracy, Ask, Options};
 

@@ -22,12 +22,7 @@ pub(crate) enum Ending {
 impl Ending {
     /// What the frames of an analysis come to.
     pub(crate) fn of(analysis: &Analysis) -> Ending {
-        let ends = analysis.frames.iter().map(|frame| match frame.verdict {
-            Verdict::Stable => Ending::Done,
-            Verdict::Undecided => Ending::Undecided,
-            Verdict::Unstable => Ending::Unstable,
-        });
-        ends.max().unwrap_or(Ending::Done)
+        Ending::from(analysis.verdict())
     }
 
     /// The process's exit code.
@@ -42,6 +37,16 @@ impl Ending {
             Ending::WrongInput => 2,
             Ending::Undecided => 3,
             Ending::NotWritten => 4,
+        }
+    }
+}
+
+impl From<Verdict> for Ending {
+    fn from(verdict: Verdict) -> Ending {
+        match verdict {
+            Verdict::Stable => Ending::Done,
+            Verdict::Undecided => Ending::Undecided,
+            Verdict::Unstable => Ending::Unstable,
         }
     }
 }

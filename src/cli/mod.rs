@@ -8,7 +8,7 @@
 //! |---|---|
 //! | 0 | done; with `check`, or `render --strict`: everything is stable |
 //! | 1 | done, and something is unstable |
-//! | 2 | the input or the command line is wrong; nothing was written |
+//! | 2 | the input or the command line is wrong; nothing was written, except by `batch`, which answers the other scenes |
 //! | 3 | done, nothing is unstable, and something is undecided |
 //! | 4 | the output could not be written |
 //!
@@ -16,6 +16,7 @@
 //! known to fall tells more than one that nobody can decide.
 
 mod accuracy;
+mod batch;
 mod check;
 mod complaint;
 mod completions;
@@ -74,6 +75,7 @@ enum Command {
     Render(render::Render),
     Figures(figures::Figures),
     Check(check::Check),
+    Batch(Box<batch::Batch>),
     Accuracy(accuracy::Accuracy),
     Schema(schema::Schema),
     New(new::New),
@@ -102,6 +104,7 @@ pub fn run() -> ExitCode {
         Command::Render(render) => render.run(&terminal),
         Command::Figures(figures) => figures.run(&terminal),
         Command::Check(check) => check.run(&terminal),
+        Command::Batch(batch) => batch.run(&terminal),
         Command::Accuracy(accuracy) => accuracy.run(&terminal),
         Command::Schema(schema) => schema.run(&terminal),
         Command::New(new) => new.run(&terminal),

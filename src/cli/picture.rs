@@ -109,6 +109,15 @@ impl Picture {
         self.format
     }
 
+    /// With a width in pixels where a PNG is asked for no size.
+    pub(crate) fn or_width(mut self, pixels: u32, format: Format) -> Picture {
+        let sized = self.width.is_some() || self.scale.is_some() || self.width_mm.is_some();
+        if format == Format::Png && !sized {
+            self.width = Some(pixels);
+        }
+        self
+    }
+
     /// Refuses what a format does not have.
     pub(crate) fn check(&self, format: Format) -> Result<(), Complaint> {
         let mut wrong = Vec::new();

@@ -8,6 +8,8 @@ mod corner;
 mod edge;
 mod lattice;
 
+pub(crate) use lattice::Edges;
+
 use crate::geometry::{Point, Vector, quarter_turn};
 use crate::scene::{BodyId, Frame, Scene};
 

@@ -92,6 +92,15 @@ impl Column {
         self.entries().map(|(row, value)| value * y[row]).sum()
     }
 
+    /// The product of two columns.
+    pub fn times(&self, other: &Column) -> f64 {
+        let entries = other.entries().flat_map(|(row, value)| {
+            let own = self.entries().filter(move |(r, _)| *r == row);
+            own.map(move |(_, v)| v * value)
+        });
+        entries.sum()
+    }
+
     /// Adds `amount` of the column to `sum`.
     pub fn add_to(&self, sum: &mut [f64], amount: f64) {
         for (row, value) in self.entries() {

@@ -12,6 +12,7 @@
 mod accuracy;
 mod import;
 pub mod key;
+mod line;
 mod margin;
 mod note;
 mod refusal;
@@ -21,6 +22,7 @@ use serde::{Serialize, Serializer};
 pub use accuracy::accuracy_json;
 pub use import::import_json;
 pub use key::schema;
+pub use line::{Fields, Picture, Place, UnknownField, line_of, problem_line, verdict_line};
 use margin::Margins;
 pub use refusal::refusal;
 

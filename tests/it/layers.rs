@@ -72,6 +72,11 @@ const ROOMS: &[(&str, &[&str])] = &[
             "import",
         ],
     ),
+    ("batch", &[]),
+    (
+        "session",
+        &["text", "geometry", "scene", "interface", "analysis"],
+    ),
     (
         "cli",
         &[
@@ -87,6 +92,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "report",
             "import",
             "starter",
+            "batch",
         ],
     ),
     ("doc", &[]),

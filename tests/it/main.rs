@@ -34,6 +34,7 @@ mod problems;
 mod mutant;
 mod program;
 mod scenes;
+mod session;
 mod sinks;
 mod small;
 mod starters;

@@ -1,6 +1,7 @@
 //! The command line as a person runs it: exit codes, streams, files, and what is said.
 
 mod accuracy;
+mod batch;
 mod check;
 mod figures;
 mod import;

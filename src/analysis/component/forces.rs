@@ -76,6 +76,11 @@ impl Case<'_> {
         (Some(bound), sum <= (1.0 + SAME_SUM) * bound)
     }
 
+    /// The proof of amounts with as little dropped from them as may be.
+    pub fn carried_plainly(&self, amounts: &Amounts) -> Proof {
+        proof::forces(self.assembly, &self.in_newtons(amounts, Noise::None))
+    }
+
     /// Newtons from pure numbers: normal and robot forces below 1e-13 and friction below 1e-10 of what acts there dropped,
     /// and never more than a tenth of what is demanded of the heaviest load, or of the lightest beside.
     fn in_newtons(&self, amounts: &Amounts, noise: Noise) -> Forces {

@@ -6,12 +6,14 @@
 mod description;
 mod failure;
 mod forces;
+mod hunch;
 mod ladder;
 mod local;
 mod motion;
 mod question;
 mod rung;
 
+pub(super) use hunch::Hunch;
 pub(super) use question::{judged, only_by_wedging};
 
 use super::{Ask, Failure, Options, Verdict};

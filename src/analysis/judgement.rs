@@ -1,0 +1,187 @@
+//! Verdicts alone, each from what is known already where that has a proof.
+//!
+//! The nearest balance ([`Nearest`]) of a frame is its forces, or the motion by which it falls. Its used columns are a
+//! first guess for the next frame: where little changed they need little more, and where nothing changed that matters,
+//! nothing. What it finds is believed for its proof, as anything else; where there is none, the frame is examined as
+//! [`Analysis`](super::Analysis) does, so that a guess can save work and decide nothing.
+
+use std::collections::BTreeMap;
+
+use super::component::Hunch;
+use super::{Analysis, Known, Options, Verdict, examined};
+use crate::assembly::Assembly;
+use crate::effect::{self, Situation};
+use crate::interface::{Interface, Interfaces};
+use crate::program::{Column, Force, Program, Scale};
+use crate::scene::{BlockId, BodyId, Frame, RobotId, Scene, ToleranceSource};
+use crate::solve::{Amounts, Nearest, generators};
+
+/// From so many bodies on, the work of an active set grows beyond that of a solver: at its start, and when it goes on.
+const MANY_AT_ONCE: usize = 40;
+const MANY: usize = 500;
+
+/// A scale serves until lengths or loads are so many times larger or smaller.
+const OFF_SCALE: f64 = 100.0;
+
+/// The verdict of each frame: those of [`Analysis::with`], without what else it finds out.
+///
+/// ```
+/// use drystone::{Scene, analysis::{Options, Verdict, verdicts}};
+/// let scene = Scene::from_json(r#"{ "drystone": 1, "friction": 0.5,
+///     "ground": [{ "polygon": [[0, 0], [9, 0], [9, -1], [0, -1]] }],
+///     "blocks": [{ "id": "a", "polygon": [[1, 0], [4, 0], [4, 2], [1, 2]] },
+///                { "id": "b", "polygon": [[3, 2], [8, 2], [8, 3], [3, 3]] }],
+///     "steps": [{ "place": ["a"] }, { "place": ["b"] }] }"#)?;
+/// assert_eq!(verdicts(&scene, &Options::default()), [Verdict::Stable, Verdict::Unstable]);
+/// # Ok::<(), drystone::scene::Problems>(())
+/// ```
+pub fn verdicts(scene: &Scene, options: &Options) -> Vec<Verdict> {
+    let found = Interfaces::of(scene);
+    if hinges_on_gaps(scene, &found) {
+        let frames = Analysis::with(scene, options).frames;
+        return frames.iter().map(|frame| frame.verdict).collect();
+    }
+    let mut guess = Guess::default();
+    let frames = scene.frames.iter();
+    frames
+        .map(|frame| {
+            let interfaces = found.in_frame(scene, frame);
+            guess.verdict(scene, frame, &interfaces, options).0
+        })
+        .collect()
+}
+
+/// Whether narrow gaps may decide, so that every frame is to be judged with them closed too.
+pub(crate) fn hinges_on_gaps(scene: &Scene, found: &Interfaces) -> bool {
+    scene.healed.source != ToleranceSource::Given && !found.near.is_empty()
+}
+
+/// What a verdict came from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// The forces or the motion that were known, with what the change called for.
+    Guess,
+    /// An analysis from scratch.
+    Examined,
+}
+
+/// What is known from one frame to the next.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Guess {
+    nearest: Nearest,
+    /// The columns that the used set counts, and where each contact's and each grip's own begin.
+    columns: Vec<Column>,
+    begins: Vec<(usize, Origin)>,
+    scale: Option<Scale>,
+}
+
+/// What a column comes from, the same in every frame: two bodies and one end of their stretch, or a robot's grip.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Origin {
+    Contact([BodyId; 2], [u64; 2]),
+    Grip(RobotId, BlockId, [u64; 2]),
+}
+
+impl Guess {
+    /// The verdict of a frame, and what it came from.
+    pub(crate) fn verdict(
+        &mut self,
+        scene: &Scene,
+        frame: &Frame,
+        interfaces: &[&Interface],
+        options: &Options,
+    ) -> (Verdict, Source) {
+        let situation = Situation {
+            scene,
+            frame,
+            interfaces,
+        };
+        if !options.is_late() {
+            let (assembly, _) = effect::assemble(&situation);
+            if let Some(verdict) = self.judged(&assembly, *options) {
+                return (verdict, Source::Guess);
+            }
+        }
+        let verdict = examined(&situation, *options, &mut Known::default()).verdict;
+        (verdict, Source::Examined)
+    }
+
+    /// The verdict on an assembly, where the guess leads to one.
+    fn judged(&mut self, assembly: &Assembly, options: Options) -> Option<Verdict> {
+        let most = match self.columns.is_empty() {
+            true => MANY_AT_ONCE,
+            false => MANY,
+        };
+        if assembly.bodies.len() > most {
+            *self = Guess::default();
+            return None;
+        }
+        let scale = self.scale(assembly);
+        let program = Program::of(assembly, scale);
+        let columns = generators(&program);
+        self.move_to(assembly, columns);
+        let Some(rest) = self.nearest.find(&program.need, &self.columns) else {
+            *self = Guess::default();
+            return None;
+        };
+        let amounts: Amounts = self.nearest.gathered(&program, &self.columns);
+        Hunch::of(assembly, scale, options).verdict(&amounts, &rest)
+    }
+
+    /// The scale of the guess, or a new one and no guess where it is too far off.
+    fn scale(&mut self, assembly: &Assembly) -> Scale {
+        let own = Scale::of_assembly(assembly);
+        let near = |a: f64, b: f64| a <= OFF_SCALE * b && b <= OFF_SCALE * a;
+        match self.scale {
+            Some(scale) if near(scale.length, own.length) && near(scale.force, own.force) => scale,
+            _ => {
+                *self = Guess {
+                    scale: Some(own),
+                    ..Guess::default()
+                };
+                own
+            }
+        }
+    }
+
+    /// Carries the used set over to the columns of another frame. A column of other values is another column.
+    fn move_to(&mut self, assembly: &Assembly, columns: Vec<Column>) {
+        let begins = begins(assembly, &columns);
+        let new: BTreeMap<Origin, usize> = begins.iter().map(|(k, origin)| (*origin, *k)).collect();
+        let (old, old_begins) = (&self.columns, &self.begins);
+        self.nearest.renumber(|k| {
+            let place = old_begins.partition_point(|(begin, _)| *begin <= k);
+            let (begin, origin) = old_begins.get(place.checked_sub(1)?)?;
+            let number = new.get(origin)? + (k - begin);
+            let (was, is) = (old.get(k)?, columns.get(number)?);
+            let values = |column: &Column| column.entries().map(|e| e.1).collect::<Vec<f64>>();
+            (values(was) == values(is) && was.limit == is.limit).then_some(number)
+        });
+        self.columns = columns;
+        self.begins = begins;
+    }
+}
+
+/// Where the columns of each contact and grip begin.
+fn begins(assembly: &Assembly, columns: &[Column]) -> Vec<(usize, Origin)> {
+    let bits = |p: crate::geometry::Point| [p.x.to_bits(), p.y.to_bits()];
+    let mut begins: Vec<(usize, Origin)> = Vec::new();
+    for (k, column) in columns.iter().enumerate() {
+        let origin = match column.force {
+            Force::Ray { contact, .. } => {
+                let contact = &assembly.contacts[contact];
+                Origin::Contact(contact.bodies, bits(contact.ends[0]))
+            }
+            Force::Grip { grip, .. } => {
+                let grip = &assembly.grips[grip];
+                Origin::Grip(grip.robot, assembly.bodies[grip.body].block, bits(grip.at))
+            }
+            // Admissible forces are of these two kinds.
+            _ => continue,
+        };
+        if begins.last().is_none_or(|(_, last)| *last != origin) {
+            begins.push((k, origin));
+        }
+    }
+    begins
+}

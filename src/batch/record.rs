@@ -1,0 +1,268 @@
+//! [`Records`]: the scenes of a batch as bytes, read one at a time.
+
+use std::fmt;
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Read};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use super::Weigh;
+
+/// The longest record that is read, bytes: a line that never ends must not fill the memory.
+pub const LONGEST: usize = 1 << 28;
+
+/// One scene as it was found.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Record {
+    /// The file it stands in, as given; absent for standard input.
+    pub file: Option<PathBuf>,
+    /// The line it is, from 1; absent where it is a file of its own.
+    pub line: Option<usize>,
+    /// Its bytes without the line's end, or why they could not be read.
+    pub bytes: Result<Vec<u8>, String>,
+}
+
+impl Weigh for Record {
+    fn weight(&self) -> usize {
+        self.bytes.as_ref().map_or(0, Vec::len)
+    }
+}
+
+/// Where records come from.
+pub enum Input {
+    /// A scene on every line.
+    Lines {
+        /// The file, where it is one.
+        file: Option<PathBuf>,
+        /// What is read; opened when its turn comes where absent.
+        reader: Option<Box<dyn Read + Send>>,
+    },
+    /// A scene in a file of its own.
+    Whole(PathBuf),
+}
+
+impl fmt::Debug for Input {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Input::Lines { file, .. } => f.debug_tuple("Lines").field(file).finish(),
+            Input::Whole(path) => f.debug_tuple("Whole").field(path).finish(),
+        }
+    }
+}
+
+impl Input {
+    /// Lines of a stream that is open.
+    pub fn lines(file: Option<PathBuf>, reader: Box<dyn Read + Send>) -> Input {
+        Input::Lines {
+            file,
+            reader: Some(reader),
+        }
+    }
+}
+
+/// The records of some inputs, one after the other. Every line is a record, an empty one too, so that the answers can be
+/// laid beside the lines; the end of the last line may be missing.
+#[derive(Debug)]
+pub struct Records {
+    inputs: std::vec::IntoIter<Input>,
+    open: Option<Open>,
+    read: Arc<AtomicU64>,
+}
+
+struct Open {
+    file: Option<PathBuf>,
+    reader: BufReader<Box<dyn Read + Send>>,
+    line: usize,
+}
+
+impl fmt::Debug for Open {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Open").field("file", &self.file).finish()
+    }
+}
+
+impl Records {
+    /// The records of some inputs.
+    pub fn of(inputs: Vec<Input>) -> Records {
+        Records {
+            inputs: inputs.into_iter(),
+            open: None,
+            read: Arc::new(AtomicU64::new(0)),
+        }
+    }
+
+    /// How many bytes have been read, for as long as anybody wants to know.
+    pub fn read(&self) -> Arc<AtomicU64> {
+        Arc::clone(&self.read)
+    }
+
+    fn add(&self, bytes: usize) {
+        self.read.fetch_add(bytes as u64, Ordering::Relaxed);
+    }
+
+    fn whole(&self, path: PathBuf) -> Record {
+        let mut bytes = Vec::new();
+        let read = File::open(&path)
+            .and_then(|file| file.take(LONGEST as u64 + 1).read_to_end(&mut bytes));
+        self.add(bytes.len());
+        let bytes = match read {
+            Ok(size) if size > LONGEST => Err(too_long()),
+            Ok(_) => Ok(bytes),
+            Err(error) => Err(unread(&error)),
+        };
+        Record {
+            file: Some(path),
+            line: None,
+            bytes,
+        }
+    }
+}
+
+impl Iterator for Records {
+    type Item = Record;
+
+    fn next(&mut self) -> Option<Record> {
+        loop {
+            if let Some(open) = &mut self.open {
+                let number = open.line + 1;
+                let (size, bytes) = next_line(&mut open.reader);
+                if size > 0 || bytes.is_err() {
+                    open.line = number;
+                    let record = Record {
+                        file: open.file.clone(),
+                        line: Some(number),
+                        bytes,
+                    };
+                    // A stream that fails once is not asked again: it might fail for ever.
+                    if size == 0 {
+                        self.open = None;
+                    }
+                    self.add(size);
+                    return Some(record);
+                }
+                self.open = None;
+            }
+            match self.inputs.next()? {
+                Input::Whole(path) => return Some(self.whole(path)),
+                Input::Lines { file, reader } => {
+                    let opened = match (reader, &file) {
+                        (Some(reader), _) => Ok(reader),
+                        (None, Some(path)) => {
+                            File::open(path).map(|f| Box::new(f) as Box<dyn Read + Send>)
+                        }
+                        (None, None) => continue,
+                    };
+                    match opened {
+                        Ok(reader) => {
+                            self.open = Some(Open {
+                                file,
+                                reader: BufReader::with_capacity(1 << 16, reader),
+                                line: 0,
+                            });
+                        }
+                        Err(error) => {
+                            return Some(Record {
+                                file,
+                                line: None,
+                                bytes: Err(unread(&error)),
+                            });
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// How many bytes the next line took, its end included, and the line; 0 bytes at the end of the stream.
+fn next_line(reader: &mut impl BufRead) -> (usize, Result<Vec<u8>, String>) {
+    let mut line = Vec::new();
+    let mut size = 0;
+    loop {
+        let found = match reader.fill_buf() {
+            Ok(found) => found,
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => continue,
+            Err(error) => return (0, Err(unread(&error))),
+        };
+        if found.is_empty() {
+            break;
+        }
+        let end = found.iter().position(|b| *b == b'\n');
+        let piece = &found[..end.unwrap_or(found.len())];
+        // What is too long is read to its end and not kept.
+        if size + piece.len() <= LONGEST {
+            line.extend_from_slice(piece);
+        }
+        let used = piece.len() + usize::from(end.is_some());
+        size += used;
+        reader.consume(used);
+        if end.is_some() {
+            break;
+        }
+    }
+    if size > LONGEST + 1 {
+        return (size, Err(too_long()));
+    }
+    if line.last() == Some(&b'\r') {
+        line.pop();
+    }
+    (size, Ok(line))
+}
+
+fn too_long() -> String {
+    format!("it is longer than {} MiB", LONGEST >> 20)
+}
+
+fn unread(error: &io::Error) -> String {
+    format!("it cannot be read: {error}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A stream of so many bytes, `x` after `x`, then an end of line and one more line.
+    fn endless(size: usize) -> impl Read {
+        io::repeat(b'x').take(size as u64).chain(&b"\nafter\n"[..])
+    }
+
+    #[test]
+    fn a_line_that_is_too_long_is_told_and_the_next_is_read() {
+        let input = Input::lines(None, Box::new(endless(LONGEST + 5)));
+        let records: Vec<Record> = Records::of(vec![input]).collect();
+        assert_eq!(records.len(), 2);
+        assert!(
+            records[0]
+                .bytes
+                .as_ref()
+                .is_err_and(|why| why.contains("256 MiB"))
+        );
+        assert_eq!(records[1].bytes, Ok(b"after".to_vec()));
+    }
+
+    #[test]
+    fn ends_of_lines_are_no_part_of_them() {
+        let input = Input::lines(None, Box::new(&b"a\r\n\nb"[..]));
+        let bytes: Vec<_> = Records::of(vec![input]).map(|r| r.bytes).collect();
+        assert_eq!(bytes, [Ok(b"a".to_vec()), Ok(vec![]), Ok(b"b".to_vec())]);
+    }
+
+    #[test]
+    fn a_file_that_is_not_there_is_a_record_that_says_so() {
+        let gone = PathBuf::from("no/such/file.json");
+        let inputs = vec![
+            Input::Whole(gone.clone()),
+            Input::Lines {
+                file: Some(gone.clone()),
+                reader: None,
+            },
+            Input::lines(None, Box::new(&b"a"[..])),
+        ];
+        let records: Vec<Record> = Records::of(inputs).collect();
+        assert_eq!(records.len(), 3);
+        assert!(records[0].bytes.is_err() && records[1].bytes.is_err());
+        assert_eq!(records[1].file, Some(gone));
+        assert_eq!(records[2].line, Some(1));
+    }
+}

@@ -1,0 +1,142 @@
+//! What a batch reads: standard input, files and folders, in the order in which they are given.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use crate::batch::{Input, Record};
+use crate::cli::complaint::Complaint;
+
+/// Everything a batch reads.
+#[derive(Debug)]
+pub(super) struct Inputs {
+    pub list: Vec<Input>,
+    /// The paths of them, `-` for standard input.
+    pub files: Vec<PathBuf>,
+    /// How many bytes they have in all, where that is known.
+    pub bytes: Option<u64>,
+}
+
+/// The inputs behind some paths. Where pictures are drawn no two of them may have pictures of one name.
+pub(super) fn of(paths: &[PathBuf], drawn: bool) -> Result<Inputs, Vec<Complaint>> {
+    let stdin = Path::new("-");
+    let mut complaints = Vec::new();
+    if paths.iter().filter(|p| *p == stdin).count() > 1 {
+        complaints.push(Complaint::CommandLine(
+            "standard input (-) can be read only once".into(),
+        ));
+    }
+    let mut files = Vec::new();
+    for path in paths {
+        match scenes_of(path) {
+            Ok(found) => files.extend(found),
+            Err(complaint) => complaints.push(complaint),
+        }
+    }
+    if drawn {
+        complaints.extend(one_name(&files));
+    }
+    if !complaints.is_empty() {
+        return Err(complaints);
+    }
+    let sizes = files.iter().map(|path| match path == stdin {
+        // What a shell feeds into standard input is a file like any other, where the system has a name for it.
+        true => size(Path::new("/dev/stdin")),
+        false => size(path),
+    });
+    let bytes = sizes.sum();
+    let list = files.iter().map(|path| match path == stdin {
+        true => Input::lines(None, Box::new(io::stdin())),
+        false if is_whole(path) => Input::Whole(path.clone()),
+        false => Input::Lines {
+            file: Some(path.clone()),
+            reader: None,
+        },
+    });
+    Ok(Inputs {
+        list: list.collect(),
+        bytes,
+        files,
+    })
+}
+
+/// The name of a record's picture, without its ending.
+pub(super) fn picture_name(record: &Record) -> String {
+    let stem = record.file.as_deref().map(stem);
+    match (stem, record.line) {
+        (None, line) => format!("{:07}", line.unwrap_or(0)),
+        (Some(stem), None) => stem,
+        (Some(stem), Some(line)) => format!("{stem}-{line:07}"),
+    }
+}
+
+fn stem(path: &Path) -> String {
+    let stem = path.file_stem().unwrap_or_default();
+    stem.to_string_lossy().into_owned()
+}
+
+fn size(path: &Path) -> Option<u64> {
+    fs::metadata(path)
+        .ok()
+        .filter(fs::Metadata::is_file)
+        .map(|found| found.len())
+}
+
+/// Whether a file is one scene, and not one on every line.
+fn is_whole(path: &Path) -> bool {
+    path.extension()
+        .is_some_and(|ending| ending.eq_ignore_ascii_case("json"))
+}
+
+fn is_scenes(path: &Path) -> bool {
+    let known = ["json", "ndjson", "jsonl"];
+    let ending = path.extension().unwrap_or_default();
+    known.iter().any(|k| ending.eq_ignore_ascii_case(k))
+}
+
+/// A path itself, or the scenes in its folder in the order of their names.
+fn scenes_of(path: &Path) -> Result<Vec<PathBuf>, Complaint> {
+    let not_read = |why: String| Complaint::NotRead {
+        what: path.display().to_string(),
+        why,
+    };
+    if path == Path::new("-") {
+        return Ok(vec![path.to_owned()]);
+    }
+    let found = fs::metadata(path).map_err(|error| not_read(error.to_string()))?;
+    if !found.is_dir() {
+        return Ok(vec![path.to_owned()]);
+    }
+    let entries = fs::read_dir(path).map_err(|error| not_read(error.to_string()))?;
+    let mut files = Vec::new();
+    for entry in entries {
+        let file = entry.map_err(|error| not_read(error.to_string()))?.path();
+        if is_scenes(&file) && file.is_file() {
+            files.push(file);
+        }
+    }
+    files.sort();
+    match files.is_empty() {
+        true => Err(not_read(
+            "the folder has no .json, .ndjson or .jsonl file".into(),
+        )),
+        false => Ok(files),
+    }
+}
+
+/// Complains of files whose pictures would have one name.
+fn one_name(files: &[PathBuf]) -> Vec<Complaint> {
+    let mut first: BTreeMap<(String, bool), &Path> = BTreeMap::new();
+    let mut complaints = Vec::new();
+    for file in files {
+        if let Some(other) = first.insert((stem(file), is_whole(file)), file) {
+            complaints.push(Complaint::CommandLine(format!(
+                "the pictures of {} and {} would have the same names; rename one, or draw them into folders of their own",
+                other.display(),
+                file.display()
+            )));
+        }
+    }
+    complaints
+}

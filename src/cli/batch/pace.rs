@@ -1,0 +1,156 @@
+//! How far a batch is, how fast, and when it will be done: lines on standard error.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{Duration, Instant};
+
+use crate::cli::ending::Ending;
+use crate::cli::terminal::Terminal;
+
+/// On a terminal it is told every so often where nothing is said.
+const OFTEN: Duration = Duration::from_secs(2);
+
+/// The pace of a batch.
+pub(super) struct Pace<'t> {
+    terminal: &'t Terminal,
+    start: Instant,
+    /// How often it is told; never where absent.
+    every: Option<Duration>,
+    told: Instant,
+    /// Bytes of all inputs, and those read so far and before this run began.
+    all: Option<u64>,
+    read: Arc<AtomicU64>,
+    read_before: u64,
+    before: usize,
+    counts: [usize; 4],
+}
+
+/// The words for the kinds of answers, in the order in which they are counted.
+const WORDS: [&str; 4] = ["stable", "unstable", "undecided", "wrong"];
+
+impl<'t> Pace<'t> {
+    /// From now on.
+    pub fn begin(
+        terminal: &'t Terminal,
+        every: Option<f64>,
+        all: Option<u64>,
+        read: Arc<AtomicU64>,
+    ) -> Pace<'t> {
+        let now = Instant::now();
+        let watched = terminal.shows_progress().then_some(OFTEN);
+        Pace {
+            terminal,
+            start: now,
+            every: every.map(Duration::from_secs_f64).or(watched),
+            told: now,
+            all,
+            read,
+            read_before: 0,
+            before: 0,
+            counts: [0; 4],
+        }
+    }
+
+    /// So many scenes were answered by an earlier run.
+    pub fn skipped(&mut self, scenes: usize) {
+        self.before = scenes;
+        self.read_before = self.read.load(Ordering::Relaxed);
+        self.start = Instant::now();
+        if scenes > 0 {
+            self.terminal
+                .note(&format!("{scenes} scenes are answered already"));
+        }
+    }
+
+    /// One more scene is answered.
+    pub fn step(&mut self, ending: Ending) {
+        let kind = match ending {
+            Ending::Done => 0,
+            Ending::Unstable => 1,
+            Ending::Undecided => 2,
+            Ending::WrongInput | Ending::NotWritten => 3,
+        };
+        self.counts[kind] += 1;
+        let now = Instant::now();
+        if self.every.is_some_and(|every| now - self.told >= every) {
+            self.told = now;
+            let words = self.words((now - self.start).as_secs_f64());
+            self.terminal.note(&words);
+        }
+    }
+
+    /// Says what it came to, where anybody wants to know how it goes.
+    pub fn end(&self) {
+        if self.every.is_none() {
+            return;
+        }
+        let seconds = self.start.elapsed().as_secs_f64();
+        let counts = self.counts.iter().zip(WORDS);
+        let counts: Vec<String> = counts
+            .filter(|(count, _)| **count > 0)
+            .map(|(count, word)| format!("{count} {word}"))
+            .collect();
+        let done: usize = self.counts.iter().sum();
+        let rate = done as f64 / seconds.max(1e-9);
+        self.terminal.note(&format!(
+            "{done} scenes in {seconds:.1} s, {rate:.0} a second: {}",
+            match counts.is_empty() {
+                true => "nothing to do".to_owned(),
+                false => counts.join(", "),
+            }
+        ));
+    }
+
+    fn words(&self, seconds: f64) -> String {
+        let done: usize = self.counts.iter().sum();
+        let rate = done as f64 / seconds.max(1e-9);
+        let read = self.read.load(Ordering::Relaxed);
+        let left = self.all.and_then(|all| {
+            let (own, rest) = (
+                read.checked_sub(self.read_before)? as f64,
+                all.checked_sub(read)? as f64,
+            );
+            (own > 0.0).then(|| format!(", {} left", span(seconds * rest / own)))
+        });
+        format!(
+            "{} scenes, {rate:.0} a second{}",
+            self.before + done,
+            left.unwrap_or_default()
+        )
+    }
+}
+
+/// A time as a person says it.
+fn span(seconds: f64) -> String {
+    let whole = seconds.round().max(0.0) as u64;
+    match (whole / 3600, whole / 60 % 60, whole % 60) {
+        (0, 0, s) => format!("{s} s"),
+        (0, m, s) => format!("{m} min {s} s"),
+        (h, m, _) => format!("{h} h {m} min"),
+    }
+}
+
+/// How often it is told.
+pub(super) fn seconds(typed: &str) -> Result<f64, String> {
+    match typed.parse::<f64>() {
+        Ok(seconds) if (0.01..=86_400.0).contains(&seconds) => Ok(seconds),
+        _ => Err("it is a time in seconds, from 0.01 to 86400".into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::span;
+
+    #[test]
+    fn times_are_said_in_two_units_at_most() {
+        for (seconds, words) in [
+            (0.4, "0 s"),
+            (59.6, "1 min 0 s"),
+            (3_725.0, "1 h 2 min"),
+            (200_000.0, "55 h 33 min"),
+        ] {
+            assert_eq!(span(seconds), words);
+        }
+    }
+}

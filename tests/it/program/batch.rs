@@ -1,0 +1,378 @@
+//! `drystone batch`: a line for every scene, in order, whatever is wrong with some of them and however a run ends.
+
+use std::fs;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::process::Stdio;
+
+use serde_json::{Value, json};
+
+use super::{Bench, FALLS, STANDS, WRONG};
+
+/// A scene file on one line.
+fn line(text: &str) -> String {
+    let value: Value = serde_json::from_str(text).expect("JSON");
+    format!("{value}\n")
+}
+
+/// A tower of so many bricks, each shifted by so much: from 0.5/(bricks − 1) on it falls.
+fn tower(title: &str, bricks: usize, shift: f64) -> String {
+    let blocks: Vec<Value> = (0..bricks)
+        .map(|k| {
+            let (x, y) = (shift * k as f64, 0.5 * k as f64);
+            json!({ "polygon": [[x, y], [x + 1.0, y], [x + 1.0, y + 0.5], [x, y + 0.5]] })
+        })
+        .collect();
+    let ground = json!([{ "polygon": [[-9, -1], [99, -1], [99, 0], [-9, 0]] }]);
+    format!(
+        "{}\n",
+        json!({ "drystone": 1, "title": title, "contact_tolerance": 1e-6, "ground": ground, "blocks": blocks })
+    )
+}
+
+fn lines(out: &str) -> Vec<Value> {
+    assert!(out.is_empty() || out.ends_with('\n'), "{out:?}");
+    out.lines()
+        .map(|line| serde_json::from_str(line).unwrap_or_else(|e| panic!("{e}: {line}")))
+        .collect()
+}
+
+#[test]
+fn every_line_is_answered_in_its_place() {
+    let bench = Bench::new();
+    let stands = line(STANDS);
+    let input = format!("{stands}{}{{ \"drystone\": 1,\n\n{stands}", line(FALLS));
+    let ran = bench.run_with("batch --no-such", b"");
+    assert_eq!(ran.code, 2, "{}", ran.err);
+    let ran = bench.run_with("batch", input.as_bytes());
+    assert_eq!((ran.code, &*ran.err), (2, ""), "something was wrong");
+    let told = lines(&ran.out);
+    assert_eq!(told.len(), 5);
+    assert_eq!(
+        told[0],
+        json!({ "line": 1, "scene": "A lintel", "verdict": "stable" })
+    );
+    assert_eq!(told[1]["verdict"], "unstable", "the worst of both frames");
+    assert_eq!(told[2]["problems"][0]["line"], 3);
+    assert_eq!(told[3]["line"], 4, "an empty line has an answer too");
+    assert_eq!(told[3]["problems"].as_array().map(Vec::len), Some(1));
+    assert_eq!(told[4]["verdict"], "stable");
+}
+
+#[test]
+fn problems_are_told_with_their_places() {
+    let bench = Bench::new();
+    let input = format!("{}{}", line(STANDS), line(WRONG));
+    let told = lines(&bench.run_with("batch", input.as_bytes()).out);
+    let problems = told[1]["problems"].as_array().expect("a list");
+    let paths: Vec<&Value> = problems.iter().map(|p| &p["path"]).collect();
+    assert!(paths.contains(&&json!("blocks[1].weight")), "{paths:?}");
+    for problem in problems {
+        assert_eq!(problem["line"], 2, "the line of the input");
+        assert!(problem["column"].as_u64() > Some(0));
+        assert_ne!(problem["message"], "");
+    }
+    // A scene in a file of its own has lines of its own.
+    let ran = bench.run("batch wrong.json");
+    let told = lines(&ran.out);
+    assert_eq!(told[0]["file"], "wrong.json");
+    let on = |n| {
+        told[0]["problems"]
+            .as_array()
+            .into_iter()
+            .flatten()
+            .any(|p| p["line"] == n)
+    };
+    assert!(on(3) && on(4), "{}", ran.out);
+}
+
+#[test]
+fn many_threads_answer_as_one_does_and_as_check_does() {
+    let bench = Bench::new();
+    let mut input = String::new();
+    for k in 0..60 {
+        // Now and then a large one, so that later ones are ready first.
+        let bricks = if k % 7 == 0 { 60 } else { 5 };
+        input += &tower(&format!("tower {k}"), bricks, 0.004 * f64::from(k));
+    }
+    fs::write(bench.path("corpus.ndjson"), &input).expect("writable");
+    let one = bench.run("batch corpus.ndjson --jobs 1 --fields all");
+    let many = bench.run("batch corpus.ndjson --jobs 4 --fields all");
+    assert_eq!((one.code, one.out.len()), (many.code, many.out.len()));
+    assert!(one.out == many.out, "threads show in the output");
+    assert_eq!(one.code, 1, "some fall");
+    for (k, (text, told)) in input.lines().zip(lines(&one.out)).enumerate().step_by(9) {
+        fs::write(bench.path("single.json"), text).expect("writable");
+        let alone = bench.run("check --json --no-timing single.json");
+        let alone: Value = serde_json::from_str(&alone.out).expect("JSON");
+        assert_eq!(told["frames"], alone["frames"], "scene {k}");
+    }
+}
+
+#[test]
+fn fields_pick_what_is_written() {
+    let bench = Bench::new();
+    let whole = lines(&bench.run("batch falls.json --fields all").out).remove(0);
+    let list =
+        "verdict,frames.total_force,frames.interfaces.resultant.at,frames.proof,contact_tolerance";
+    let ran = bench.run(&format!("batch falls.json --fields {list}"));
+    let told = lines(&ran.out).remove(0);
+    let keys: Vec<&String> = told.as_object().expect("an object").keys().collect();
+    assert_eq!(keys, ["contact_tolerance", "file", "frames", "verdict"]);
+    assert_eq!(told["contact_tolerance"], whole["contact_tolerance"]);
+    for (part, all) in [0, 1].map(|k| (&told["frames"][k], &whole["frames"][k])) {
+        assert_eq!(part.as_object().map(|o| o.len()), Some(3));
+        assert_eq!(part["total_force"], all["total_force"]);
+        assert_eq!(part["proof"], all["proof"]);
+        let at = |v: &Value| v["interfaces"][0]["resultant"]["at"].clone();
+        assert_eq!(at(part), at(all));
+        assert_eq!(part["interfaces"][0].as_object().map(|o| o.len()), Some(1));
+    }
+    // Everything by its names is everything.
+    let ran =
+        bench.run("batch falls.json --fields drystone,scene,verdict,contact_tolerance,frames");
+    assert_eq!(lines(&ran.out).remove(0), whole);
+    // What is found out only on request is asked for by its own name.
+    let frame = |list: &str| {
+        let ran = bench.run(&format!("batch falls.json --fields {list}"));
+        lines(&ran.out)[0]["frames"][1].clone()
+    };
+    assert!(frame("frames.margins")["margins"]["friction"].is_number());
+    assert_eq!(
+        frame("frames.only_by_wedging"),
+        json!({ "only_by_wedging": false })
+    );
+    assert!(frame("frames.solve.seconds")["solve"]["seconds"].is_number());
+    assert!(frame("frames")["solve"].get("seconds").is_none());
+
+    let ran = bench.run("batch falls.json --fields verdict,frames.prof,x");
+    assert_eq!((ran.code, &*ran.out), (2, ""));
+    assert!(ran.err.contains("did you mean frames.proof?") && ran.err.contains("no field x"));
+}
+
+#[test]
+fn a_folder_is_read_in_the_order_of_names() {
+    let bench = Bench::new();
+    fs::create_dir(bench.path("in")).expect("made");
+    for (name, text) in [
+        ("in/b.json", STANDS.to_owned()),
+        ("in/a.ndjson", format!("{}{}", line(STANDS), line(FALLS))),
+        ("in/readme.txt", "no scene".into()),
+    ] {
+        fs::write(bench.path(name), text).expect("writable");
+    }
+    let told = lines(&bench.run("batch in stands.json").out);
+    let places: Vec<(String, Value)> = told
+        .iter()
+        .map(|t| (t["file"].to_string(), t["line"].clone()))
+        .collect();
+    assert_eq!(places.len(), 4);
+    assert!(places[0].0.contains("a.ndjson") && places[0].1 == 1 && places[1].1 == 2);
+    assert!(places[2].0.contains("b.json") && places[2].1.is_null());
+    assert_eq!(places[3].0, "\"stands.json\"");
+    let ran = bench.run("batch nowhere in");
+    assert_eq!((ran.code, &*ran.out), (2, ""));
+    assert!(ran.err.contains("nowhere"), "{}", ran.err);
+}
+
+#[test]
+fn an_interrupted_run_goes_on_where_it_ended() {
+    let bench = Bench::new();
+    let input: String = (0..20)
+        .map(|k| tower(&format!("tower {k}"), 4, 0.02 * f64::from(k)))
+        .collect();
+    fs::write(bench.path("in.ndjson"), &input).expect("writable");
+    let whole = bench.run("batch in.ndjson -o whole.ndjson");
+    assert_eq!((whole.code, &*whole.out), (1, ""));
+    let whole = fs::read(bench.path("whole.ndjson")).expect("there");
+    // Cut anywhere, within a line or between two, from nothing at all to all of it.
+    for cut in [0, 1, 30, whole.len() / 2, whole.len() - 1, whole.len()] {
+        fs::write(bench.path("part.ndjson"), &whole[..cut]).expect("writable");
+        let ran = bench.run("batch in.ndjson -o part.ndjson --resume --quiet");
+        assert_ne!(ran.code, 2, "{}", ran.err);
+        let resumed = fs::read(bench.path("part.ndjson")).expect("there");
+        assert!(resumed == whole, "cut at {cut}");
+    }
+    // Lines that are there are believed, not written anew.
+    let first = whole.iter().position(|b| *b == b'\n').expect("lines") + 1;
+    let mine = [b"mine\n", &whole[first..]].concat();
+    fs::write(bench.path("part.ndjson"), &mine).expect("writable");
+    bench.run("batch in.ndjson -o part.ndjson --resume");
+    assert_eq!(fs::read(bench.path("part.ndjson")).expect("there"), mine);
+    // An output of more lines belongs to another input.
+    let ran = bench.run("batch stands.json -o part.ndjson --resume");
+    assert_eq!(ran.code, 2);
+    assert!(
+        ran.err.contains("20 lines") && ran.err.contains("1 scenes"),
+        "{}",
+        ran.err
+    );
+    assert_eq!(fs::read(bench.path("part.ndjson")).expect("there"), mine);
+    assert_eq!(bench.run("batch --resume").code, 2, "without an output");
+}
+
+#[test]
+fn a_run_that_is_killed_leaves_whole_lines_to_go_on_from() {
+    let bench = Bench::new();
+    let mut command = bench.command("batch -o out.ndjson");
+    let mut child = command.stdin(Stdio::piped()).spawn().expect("starts");
+    let mut pipe = child.stdin.take().expect("piped");
+    let input: String = (0..6).map(|k| tower(&format!("{k}"), 3, 0.1)).collect();
+    pipe.write_all(input.as_bytes()).expect("read");
+    // An answer is written as soon as nothing else is ready, not when the input ends.
+    let whole = || fs::read_to_string(bench.path("out.ndjson")).unwrap_or_default();
+    for _ in 0..2000 {
+        if whole().lines().count() == 6 {
+            break;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    child.kill().expect("killed");
+    child.wait().expect("ended");
+    assert_eq!(lines(&whole()).len(), 6);
+    let more = format!("{input}{}", tower("last", 3, 0.1));
+    let ran = bench.run_with("batch -o out.ndjson --resume", more.as_bytes());
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let told = lines(&whole());
+    assert_eq!((told.len(), &told[6]["scene"]), (7, &json!("last")));
+}
+
+#[test]
+fn one_line_in_is_one_line_out_before_the_next_comes() {
+    let bench = Bench::new();
+    let mut child = bench
+        .command("batch")
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .expect("starts");
+    let mut pipe = child.stdin.take().expect("piped");
+    let mut answers = BufReader::new(child.stdout.take().expect("piped"));
+    for k in 1..=5 {
+        pipe.write_all(line(STANDS).as_bytes()).expect("read");
+        let mut answer = String::new();
+        answers.read_line(&mut answer).expect("written");
+        assert!(answer.starts_with(&format!("{{\"line\":{k},")), "{answer}");
+    }
+    drop(pipe);
+    assert!(child.wait().expect("ended").success());
+}
+
+#[test]
+fn pictures_are_400_pixels_wide_and_named_after_their_lines() {
+    let bench = Bench::new();
+    let input = format!("{}broken\n{}", line(STANDS), line(FALLS));
+    let ran = bench.run_with("batch --render drawn", input.as_bytes());
+    let told = lines(&ran.out);
+    assert_eq!(told[0]["picture"], "0000001.png");
+    assert!(told[1].get("picture").is_none());
+    assert_eq!(told[2]["picture"], "0000003.png");
+    for name in ["0000001.png", "0000003.png"] {
+        let png = fs::read(bench.path("drawn").join(name)).expect("drawn");
+        assert!(png.starts_with(b"\x89PNG"));
+        assert_eq!(png[16..20], 400_u32.to_be_bytes(), "{name}");
+    }
+    assert_eq!(fs::read_dir(bench.path("drawn")).expect("there").count(), 2);
+    // The same figure as render makes.
+    let ran = bench.run("batch stands.json --render more --format svg");
+    assert_eq!(lines(&ran.out)[0]["picture"], "stands.svg");
+    bench.run("render stands.json -o alone.svg");
+    let both = ["more/stands.svg", "alone.svg"].map(|n| fs::read(bench.path(n)).expect("there"));
+    assert!(both[0] == both[1]);
+    fs::create_dir(bench.path("more/in")).expect("made");
+    fs::copy(bench.path("stands.json"), bench.path("more/in/stands.json")).expect("copied");
+    let ran = bench.run("batch stands.json more/in/stands.json --render drawn");
+    assert_eq!((ran.code, &*ran.out), (2, ""), "both would be stands.png");
+}
+
+#[test]
+fn a_limit_of_time_is_that_of_each_scene() {
+    let bench = Bench::new();
+    let input = format!("{}{}", tower("a", 30, 0.001), tower("b", 30, 0.001));
+    let ran = bench.run_with("batch --time-limit 0", input.as_bytes());
+    assert_eq!(ran.code, 3, "{}", ran.out);
+    assert!(
+        lines(&ran.out)
+            .iter()
+            .all(|told| told["verdict"] == "undecided")
+    );
+    let ran = bench.run_with("batch --time-limit 100", input.as_bytes());
+    assert_eq!(ran.code, 0, "{}", ran.out);
+}
+
+#[test]
+fn progress_is_told_on_standard_error_where_it_is_asked_for() {
+    let bench = Bench::new();
+    let input: String = (0..40).map(|k| tower(&k.to_string(), 12, 0.01)).collect();
+    fs::write(bench.path("in.ndjson"), input).expect("writable");
+    let ran = bench.run("batch in.ndjson --progress 0.01");
+    assert_eq!(lines(&ran.out).len(), 40);
+    assert!(ran.err.contains("a second"), "{}", ran.err);
+    assert!(ran.err.contains("40 scenes in"), "{}", ran.err);
+    assert!(ran.err.ends_with("40 stable\n"), "{}", ran.err);
+    assert_eq!(bench.run("batch in.ndjson").err, "");
+    assert_eq!(bench.run("batch in.ndjson --progress 0.01 --quiet").err, "");
+}
+
+#[test]
+fn a_reader_who_leaves_early_is_no_failure_though_the_input_never_ends() {
+    let bench = Bench::new();
+    let mut child = bench
+        .command("batch")
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("starts");
+    let mut pipe = child.stdin.take().expect("piped");
+    let endless =
+        std::thread::spawn(move || while pipe.write_all(line(STANDS).as_bytes()).is_ok() {});
+    let mut answers = BufReader::new(child.stdout.take().expect("piped"));
+    let mut answer = String::new();
+    answers.read_line(&mut answer).expect("written");
+    drop(answers);
+    assert_eq!(child.wait().expect("ended").code(), Some(0));
+    let mut said = String::new();
+    child
+        .stderr
+        .take()
+        .expect("piped")
+        .read_to_string(&mut said)
+        .expect("text");
+    assert_eq!(said, "");
+    endless.join().expect("the pipe is closed");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_told() {
+    let bench = Bench::new();
+    for target in ["-o /dev/full", "--render /dev/full/x"] {
+        let ran = bench.run(&format!("batch stands.json {target}"));
+        assert_eq!(ran.code, 4, "{target}: {}", ran.err);
+        assert!(ran.err.contains("cannot write /dev/full"), "{}", ran.err);
+    }
+    let full = fs::OpenOptions::new()
+        .write(true)
+        .open("/dev/full")
+        .expect("there");
+    let ended = bench
+        .command("batch stands.json")
+        .stdout(full)
+        .stderr(Stdio::null())
+        .status()
+        .expect("starts");
+    assert_eq!(ended.code(), Some(4));
+}
+
+#[test]
+fn the_output_is_not_an_input() {
+    let bench = Bench::new();
+    let ran = bench.run("batch stands.json -o stands.json");
+    assert_eq!(ran.code, 2, "{}", ran.err);
+    assert_eq!(
+        fs::read_to_string(bench.path("stands.json"))
+            .ok()
+            .as_deref(),
+        Some(STANDS)
+    );
+}
