@@ -8,7 +8,7 @@
 //! |---|---|
 //! | 0 | done; with `check`, or `render --strict`: everything is stable |
 //! | 1 | done, and something is unstable |
-//! | 2 | the input or the command line is wrong; nothing was written |
+//! | 2 | the input or the command line is wrong; nothing was written, but by `report`, which tells of the sound scenes and lists the others |
 //! | 3 | done, nothing is unstable, and something is undecided |
 //! | 4 | the output could not be written |
 //!
@@ -31,6 +31,7 @@ mod page;
 mod picture;
 mod progress;
 mod render;
+mod report;
 mod schema;
 mod script;
 mod shapes;
@@ -54,8 +55,8 @@ A verdict of 'stable' says that a balance of forces exists: for rigid blocks, la
 that lives on wedging counts as one.
 
 Exit codes: 0 done and stable, 1 something is unstable, 2 the input or the command line is wrong, 3 something is \
-undecided, 4 the output could not be written. A picture of a falling structure is a success: render and shapes end with \
-0 once it is written, unless --strict.";
+undecided, 4 the output could not be written. A picture of a falling structure is a success: render, report and shapes \
+end with 0 once it is written, unless --strict.";
 
 /// Does a structure of dry-laid blocks stand, how do the forces run, and a figure that shows it.
 #[derive(Debug, Parser)]
@@ -72,6 +73,7 @@ enum Command {
     Render(render::Render),
     Figures(figures::Figures),
     Check(check::Check),
+    Report(report::Report),
     Accuracy(accuracy::Accuracy),
     Schema(schema::Schema),
     New(new::New),
@@ -98,6 +100,7 @@ pub fn run() -> ExitCode {
         Command::Render(render) => render.run(&terminal),
         Command::Figures(figures) => figures.run(&terminal),
         Command::Check(check) => check.run(&terminal),
+        Command::Report(report) => report.run(&terminal),
         Command::Accuracy(accuracy) => accuracy.run(&terminal),
         Command::Schema(schema) => schema.run(&terminal),
         Command::New(new) => new.run(&terminal),

@@ -231,6 +231,7 @@ impl Picture {
                 Some(TextForm::Paths) => Words::Outlines,
             },
             fonts: fonts.clone(),
+            mark: None,
         }
     }
 

@@ -31,6 +31,7 @@ mod print;
 mod problems;
 mod mutant;
 mod program;
+mod report;
 mod scenes;
 mod sinks;
 mod small;
