@@ -51,6 +51,7 @@
 //! | [`proof`] | how well that is proved | an assembly and forces alone |
 //! | [`resultant`] | one force per interface | its corner forces |
 //! | [`Analysis`] | all that was found out | all of the above |
+//! | [`wording`] | sentences, and numbers with units | an analysis |
 //! | [`figure::forces`] | [`drawing::Drawing`] | an analysis |
 //! | [`output::svg::write`] | SVG text | a drawing |
 //! | [`output::png::render`] | PNG bytes | that text |
@@ -91,6 +92,8 @@ pub mod proof;
 pub mod resultant;
 
 pub mod analysis;
+
+pub mod wording;
 
 pub mod drawing;
 

@@ -1,26 +1,23 @@
-//! [`scatter`]: points on two logarithmic axes, the one door to plotters.
+//! Charts: [`scatter`], points on two logarithmic axes; [`bars`], how often what occurs; [`course`], step by step.
 //!
-//! plotters counts in whole pixels and lets labels collide; so the picture is drawn at ten times its size and the SVG's
+//! The one door to plotters is `plot`. plotters counts in whole pixels and lets labels collide; so the picture is drawn at ten times its size and the SVG's
 //! width and height are rewritten over the same view box. Logarithmic axes shorter than a decade lose their labels, so
 //! they are rounded outward to whole decades and at least two long. Words are set in our own font, registered under the
 //! name that the SVG then carries, so that no machine's fonts reach a picture.
 
+mod plot;
+
 use std::fmt;
-use std::sync::Once;
 
-use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
-use plotters::style::{FontStyle, RGBColor, register_font};
-
-use crate::drawing::Face;
-use crate::text::xml;
-
-/// Picture units per unit of the page.
-const FINE: i32 = 10;
-/// Width and height of the page.
+/// Width and height of a scatter.
 const SIZE: (i32, i32) = (900, 620);
-/// The fonts of the SVG: ours first, and that under the one name plotters always asks for.
-const FONT: &str = "sans-serif";
+/// Width and height of bars and courses.
+const SMALL: (i32, i32) = (420, 250);
+
+/// The colour of axes and words, so that a page can give them its own.
+pub const INK: &str = "#2D2D32";
+/// The colour of the lines behind.
+pub const GRID: &str = "#E1E1E4";
 
 /// Points that belong together, in the order of their line.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,19 +69,6 @@ impl Undrawn {
     }
 }
 
-/// Whole decades around some numbers, at least two.
-fn decades(values: impl Iterator<Item = f64> + Clone) -> (i32, i32) {
-    let least = values.clone().fold(f64::INFINITY, f64::min);
-    let most = values.fold(0.0, f64::max);
-    if !(least > 0.0 && most.is_finite() && least <= most) {
-        return (-1, 1);
-    }
-    // A little room, so that no mark sits on the frame.
-    let low = libm::floor(libm::log10(least) - 0.1) as i32;
-    let high = libm::ceil(libm::log10(most) + 0.1) as i32;
-    (low, high.max(low + 2))
-}
-
 /// `10⁻³`.
 pub fn power_of_ten(exponent: i32) -> String {
     let plain = exponent.to_string();
@@ -119,133 +103,148 @@ pub fn power_of_ten(exponent: i32) -> String {
 /// # Ok::<(), drystone::chart::Undrawn>(())
 /// ```
 pub fn scatter(chart: &Scatter) -> Result<String, Undrawn> {
-    static FONTS: Once = Once::new();
-    FONTS.call_once(|| {
-        // It fails only for a font file that cannot be read, and then drawing says so.
-        let _ = register_font(FONT, FontStyle::Normal, Face::Sans.data());
-        let _ = register_font(FONT, FontStyle::Bold, Face::SansBold.data());
-    });
-    let mut svg = String::new();
-    draw(chart, &mut svg).map_err(Undrawn::of)?;
-    let (w, h) = (SIZE.0 * FINE, SIZE.1 * FINE);
-    let head = format!("width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\"");
-    if !svg.contains(&head) {
-        return Err(Undrawn::of("the head of the SVG is not where it was"));
-    }
-    let (width, height) = SIZE;
-    let page = format!(
-        "width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {w} {h}\" role=\"img\" aria-label=\"{}\"",
-        xml(&chart.title)
-    );
-    Ok(svg.replacen(&head, &page, 1).replace(
-        &format!("font-family=\"{FONT}\""),
-        "font-family=\"Inter, 'Helvetica Neue', Arial, sans-serif\"",
-    ))
+    plot::document(SIZE, &chart.title, |svg| plot::scatter(chart, svg))
 }
 
-fn draw(chart: &Scatter, svg: &mut String) -> Result<(), Box<dyn std::error::Error>> {
-    let (w, h) = ((SIZE.0 * FINE) as u32, (SIZE.1 * FINE) as u32);
-    let area = SVGBackend::with_string(svg, (w, h)).into_drawing_area();
-    area.fill(&WHITE)?;
-    let all = chart.series.iter().flat_map(|s| &s.points);
-    let (left, right) = decades(all.clone().map(|p| p.x));
-    let (low, high) = decades(all.map(|p| p.y));
-    let ten = |e: i32| libm::exp10(f64::from(e));
-    let ink = RGBColor(45, 45, 50);
-    let font = |size: i32| (FONT, size * FINE).into_font().color(&ink);
-    let mut axes = ChartBuilder::on(&area)
-        .margin(14 * FINE)
-        .margin_right(230 * FINE)
-        .caption(&chart.title, font(17))
-        .x_label_area_size(46 * FINE)
-        .y_label_area_size(66 * FINE)
-        .build_cartesian_2d(
-            (ten(left)..ten(right)).log_scale(),
-            (ten(low)..ten(high)).log_scale(),
-        )?;
-    let label = |v: &f64| power_of_ten(libm::round(libm::log10(*v)) as i32);
-    // plotters takes the number as an upper bound, ends included.
-    let every = |low: i32, high: i32| (high - low + 3).clamp(4, 10) as usize;
-    axes.configure_mesh()
-        .x_labels(every(left, right))
-        .y_labels(every(low, high))
-        .x_label_formatter(&label)
-        .y_label_formatter(&label)
-        .x_desc(&chart.x)
-        .y_desc(&chart.y)
-        .label_style(font(12))
-        .axis_desc_style(font(13))
-        .axis_style(ink.stroke_width(FINE as u32))
-        .bold_line_style(RGBColor(225, 225, 228).stroke_width(FINE as u32))
-        .light_line_style(TRANSPARENT)
-        .draw()?;
-    let (name, front) = &chart.front;
-    let gold = RGBColor(240, 190, 60);
-    // A stair: between two points nothing better than the slower one's error is to be had at the faster one's time.
-    let mut stair: Vec<(f64, f64)> = Vec::new();
-    for (x, y) in front {
-        if let Some(last) = stair.last().copied() {
-            stair.push((*x, last.1));
+/// How often what occurs: a bar for every stretch between two edges.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bars {
+    /// What it shows, read aloud; the picture itself has no title.
+    pub title: String,
+    /// Below.
+    pub x: String,
+    /// Beside.
+    pub y: String,
+    /// The edges of the bars, rising, one more than there are bars.
+    pub edges: Vec<f64>,
+    /// How many lie between each two edges.
+    pub counts: Vec<usize>,
+    /// Red, green, blue.
+    pub colour: [u8; 3],
+}
+
+impl Bars {
+    /// Counts values in about ten bars whose edges are round numbers, beginning at 0; no bars where nothing is above 0.
+    /// A value on an edge counts with the bar above, the largest edge with the last bar.
+    ///
+    /// ```
+    /// use drystone::chart::Bars;
+    /// let bars = Bars::counted(&[0.5, 1.0, 7.0, 9.9], None);
+    /// assert_eq!((bars.edges[1], bars.counts[0], bars.counts[1], bars.counts[9]), (1.0, 1, 1, 1));
+    /// ```
+    pub fn counted(values: &[f64], most: Option<f64>) -> Bars {
+        let largest = most.unwrap_or_else(|| values.iter().copied().fold(0.0, f64::max));
+        let mut bars = Bars {
+            title: String::new(),
+            x: String::new(),
+            y: String::new(),
+            edges: Vec::new(),
+            counts: Vec::new(),
+            colour: [68, 121, 180],
+        };
+        if !(largest > 0.0 && largest.is_finite()) {
+            return bars;
         }
-        stair.push((*x, *y));
+        let step = round_step(largest / 10.0);
+        let count = (libm::ceil(largest / step - 1e-9) as usize).max(1);
+        bars.edges = (0..=count).map(|i| i as f64 * step).collect();
+        bars.counts = vec![0; count];
+        for value in values {
+            let bar = (libm::floor(value / step + 1e-9).max(0.0) as usize).min(count - 1);
+            bars.counts[bar] += 1;
+        }
+        bars
     }
-    axes.draw_series(LineSeries::new(stair, gold.stroke_width(6 * FINE as u32)))?;
-    for series in &chart.series {
-        let [r, g, b] = series.colour;
-        let colour = RGBColor(r, g, b);
-        axes.draw_series(LineSeries::new(
-            series.points.iter().map(|p| (p.x, p.y)),
-            colour.stroke_width(3 * FINE as u32 / 2),
-        ))?;
-        let dots = series.points.iter().map(|p| (p.x, p.y));
-        axes.draw_series(dots.map(|at| Circle::new(at, 4 * FINE, colour.filled())))?;
+}
+
+/// Draws bars as an SVG document.
+///
+/// # Errors
+/// Where plotters refuses, or there are no bars.
+pub fn bars(chart: &Bars) -> Result<String, Undrawn> {
+    if chart.counts.is_empty() || chart.edges.len() != chart.counts.len() + 1 {
+        return Err(Undrawn::of("there is nothing to count"));
     }
-    let red = RGBColor(215, 20, 30).stroke_width(4 * FINE as u32);
-    let wrong = chart
-        .series
-        .iter()
-        .flat_map(|s| &s.points)
-        .filter(|p| p.wrong);
-    axes.draw_series(wrong.clone().map(|p| Cross::new((p.x, p.y), 8 * FINE, red)))?;
-    // The legend stands beside the picture, where no point can be.
-    let mut y = 60 * FINE;
-    let x = (SIZE.0 - 225) * FINE;
-    let words = |text: &str, y: i32| {
-        let style = font(12).pos(Pos::new(HPos::Left, VPos::Center));
-        area.draw(&Text::new(text.to_owned(), (x + 30 * FINE, y), style))
-    };
-    for series in &chart.series {
-        let [r, g, b] = series.colour;
-        let dot = Circle::new((x + 12 * FINE, y), 4 * FINE, RGBColor(r, g, b).filled());
-        area.draw(&dot)?;
-        words(&series.name, y)?;
-        y += 20 * FINE;
+    plot::document(SMALL, &chart.title, |svg| plot::bars(chart, svg))
+}
+
+/// One quantity, or several of one unit, from step to step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Course {
+    /// What it shows, read aloud; the picture itself has no title.
+    pub title: String,
+    /// Beside.
+    pub y: String,
+    /// The names of the steps, short.
+    pub steps: Vec<String>,
+    /// The quantities, each with a name written at its end, a value for every step, none where there is none.
+    pub lines: Vec<(String, [u8; 3], Vec<Option<f64>>)>,
+}
+
+/// Draws a course as an SVG document.
+///
+/// # Errors
+/// Where plotters refuses, or there is nothing to draw.
+pub fn course(chart: &Course) -> Result<String, Undrawn> {
+    let values = chart.lines.iter().flat_map(|l| l.2.iter().flatten());
+    if chart.steps.is_empty() || !values.clone().all(|v| v.is_finite()) || values.count() == 0 {
+        return Err(Undrawn::of("there is nothing to draw"));
     }
-    if !front.is_empty() {
-        y += 8 * FINE;
-        let line = vec![(x, y), (x + 24 * FINE, y)];
-        area.draw(&PathElement::new(line, gold.stroke_width(6 * FINE as u32)))?;
-        words(name, y)?;
-        y += 20 * FINE;
-    }
-    if wrong.count() > 0 {
-        y += 4 * FINE;
-        area.draw(&Cross::new((x + 12 * FINE, y), 8 * FINE, red))?;
-        words(&chart.wrong, y)?;
-    }
-    area.present()?;
-    Ok(())
+    plot::document(SMALL, &chart.title, |svg| plot::course(chart, svg))
+}
+
+/// The least of 1, 2 and 5 times a power of ten that is at least `value`.
+pub(crate) fn round_step(value: f64) -> f64 {
+    let power = libm::exp10(libm::floor(libm::log10(value)));
+    let step = [1.0, 2.0, 5.0, 10.0]
+        .into_iter()
+        .find(|s| s * power >= value * (1.0 - 1e-9));
+    step.unwrap_or(10.0) * power
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::drawing::Face;
+
+    #[test]
+    fn every_value_is_counted_once_between_round_edges() {
+        let values: Vec<f64> = (0..137).map(|i| 0.31 * f64::from(i)).collect();
+        let bars = Bars::counted(&values, None);
+        assert_eq!(bars.counts.iter().sum::<usize>(), 137);
+        assert_eq!(bars.edges.last(), Some(&45.0));
+        assert_eq!(Bars::counted(&[0.0], None).counts, Vec::<usize>::new());
+        assert_eq!(
+            Bars::counted(&[1.0, 0.05], Some(1.0)).counts,
+            [1, 0, 0, 0, 0, 0, 0, 0, 0, 1]
+        );
+        assert!(super::bars(&Bars::counted(&[], None)).is_err());
+    }
+
+    #[test]
+    fn bars_and_courses_are_small_and_name_what_they_show() {
+        let mut chart = Bars::counted(&[1.0, 2.0, 2.5], None);
+        (chart.title, chart.x, chart.y) = ("t<".into(), "force, N".into(), "count".into());
+        let svg = super::bars(&chart).expect("drawn");
+        assert!(
+            svg.contains("force, N") && svg.contains("t&lt;") && svg.len() < 9000,
+            "{}",
+            svg.len()
+        );
+        let course = super::course(&Course {
+            title: "over the steps".into(),
+            y: "N".into(),
+            steps: vec!["a".into(), "b".into(), "c".into()],
+            lines: vec![("sum".into(), [0, 0, 200], vec![Some(3.0), None, Some(5.0)])],
+        });
+        assert!(course.is_ok_and(|svg| svg.contains("sum")));
+    }
 
     #[test]
     fn axes_run_over_whole_decades() {
-        assert_eq!(decades([2.0, 3.0].into_iter()), (0, 2));
-        assert_eq!(decades([1e-16, 0.5].into_iter()), (-17, 0));
-        assert_eq!(decades(std::iter::empty()), (-1, 1));
+        assert_eq!(plot::decades([2.0, 3.0].into_iter()), (0, 2));
+        assert_eq!(plot::decades([1e-16, 0.5].into_iter()), (-17, 0));
+        assert_eq!(plot::decades(std::iter::empty()), (-1, 1));
         assert_eq!(power_of_ten(-16), "10⁻¹⁶");
         assert_eq!(power_of_ten(3), "10³");
     }

@@ -27,6 +27,16 @@ impl Look {
         self.style.as_deref()
     }
 
+    /// The name of the theme asked for, where it alone says how figures look.
+    pub(crate) fn name(&self) -> Option<&str> {
+        self.theme.as_deref().filter(|_| self.style.is_none())
+    }
+
+    /// Whether a theme or a style was asked for.
+    pub(crate) fn is_chosen(&self) -> bool {
+        self.theme.is_some() || self.style.is_some()
+    }
+
     /// The theme asked for.
     pub(crate) fn theme(&self) -> Result<Theme, Complaint> {
         let base = self.theme.as_deref().and_then(Theme::named);

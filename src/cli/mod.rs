@@ -8,7 +8,7 @@
 //! |---|---|
 //! | 0 | done; with `check`, or `render --strict`: everything is stable |
 //! | 1 | done, and something is unstable |
-//! | 2 | the input or the command line is wrong; nothing was written, except by `batch`, which answers the other scenes |
+//! | 2 | the input or the command line is wrong; nothing was written, except by `batch` and `report`, which answer the sound scenes and list the others |
 //! | 3 | done, nothing is unstable, and something is undecided |
 //! | 4 | the output could not be written |
 //!
@@ -33,6 +33,7 @@ mod page;
 mod picture;
 mod progress;
 mod render;
+mod report;
 mod schema;
 mod script;
 mod shapes;
@@ -57,8 +58,8 @@ A verdict of 'stable' says that a balance of forces exists: for rigid blocks, la
 that lives on wedging counts as one.
 
 Exit codes: 0 done and stable, 1 something is unstable, 2 the input or the command line is wrong, 3 something is \
-undecided, 4 the output could not be written. A picture of a falling structure is a success: render and shapes end with \
-0 once it is written, unless --strict.";
+undecided, 4 the output could not be written. A picture of a falling structure is a success: render, report and shapes \
+end with 0 once it is written, unless --strict.";
 
 /// Does a structure of dry-laid blocks stand, how do the forces run, and a figure that shows it.
 #[derive(Debug, Parser)]
@@ -76,6 +77,7 @@ enum Command {
     Figures(figures::Figures),
     Check(check::Check),
     Batch(Box<batch::Batch>),
+    Report(report::Report),
     Accuracy(accuracy::Accuracy),
     Schema(schema::Schema),
     New(new::New),
@@ -105,6 +107,7 @@ pub fn run() -> ExitCode {
         Command::Figures(figures) => figures.run(&terminal),
         Command::Check(check) => check.run(&terminal),
         Command::Batch(batch) => batch.run(&terminal),
+        Command::Report(report) => report.run(&terminal),
         Command::Accuracy(accuracy) => accuracy.run(&terminal),
         Command::Schema(schema) => schema.run(&terminal),
         Command::New(new) => new.run(&terminal),

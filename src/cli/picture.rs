@@ -240,6 +240,7 @@ impl Picture {
                 Some(TextForm::Paths) => Words::Outlines,
             },
             fonts: fonts.clone(),
+            mark: None,
         }
     }
 

@@ -171,6 +171,14 @@ pub(crate) fn files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Complaint> {
 }
 
 fn read_one(path: &Path, tolerance: Option<f64>) -> Result<Source, Complaint> {
+    Ok(with_text(path, tolerance)?.0)
+}
+
+/// One scene and the text it was read from.
+pub(crate) fn with_text(
+    path: &Path,
+    tolerance: Option<f64>,
+) -> Result<(Source, String), Complaint> {
     let bytes = if path == Path::new("-") {
         let mut bytes = Vec::new();
         io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes)
@@ -186,10 +194,12 @@ fn read_one(path: &Path, tolerance: Option<f64>) -> Result<Source, Complaint> {
             name: name(path),
             problems,
         })?;
-    Ok(Source {
+    let source = Source {
         path: path.to_owned(),
         scene,
-    })
+    };
+    let text = String::from_utf8_lossy(&bytes);
+    Ok((source, text.trim_start_matches('\u{feff}').to_owned()))
 }
 
 /// How a person is told which file is meant.

@@ -4,13 +4,14 @@ use std::fmt::Write;
 
 use clap::builder::styling::{AnsiColor, Style};
 
-use crate::analysis::{Analysis, Failure, FrameAnalysis, Margin, Margins, Proof, Sides, Verdict};
+use crate::analysis::{Analysis, FrameAnalysis, Verdict};
 use crate::cli::page::Page;
-use crate::figure::letter;
-use crate::geometry::Point;
-use crate::report::result::{Timing, word};
-use crate::scene::{BlockId, RobotId, Scene};
+use crate::report::result::Timing;
+use crate::scene::Scene;
 use crate::text::heading;
+use crate::wording::number::{digits, duration, letter, tenths};
+use crate::wording::verdict::word;
+use crate::wording::{failure, margin, proof};
 
 /// What a verdict says and what it does not, for under the tables.
 pub(crate) const LIMITS: &str = "\
@@ -119,7 +120,7 @@ fn row(label: String, frame: &FrameAnalysis, timing: Timing) -> [String; 7] {
         .iter()
         .map(|r| r.limit_used)
         .fold(0.0, f64::max);
-    let mut proof = proof(frame.proof);
+    let mut proof = proof::short(frame.proof);
     if timing == Timing::Included {
         let _ = write!(proof, ", {}", duration(frame.solve.seconds));
     }
@@ -134,11 +135,11 @@ fn row(label: String, frame: &FrameAnalysis, timing: Timing) -> [String; 7] {
         } else {
             format!("{} N", digits(frame.total_sticking))
         },
-        percent(friction),
+        tenths(friction),
         if frame.robots.is_empty() {
             "no robot".into()
         } else {
-            percent(limit)
+            tenths(limit)
         },
         proof,
     ]
@@ -150,45 +151,13 @@ fn is_left_out(frame: &FrameAnalysis) -> bool {
     falls && frame.failures.is_empty() && frame.unsupported.is_empty()
 }
 
-fn proof(proof: Proof) -> String {
-    match proof {
-        Proof::Forces {
-            worst_imbalance,
-            worst_pull,
-            worst_slip,
-            ..
-        } => {
-            format!(
-                "forces balance to {}",
-                rough(worst_imbalance.max(worst_pull).max(worst_slip))
-            )
-        }
-        Proof::Mechanism { power, .. } => {
-            let ruled_out = match proof.rules_out() {
-                sum if sum.is_finite() => format!("no balance below {} loads", rough(sum)),
-                _ => "no balance at all".into(),
-            };
-            format!("motion of power {}: {ruled_out}", digits(power))
-        }
-    }
-}
-
-/// One digit is enough to see how small a number is.
-fn rough(x: f64) -> String {
-    if x == 0.0 {
-        "0".into()
-    } else {
-        format!("{x:.0e}")
-    }
-}
-
 /// What a reader needs to know of a frame beyond its line, a sentence each.
 fn remarks(scene: &Scene, frame: &FrameAnalysis) -> Vec<String> {
     let mut remarks: Vec<String> = frame
         .failures
         .iter()
         .take(TOLD)
-        .map(|f| sentence(scene, f))
+        .map(|f| failure::sentence(scene, f))
         .collect();
     if frame.failures.len() > TOLD {
         remarks.push(format!("and {} more", frame.failures.len() - TOLD));
@@ -225,168 +194,8 @@ fn remarks(scene: &Scene, frame: &FrameAnalysis) -> Vec<String> {
         remarks.push(format!("wedging: {}", effect.why));
     }
     if let Some(margins) = &frame.margins {
-        remarks.extend(edges(scene, margins));
+        remarks.extend(margin::lines(scene, margins));
     }
     remarks.extend(frame.notices.iter().map(|n| format!("note: {n}")));
     remarks
-}
-
-/// How far a frame is from the edge, a line per margin.
-fn edges(scene: &Scene, margins: &Margins) -> Vec<String> {
-    let or = |margin: &Margin, unit: &str, none: &str| match margin {
-        Margin::Value { at, .. } => format!("{}{unit}", digits(*at)),
-        Margin::None => none.into(),
-        Margin::Unbounded => "any".into(),
-    };
-    let edge = |margin: &Margin, unit: &str| or(margin, unit, "none (it falls at any)");
-    let sides = |sides: &Sides, unit: &str, none: &str| {
-        let (left, right) = (or(&sides.left, unit, none), or(&sides.right, unit, none));
-        format!("left {left}, right {right}")
-    };
-    let mut lines = vec![
-        format!("least friction: {}", edge(&margins.friction, "")),
-        format!(
-            "largest tilt: {}",
-            sides(&margins.tilt, "°", "none (it falls unturned)")
-        ),
-        format!(
-            "largest horizontal share of the weights: {}",
-            sides(&margins.horizontal_load, "", "none (it falls at any)")
-        ),
-        format!("largest kernel: {}", edge(&margins.kernel, "")),
-        format!(
-            "largest factor on the loads: {}",
-            edge(&margins.load_factor, "")
-        ),
-    ];
-    lines.extend(margins.robots.iter().map(|robot| {
-        format!(
-            "least limits of robot {}, each alone: fx {}, fy {}, torque {}",
-            scene.robots[robot.robot.0].id,
-            edge(&robot.fx, " N"),
-            edge(&robot.fy, " N"),
-            edge(&robot.torque, " N·m")
-        )
-    }));
-    lines
-}
-
-/// A failure in words.
-fn sentence(scene: &Scene, failure: &Failure) -> String {
-    let robot = |id: RobotId| scene.robots[id.0].id.as_str();
-    let block = |id: BlockId| scene.blocks[id.0].id.as_str();
-    match *failure {
-        Failure::Tension {
-            bodies: [a, b],
-            at,
-            force,
-        } => {
-            let (a, b, at) = (scene.name(a), scene.name(b), place(at));
-            format!(
-                "{a} comes off {b} at {at}: holding on would take a pull of {} N",
-                digits(force.norm())
-            )
-        }
-        Failure::Friction {
-            bodies: [a, b],
-            at,
-            force,
-        } => {
-            let (a, b, at) = (scene.name(a), scene.name(b), place(at));
-            format!(
-                "{a} slides along {b} at {at}: holding on would take {} N more than friction gives",
-                digits(force.norm())
-            )
-        }
-        Failure::RobotForce {
-            robot: r,
-            block: held,
-            force,
-            ..
-        } => {
-            let (x, y) = (digits(force.x), digits(force.y));
-            format!(
-                "robot {} cannot hold {}: it would have to give ({x}, {y}) N beyond its limits",
-                robot(r),
-                block(held)
-            )
-        }
-        Failure::RobotTorque {
-            robot: r,
-            block: held,
-            torque,
-            ..
-        } => {
-            let torque = digits(torque);
-            format!(
-                "robot {} cannot hold {}: it would have to give {torque} N·m beyond its limit",
-                robot(r),
-                block(held)
-            )
-        }
-    }
-}
-
-fn place(p: Point) -> String {
-    format!("({}, {}) m", digits(p.x), digits(p.y))
-}
-
-fn percent(share: f64) -> String {
-    format!("{} %", digits((share * 1000.0).round() / 10.0))
-}
-
-fn duration(seconds: f64) -> String {
-    if seconds < 1.0 {
-        format!("{} ms", digits(seconds * 1e3))
-    } else {
-        format!("{} s", digits(seconds))
-    }
-}
-
-/// Four significant digits, without zeros that say nothing.
-fn digits(x: f64) -> String {
-    let size = x.abs();
-    if x == 0.0 {
-        return "0".into();
-    }
-    if !(1e-3..1e6).contains(&size) {
-        return format!("{x:.3e}");
-    }
-    let before = if size >= 1.0 {
-        libm::log10(size).floor() as usize + 1
-    } else {
-        0
-    };
-    let text = format!("{x:.*}", 4usize.saturating_sub(before));
-    if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.').into()
-    } else {
-        text
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_are_short_and_keep_four_digits() {
-        let cases = [
-            (0.0, "0"),
-            (-0.0, "0"),
-            (43.371_94, "43.37"),
-            (24.0, "24"),
-            (1234.56, "1235"),
-            (-0.5, "-0.5"),
-            (0.054_12, "0.0541"),
-            (9.999_99, "10"),
-            (123_456.0, "123456"),
-            (1e9, "1.000e9"),
-            (1e-6, "1.000e-6"),
-            (f64::INFINITY, "inf"),
-        ];
-        for (x, text) in cases {
-            assert_eq!(digits(x), text, "{x}");
-        }
-    }
 }

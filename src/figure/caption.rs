@@ -1,12 +1,9 @@
 //! [`caption`]: what a figure shows, in plain words, written from the result.
 
-use super::verdict::{amount, shortened, uncarried, word};
-use super::words::{letter, quantity};
-use crate::analysis::{Analysis, Failure, FrameAnalysis, Verdict};
-use crate::scene::{BodyId, Scene};
-
-/// Above so many things that are missing the rest is counted.
-const MOST: usize = 4;
+use super::verdict::word;
+use super::words::letter;
+use crate::analysis::{Analysis, Verdict};
+use crate::wording::verdict::lacks;
 
 /// What a figure of an analysis shows: its title, and for every frame its verdict and what it lacks to stand.
 ///
@@ -46,61 +43,4 @@ pub fn caption(analysis: &Analysis<'_>) -> String {
         });
     }
     sentences.join(" ")
-}
-
-/// What a frame lacks to stand; empty where it stands.
-fn lacks(scene: &Scene, found: &FrameAnalysis) -> String {
-    let mut parts: Vec<String> = Vec::new();
-    parts.extend(uncarried(scene, found));
-    let mut failures: Vec<&Failure> = found.failures.iter().collect();
-    failures.sort_by(|a, b| amount(b).total_cmp(&amount(a)));
-    let failures: Vec<String> = failures.into_iter().map(|f| lacking(scene, f)).collect();
-    parts.extend(shortened(failures, MOST));
-    if found.only_by_wedging == Some(true) {
-        parts.push("only wedged, by forces that its loads alone do not build up".to_owned());
-    }
-    if found.verdict == Verdict::Undecided {
-        parts.push(found.doubt.clone());
-    }
-    parts.retain(|p| !p.is_empty());
-    parts.join("; ")
-}
-
-fn lacking(scene: &Scene, failure: &Failure) -> String {
-    let named = |id: BodyId| match id {
-        BodyId::Ground(_) => "the ground".to_owned(),
-        BodyId::Block(_) => format!("block {}", scene.name(id)),
-    };
-    match failure {
-        Failure::Tension {
-            bodies: [a, b],
-            force,
-            ..
-        } => format!(
-            "{} would have to stick to {} with {}",
-            named(*a),
-            named(*b),
-            quantity(force.norm(), "N")
-        ),
-        Failure::Friction {
-            bodies: [a, b],
-            force,
-            ..
-        } => format!(
-            "{} would have to hold on to {} against sliding with {}",
-            named(*a),
-            named(*b),
-            quantity(force.norm(), "N")
-        ),
-        Failure::RobotForce { robot, force, .. } => format!(
-            "robot {} would have to give {} more",
-            scene.robots[robot.0].id,
-            quantity(force.norm(), "N")
-        ),
-        Failure::RobotTorque { robot, torque, .. } => format!(
-            "robot {} would have to give a torque of {}",
-            scene.robots[robot.0].id,
-            quantity(torque.abs(), "N·m")
-        ),
-    }
 }

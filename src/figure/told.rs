@@ -5,6 +5,7 @@ use super::stage::Stage;
 use super::words::{force, quantity};
 use crate::analysis::Motion;
 use crate::scene::{Block, BodyId, Scene};
+pub(crate) use crate::wording::failure::{named, pair};
 
 /// A block's numbers in words.
 pub(crate) fn block(stage: &Stage<'_>, frame: usize, place: usize, block: &Block) -> String {
@@ -17,23 +18,6 @@ pub(crate) fn block(stage: &Stage<'_>, frame: usize, place: usize, block: &Block
         return format!("weight {weight}");
     }
     format!("weight {weight}, {fill}")
-}
-
-/// The two bodies of an interface: `2 and the ground`.
-pub(crate) fn pair(scene: &Scene, bodies: [BodyId; 2]) -> String {
-    let [a, b] = bodies.map(|id| match id {
-        BodyId::Ground(_) => "the ground",
-        BodyId::Block(_) => scene.name(id),
-    });
-    format!("{a} and {b}")
-}
-
-/// A body: `block 2`, `the ground`.
-pub(crate) fn named(scene: &Scene, body: BodyId) -> String {
-    match body {
-        BodyId::Ground(_) => "the ground".to_owned(),
-        BodyId::Block(_) => format!("block {}", scene.name(body)),
-    }
 }
 
 /// An arrow's numbers in words.

@@ -18,7 +18,7 @@ use resvg::usvg;
 
 use super::fonts::Fonts;
 use super::{MM_PER_INCH, PIXELS_PER_INCH, svg, tree};
-use crate::drawing::{Drawing, Face};
+use crate::drawing::{Drawing, Face, PagePoint};
 use crate::text::line;
 
 /// Why there is no PDF.
@@ -77,46 +77,116 @@ pub fn write_in(
 ) -> Result<Vec<u8>, PdfError> {
     let natural_mm = drawing.width * MM_PER_INCH / PIXELS_PER_INCH;
     let width = width_mm.unwrap_or(natural_mm);
-    let height = width * drawing.height / drawing.width;
-    let fits = |side: f64| (LEAST_MM..=MOST_MM).contains(&side);
-    if !(fits(width) && fits(height)) {
-        return Err(PdfError::Size { width, height });
-    }
-    let tree = tree::read(&svg::write(drawing), fonts).map_err(PdfError::Unwritable)?;
-    let points = |mm: f64| (mm * POINTS_PER_INCH / MM_PER_INCH) as f32;
-    let page = PageSettings::from_wh(points(width), points(height))
-        .ok_or(PdfError::Size { width, height })?;
-    let scale = points(width) / drawing.width as f32;
+    let sheet = Sheet {
+        width: drawing.width,
+        height: drawing.height,
+        parts: vec![Part {
+            drawing,
+            at: PagePoint::new(0.0, 0.0),
+            scale: 1.0,
+        }],
+    };
+    let told = Told {
+        title: &drawing.title,
+        description: &drawing.description,
+    };
+    document(&[sheet], width / drawing.width, &told, fonts)
+}
 
+/// A drawing in its place on a page.
+#[derive(Clone, Copy, Debug)]
+pub struct Part<'d> {
+    /// The drawing.
+    pub drawing: &'d Drawing,
+    /// Where its upper left corner lies, pixels of the page.
+    pub at: PagePoint,
+    /// Pixels of the page per pixel of the drawing.
+    pub scale: f64,
+}
+
+/// A page and the drawings on it.
+#[derive(Clone, Debug)]
+pub struct Sheet<'d> {
+    /// Width in pixels, 96 to the inch.
+    pub width: f64,
+    /// Height in pixels.
+    pub height: f64,
+    /// What is on it, the lowest first.
+    pub parts: Vec<Part<'d>>,
+}
+
+/// What a document says of itself.
+#[derive(Clone, Copy, Debug)]
+pub struct Told<'t> {
+    /// Its title.
+    pub title: &'t str,
+    /// What is in it, in sentences.
+    pub description: &'t str,
+}
+
+/// Pages of several drawings as a PDF, a pixel being a 96th of an inch.
+///
+/// # Errors
+/// As [`write()`], for any of its pages.
+pub fn write_sheets(sheets: &[Sheet<'_>], told: &Told<'_>) -> Result<Vec<u8>, PdfError> {
+    let natural = MM_PER_INCH / PIXELS_PER_INCH;
+    document(sheets, natural, told, &Fonts::default())
+}
+
+/// A document of pages, a pixel being so many millimetres.
+fn document(
+    sheets: &[Sheet<'_>],
+    mm_per_pixel: f64,
+    told: &Told<'_>,
+    fonts: &Fonts,
+) -> Result<Vec<u8>, PdfError> {
     let mut document = Document::new();
     document.set_metadata(
         Metadata::new()
-            .title(line(&drawing.title))
-            .description(drawing.description.clone())
+            .title(line(told.title))
+            .description(told.description.to_owned())
             .language("en".to_owned())
             .creator("drystone".to_owned())
             .producer("drystone".to_owned()),
     );
-    let mut page = document.start_page_with(page);
-    let mut surface = page.surface();
-    let figure = surface.start_tagged(ContentTag::Other);
-    surface.push_transform(&Transform::from_scale(scale, scale));
-    Pen {
-        surface: &mut surface,
-        fonts: Vec::new(),
-    }
-    .group(tree.root());
-    surface.pop();
-    surface.end_tagged();
-    surface.finish();
-    page.finish();
-
-    let told = [line(&drawing.title), line(&drawing.description)].join(". ");
     let mut tags = TagTree::new();
-    tags.push(TagGroup::with_children(
-        Tag::Figure(Some(told)),
-        vec![figure.into()],
-    ));
+    let mut known = Vec::new();
+    for sheet in sheets {
+        let (width, height) = (mm_per_pixel * sheet.width, mm_per_pixel * sheet.height);
+        let fits = |side: f64| (LEAST_MM..=MOST_MM).contains(&side);
+        if !(fits(width) && fits(height)) {
+            return Err(PdfError::Size { width, height });
+        }
+        let points = |mm: f64| (mm * POINTS_PER_INCH / MM_PER_INCH) as f32;
+        let page = PageSettings::from_wh(points(width), points(height))
+            .ok_or(PdfError::Size { width, height })?;
+        let scale = points(width) / sheet.width as f32;
+        let mut page = document.start_page_with(page);
+        let mut surface = page.surface();
+        for part in &sheet.parts {
+            let tree =
+                tree::read(&svg::write(part.drawing), fonts).map_err(PdfError::Unwritable)?;
+            let figure = surface.start_tagged(ContentTag::Other);
+            let (x, y) = (scale * part.at.x as f32, scale * part.at.y as f32);
+            let own = scale * part.scale as f32;
+            surface.push_transform(&Transform::from_row(own, 0.0, 0.0, own, x, y));
+            let mut pen = Pen {
+                surface: &mut surface,
+                fonts: std::mem::take(&mut known),
+            };
+            pen.group(tree.root());
+            known = pen.fonts;
+            surface.pop();
+            surface.end_tagged();
+            let told = [line(&part.drawing.title), line(&part.drawing.description)].join(". ");
+            tags.push(TagGroup::with_children(
+                Tag::Figure(Some(told)),
+                vec![figure.into()],
+            ));
+        }
+        surface.finish();
+        page.finish();
+    }
     document.set_tag_tree(tags);
     document
         .finish()

@@ -38,6 +38,9 @@ pub struct Options {
     pub words: Words,
     /// The fonts in which words become outlines.
     pub fonts: Fonts,
+    /// What the names of its elements begin with, letters and digits; made from the drawing's content where nothing is
+    /// said. Two drawings of the same content on one page need marks of their own.
+    pub mark: Option<String>,
 }
 
 /// Words that could not be laid out, or a font that could not be cut.
@@ -120,6 +123,9 @@ pub fn write_with(drawing: &Drawing, options: &Options) -> Result<String, WordsE
 
 /// A name that other drawings, and other forms of this one, do not have as a rule.
 fn mark_of(drawing: &Drawing, options: &Options) -> String {
+    if let Some(mark) = &options.mark {
+        return mark.clone();
+    }
     let form = match options.words {
         Words::Names => "",
         Words::Embedded => "embedded",

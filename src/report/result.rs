@@ -16,6 +16,7 @@ mod line;
 mod margin;
 mod note;
 mod refusal;
+mod page;
 
 use serde::{Serialize, Serializer};
 
@@ -25,15 +26,17 @@ pub use key::schema;
 pub use line::{Fields, Picture, Place, UnknownField, line_of, problem_line, verdict_line};
 use margin::Margins;
 pub use refusal::refusal;
+pub use page::{Counts, problems_json, quoted, report_json};
 
 use crate::analysis::{
-    Analysis, Contact, Failure, FrameAnalysis, Motion as Moved, Proof, RobotForce, Verdict,
+    Analysis, Contact, Failure, FrameAnalysis, Motion as Moved, Proof, RobotForce,
 };
 use crate::geometry::{Point, Vector};
 use crate::interface::ContactKind;
 use crate::scene::format::Lines;
 use crate::scene::{BlockId, BodyId, RobotId, Scene, ToleranceSource};
 use crate::text;
+pub use crate::wording::verdict::word;
 
 /// Whether a result tells how long it took.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -380,15 +383,6 @@ fn looked_at(frame: &FrameAnalysis, effect: &str) -> bool {
         .effects
         .iter()
         .any(|e| e.effect == effect && e.simulated)
-}
-
-/// The verdict's word, in results as in a person's table.
-pub fn word(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::Stable => "stable",
-        Verdict::Unstable => "unstable",
-        Verdict::Undecided => "undecided",
-    }
 }
 
 impl<'a> Motion<'a> {

@@ -105,6 +105,29 @@ pub fn csv(text: &str) -> String {
     format!("\"{mark}{}\"", line.replace('"', "\"\""))
 }
 
+/// A word of a command line as a shell of POSIX takes it: quoted where it must be, on one line.
+///
+/// ```
+/// use drystone::text::shell;
+/// assert_eq!(shell("walls/a-1.json"), "walls/a-1.json");
+/// assert_eq!(shell("it's $(a).json"), r"'it'\''s $(a).json'");
+/// assert_eq!(shell("-o.json"), "./-o.json");
+/// ```
+pub fn shell(word: &str) -> String {
+    let word = line(word);
+    let word = if word.len() > 1 && word.starts_with('-') {
+        // A file's name is no option.
+        format!("./{word}")
+    } else {
+        word
+    };
+    let plain = |c: char| c.is_ascii_alphanumeric() || "/._-+,:=@%".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        return word;
+    }
+    format!("'{}'", word.replace('\'', r"'\''"))
+}
+
 /// JSON whose strings hold nothing that a terminal would act on: the same values, written with escapes. Outside of strings
 /// there are no such characters.
 pub fn json(text: &str) -> String {

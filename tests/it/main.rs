@@ -33,6 +33,7 @@ mod print;
 mod problems;
 mod mutant;
 mod program;
+mod report;
 mod scenes;
 mod session;
 mod sinks;

@@ -269,7 +269,7 @@ const WRITERS: &[(&str, &[&str])] = &[
         &["cli/terminal.rs", "cli/mod.rs", "cli/progress.rs"],
     ),
     ("anstream", &["cli/terminal.rs"]),
-    ("PreEscaped", &["report/accuracy.rs"]),
+    ("PreEscaped", &["report/accuracy.rs", "report/html/"]),
     (
         "\"<",
         &[
@@ -279,6 +279,7 @@ const WRITERS: &[(&str, &[&str])] = &[
             "chart/",
             "report/book.rs",
             "report/accuracy.rs",
+            "report/markdown.rs",
             "report/result.rs",
         ],
     ),

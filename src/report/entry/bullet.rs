@@ -1,0 +1,206 @@
+//! [`Bullet`]: a margin as a bar: where it stands, and where it is now.
+
+use crate::analysis::{FrameAnalysis, Margin, Margins, Sides};
+use crate::scene::Scene;
+use crate::text;
+use crate::wording::margin::{NONE, UNTURNED, value};
+use crate::wording::number::digits;
+
+/// A margin: a stretch within which the structure stands, and the place where it is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bullet {
+    /// What varies, with its unit.
+    pub name: String,
+    /// Up to where it stands, in words.
+    pub words: String,
+    /// The ends of the scale.
+    pub scale: (f64, f64),
+    /// From where to where it stands; nowhere where `None`.
+    pub safe: Option<(f64, f64)>,
+    /// Where the structure is, where that is a place on the scale.
+    pub now: Option<f64>,
+    /// How much is left to the nearest edge, in parts of what there is: 0 at the edge, 1 where nothing limits it.
+    pub reserve: f64,
+    /// The margin in few words, for the table of all scenes.
+    pub short: String,
+}
+
+/// The margins of a frame as bars; none where they were not asked for.
+pub fn of(scene: &Scene, found: &FrameAnalysis) -> Vec<Bullet> {
+    let Some(margins) = &found.margins else {
+        return Vec::new();
+    };
+    let mut bullets = vec![friction(found, margins)];
+    bullets.push(sided("tilt of gravity", "°", &margins.tilt, 90.0, UNTURNED));
+    let share = &margins.horizontal_load;
+    bullets.push(sided(
+        "horizontal share of the weights",
+        "",
+        share,
+        1.0,
+        NONE,
+    ));
+    bullets.push(upwards(
+        "safety kernel",
+        &margins.kernel,
+        scene.kernel,
+        Some(1.0),
+    ));
+    if !scene.loads.is_empty() {
+        bullets.push(upwards(
+            "factor on the loads",
+            &margins.load_factor,
+            1.0,
+            None,
+        ));
+    }
+    for robot in &margins.robots {
+        let arm = &scene.robots[robot.robot.0];
+        let id = text::line(&arm.id);
+        for (name, unit, margin, limit) in [
+            ("horizontal force", "N", &robot.fx, arm.limits.fx),
+            ("vertical force", "N", &robot.fy, arm.limits.fy),
+            ("torque", "N·m", &robot.torque, arm.limits.torque),
+        ] {
+            let name = format!("{name} of robot {id}, {unit}");
+            bullets.push(needed(&name, unit, margin, limit));
+        }
+    }
+    bullets
+}
+
+/// The bullet with the least reserve.
+pub fn closest(bullets: &[Bullet]) -> Option<&Bullet> {
+    bullets
+        .iter()
+        .min_by(|a, b| a.reserve.total_cmp(&b.reserve))
+}
+
+fn friction(found: &FrameAnalysis, margins: &Margins) -> Bullet {
+    let all = found.contacts.iter().map(|c| c.interface.friction);
+    let least = all.fold(f64::INFINITY, f64::min);
+    let have = if least.is_finite() { least } else { 0.0 };
+    let needed = needed("friction coefficient, least", "", &margins.friction, have);
+    Bullet {
+        name: "friction coefficient".into(),
+        ..needed
+    }
+}
+
+/// What must be at least so much, and is so much.
+fn needed(name: &str, unit: &str, margin: &Margin, have: f64) -> Bullet {
+    let gap = if unit.is_empty() { "" } else { " " };
+    let need = margin.at();
+    let top = [Some(have), need]
+        .into_iter()
+        .flatten()
+        .filter(|v| v.is_finite())
+        .fold(0.0, f64::max);
+    let top = if top > 0.0 { 1.25 * top } else { 1.0 };
+    let safe = match margin {
+        Margin::Value { at, .. } => Some((*at, top)),
+        Margin::Unbounded => Some((0.0, top)),
+        Margin::None => None,
+    };
+    let has = if have.is_finite() {
+        format!("has {}{gap}{unit}", digits(have))
+    } else {
+        "has no limit".into()
+    };
+    let reserve = match need {
+        Some(need) if need <= 0.0 || have.is_infinite() => 1.0,
+        Some(need) if have > 0.0 => (1.0 - need / have).max(0.0),
+        Some(_) => 0.0,
+        None if *margin == Margin::Unbounded => 1.0,
+        None => 0.0,
+    };
+    let shown = value(margin, &format!("{gap}{unit}"), NONE);
+    Bullet {
+        name: name.into(),
+        words: match margin {
+            Margin::None => format!("falls at any; {has}"),
+            _ => format!("needs {shown}; {has}"),
+        },
+        scale: (0.0, top),
+        safe,
+        now: Some(have).filter(|v| v.is_finite()),
+        reserve,
+        short: format!(
+            "{}: needs {shown}, {has}",
+            name.split(',').next().unwrap_or(name)
+        ),
+    }
+}
+
+/// What may grow to either side, from nothing.
+fn sided(name: &str, unit: &str, sides: &Sides, all: f64, none: &str) -> Bullet {
+    let [left, right] = [&sides.left, &sides.right];
+    let most = [left, right]
+        .into_iter()
+        .filter_map(Margin::at)
+        .fold(0.0, f64::max);
+    let top = if most > 0.0 { 1.25 * most } else { all };
+    let reach = |margin: &Margin| match margin {
+        Margin::Value { at, .. } => *at,
+        Margin::Unbounded => top,
+        Margin::None => 0.0,
+    };
+    let falls = *left == Margin::None && *right == Margin::None;
+    let share = |margin: &Margin| match margin {
+        Margin::Value { at, .. } => (at / all).min(1.0),
+        Margin::Unbounded => 1.0,
+        Margin::None => 0.0,
+    };
+    let (least, side) = if share(left) <= share(right) {
+        (left, "left")
+    } else {
+        (right, "right")
+    };
+    let [to_left, to_right] = [left, right].map(|m| value(m, unit, none));
+    Bullet {
+        name: if unit.is_empty() {
+            name.into()
+        } else {
+            format!("{name}, {unit}")
+        },
+        words: if falls {
+            "falls as it is".into()
+        } else {
+            format!("{to_left} to the left, {to_right} to the right")
+        },
+        scale: (-top, top),
+        safe: (!falls).then(|| (-reach(left), reach(right))),
+        now: Some(0.0),
+        reserve: share(least),
+        short: format!("{name}: {} {side}", value(least, unit, none)),
+    }
+}
+
+/// What may grow from where it is.
+fn upwards(name: &str, margin: &Margin, now: f64, end: Option<f64>) -> Bullet {
+    let at = margin.at();
+    let top = end.unwrap_or_else(|| 1.25 * at.unwrap_or(now).max(now));
+    let reserve = match (margin, end) {
+        (Margin::Value { at, .. }, Some(end)) => ((at - now) / (end - now).max(1e-9)).max(0.0),
+        (Margin::Value { at, .. }, None) => (1.0 - now / at.max(1e-300)).max(0.0),
+        (Margin::Unbounded, _) => 1.0,
+        (Margin::None, _) => 0.0,
+    };
+    let shown = value(margin, "", NONE);
+    Bullet {
+        name: name.into(),
+        words: match margin {
+            Margin::None => format!("falls at any; has {}", digits(now)),
+            _ => format!("up to {shown}; has {}", digits(now)),
+        },
+        scale: (0.0, top),
+        safe: match margin {
+            Margin::Value { at, .. } => Some((0.0, *at)),
+            Margin::Unbounded => Some((0.0, top)),
+            Margin::None => None,
+        },
+        now: Some(now),
+        reserve: reserve.min(1.0),
+        short: format!("{name}: up to {shown}, has {}", digits(now)),
+    }
+}

@@ -1,0 +1,234 @@
+//! [`Entry`]: what a report tells of one scene, in words, numbers and drawings, without any markup.
+//!
+//! Made once from an analysis; every writer reads it and none asks the analysis again, so that a page, its Markdown and its
+//! PDF cannot disagree. Every word that came from a file is one harmless line here already ([`text::line`]); a writer
+//! still puts it through its own sink.
+
+mod bullet;
+mod comparison;
+mod grid;
+mod row;
+mod step;
+mod touch;
+
+pub use bullet::Bullet;
+pub use comparison::{Side, compared};
+pub use grid::{Grid, Line};
+pub use row::{Row, Thumbnail};
+pub use step::Step;
+pub use touch::{Touch, touched};
+
+use crate::analysis::Analysis;
+use crate::chart::{self, Course, Undrawn};
+use crate::drawing::{Drawing, Theme};
+use crate::report::accuracy;
+use crate::report::result::{Layout, Timing, accuracy_json, to_json};
+use crate::study::Study;
+use crate::text;
+use crate::wording::number::letter;
+
+/// What a report is asked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wanted {
+    /// Colours of the figures.
+    pub theme: Theme,
+    /// The theme's name where one was chosen, for the command that makes a figure again.
+    pub theme_name: Option<String>,
+    /// Whether it tells how long solving took.
+    pub timing: Timing,
+}
+
+impl Default for Wanted {
+    fn default() -> Wanted {
+        Wanted {
+            theme: Theme::default(),
+            theme_name: None,
+            timing: Timing::LeftOut,
+        }
+    }
+}
+
+/// A scene's file: its name as it was given, and its text.
+#[derive(Clone, Copy, Debug)]
+pub struct File<'f> {
+    /// The path as given, `-` for standard input.
+    pub name: &'f str,
+    /// The text.
+    pub text: &'f str,
+}
+
+/// What a report tells of one scene.
+#[derive(Clone, Debug)]
+pub struct Entry {
+    /// Its line in the table of all scenes.
+    pub row: Row,
+    /// What is to be said of the scene as a whole.
+    pub remarks: Vec<String>,
+    /// Its steps, one per frame.
+    pub steps: Vec<Step>,
+    /// Charts over its steps; none where there is one step.
+    pub charts: Vec<Chart>,
+    /// What accuracy costs on it, where that was asked for.
+    pub study: Option<Chart>,
+    /// Commands that make its figures again, each with what it makes.
+    pub commands: Vec<(String, String)>,
+    /// The scene file to copy, the same values with harmless characters.
+    pub source: String,
+    /// The objects of `check --json`, one line each.
+    pub results: Vec<String>,
+}
+
+/// A figure and what it shows.
+#[derive(Clone, Debug)]
+pub struct Plate {
+    /// What it shows.
+    pub caption: String,
+    /// The figure.
+    pub drawing: Drawing,
+}
+
+/// A chart as an SVG document, and what it shows.
+#[derive(Clone, Debug)]
+pub struct Chart {
+    /// What it shows.
+    pub caption: String,
+    /// The SVG.
+    pub svg: String,
+}
+
+impl Entry {
+    /// What a report tells of an analysis.
+    pub fn of(file: File<'_>, analysis: &Analysis<'_>, wanted: &Wanted) -> Entry {
+        let steps = step::all(analysis, wanted);
+        Entry {
+            row: Row::of(file.name, analysis),
+            remarks: analysis
+                .scene
+                .tolerance_words()
+                .iter()
+                .map(|words| text::line(words))
+                .collect(),
+            charts: courses(analysis),
+            study: None,
+            commands: commands(file.name, analysis, wanted),
+            source: text::json(file.text),
+            results: vec![result(file.name, analysis, wanted.timing)],
+            steps,
+        }
+    }
+
+    /// Adds what accuracy costs on the scene.
+    ///
+    /// # Errors
+    /// Where the chart cannot be drawn.
+    pub fn measured(&mut self, study: &Study) -> Result<(), Undrawn> {
+        self.study = Some(Chart {
+            caption: format!(
+                "What accuracy costs on this scene. {}",
+                accuracy::heading(study)
+            ),
+            svg: accuracy::svg(study)?,
+        });
+        let measured = accuracy_json(study);
+        let compact = measured.lines().map(str::trim).collect::<String>();
+        for result in &mut self.results {
+            let rest = result.trim_start_matches('{');
+            *result = format!("{{\"accuracy\":{compact},{rest}");
+        }
+        Ok(())
+    }
+}
+
+/// The object of `check --json` in one line, with the file it was read from.
+fn result(name: &str, analysis: &Analysis<'_>, timing: Timing) -> String {
+    let object = to_json(analysis, timing, Layout::OneLine);
+    let file = crate::report::result::quoted(name);
+    format!(
+        "{{\"file\":{file},{}",
+        object.trim_end().trim_start_matches('{')
+    )
+}
+
+/// The commands that make a scene's figures again.
+fn commands(name: &str, analysis: &Analysis<'_>, wanted: &Wanted) -> Vec<(String, String)> {
+    let theme = wanted
+        .theme_name
+        .as_ref()
+        .map_or(String::new(), |theme| format!(" --theme {theme}"));
+    let file = text::shell(name);
+    let command = |kind: &str| format!("drystone render {file} -o figure.svg{kind}{theme}");
+    let mut commands = vec![("the figure of forces".to_owned(), command(""))];
+    if analysis.frames.iter().any(step::has_mechanism) {
+        let how = "how it falls".to_owned();
+        commands.push((how, command(" --kind mechanism")));
+    }
+    commands.push((
+        "the numbers".to_owned(),
+        format!("drystone check --json {file}"),
+    ));
+    commands
+}
+
+/// Charts over the steps of a scene.
+fn courses(analysis: &Analysis<'_>) -> Vec<Chart> {
+    let frames = &analysis.frames;
+    if frames.len() < 2 {
+        return Vec::new();
+    }
+    let steps: Vec<String> = (0..frames.len()).map(letter).collect();
+    let blue = [68, 121, 180];
+    let red = [168, 0, 0];
+    let mut lines = vec![(
+        "forces".to_owned(),
+        blue,
+        frames.iter().map(|f| Some(f.total_force)).collect(),
+    )];
+    if frames.iter().any(|f| f.total_sticking > 0.0) {
+        lines.push((
+            "sticking".to_owned(),
+            red,
+            frames.iter().map(|f| Some(f.total_sticking)).collect(),
+        ));
+    }
+    let caption = match lines.len() {
+        1 => "Total force over the steps",
+        _ => "Total force over the steps, and what would have to be glued",
+    };
+    let mut charts = vec![(caption, "N", lines)];
+    if frames.iter().any(|f| f.margins.is_some()) {
+        let tilt = frames.iter().map(|f| {
+            let margins = f.margins.as_ref()?;
+            let [left, right] = [&margins.tilt.left, &margins.tilt.right].map(|m| m.at());
+            match (left, right) {
+                (Some(a), Some(b)) => Some(a.min(b)),
+                (a, b) => a.or(b),
+            }
+        });
+        let friction = frames.iter().map(|f| f.margins.as_ref()?.friction.at());
+        charts.push((
+            "The smaller of the largest tilts to either side, over the steps",
+            "degrees",
+            vec![("tilt".to_owned(), blue, tilt.collect())],
+        ));
+        charts.push((
+            "The least friction with which it stands, over the steps",
+            "coefficient",
+            vec![("friction".to_owned(), blue, friction.collect())],
+        ));
+    }
+    let drawn = charts.into_iter().filter_map(|(caption, y, lines)| {
+        let chart = Course {
+            title: caption.to_owned(),
+            y: y.to_owned(),
+            steps: steps.clone(),
+            lines,
+        };
+        // A chart of no numbers is no chart.
+        let svg = chart::course(&chart).ok()?;
+        Some(Chart {
+            caption: caption.to_owned(),
+            svg,
+        })
+    });
+    drawn.collect()
+}

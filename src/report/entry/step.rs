@@ -1,0 +1,434 @@
+//! [`Step`]: what a report tells of one frame.
+
+use super::bullet::{self, Bullet};
+use super::{Chart, Grid, Plate, Touch, Wanted};
+use crate::analysis::{Analysis, Contact, Failure, FrameAnalysis, Verdict};
+use crate::chart::{self, Bars};
+use crate::figure::{self, Kind, Options};
+use crate::geometry::Point;
+use crate::interface::ContactKind;
+use crate::report::result::Timing;
+use crate::scene::{BodyId, Scene};
+use crate::text::line;
+use crate::wording::number::{counted, digits, duration, letter, listed, percent, place};
+use crate::wording::{effect, failure, proof, verdict};
+
+/// Width of a figure, pixels.
+const WIDTH: f64 = 560.0;
+/// Of fewer interfaces a table says more than a chart.
+const FEW: usize = 8;
+/// So many figures of one scene are drawn with marks for the mouse only where they have at most this many of them.
+const MOST_TOUCHES: usize = 3000;
+
+/// What a report tells of one frame.
+#[derive(Clone, Debug)]
+pub struct Step {
+    /// Its letter in a strip; empty where it is the only one.
+    pub letter: String,
+    /// Its title, or what stands for one.
+    pub title: String,
+    /// Whether it stands.
+    pub verdict: Verdict,
+    /// The verdict in a sentence, with its reason.
+    pub sentence: String,
+    /// What else a reader should know, a sentence each.
+    pub remarks: Vec<String>,
+    /// The figures.
+    pub plates: Vec<Plate>,
+    /// What of the first figure belongs to which line of the tables.
+    pub touches: Vec<Touch>,
+    /// The margins, where they were asked for.
+    pub bullets: Vec<Bullet>,
+    /// Charts of its forces.
+    pub charts: Vec<Chart>,
+    /// Its tables, those first that say most; empty ones are left out.
+    pub grids: Vec<Grid>,
+    /// What its proof means.
+    pub proof: String,
+}
+
+/// Whether a frame has a motion to show.
+pub(super) fn has_mechanism(found: &FrameAnalysis) -> bool {
+    found.verdict == Verdict::Unstable && !found.mechanism.is_empty()
+}
+
+/// How figures of a report are drawn: what stands beside them on the page is not said in them.
+pub(super) fn options(wanted: &Wanted) -> Options {
+    Options {
+        theme: wanted.theme.clone(),
+        titles: false,
+        captions: false,
+        verdicts: false,
+        // Laid out for half a page: on it, and on a phone, its words can be read.
+        width: Some(WIDTH),
+        ..Options::default()
+    }
+}
+
+/// The steps of an analysis.
+pub(super) fn all(analysis: &Analysis<'_>, wanted: &Wanted) -> Vec<Step> {
+    let options = options(wanted);
+    let forces = figure::panels(analysis, Kind::Forces, &options);
+    let mut motions = if analysis.frames.iter().any(has_mechanism) {
+        let motions = figure::panels(analysis, Kind::Mechanism, &options);
+        motions.into_iter().map(Some).collect()
+    } else {
+        Vec::new()
+    };
+    let scene = analysis.scene;
+    let mut steps = Vec::with_capacity(analysis.frames.len());
+    for (number, (found, drawing)) in analysis.frames.iter().zip(forces).enumerate() {
+        let mut step = of(scene, number, found, wanted);
+        step.plates.push(Plate {
+            caption: if found.failures.is_empty() {
+                "The force on every block, as an arrow as long as it is large.".into()
+            } else {
+                "The force on every block, and in the colour of failure what would have to stick for it to stand."
+                    .into()
+            },
+            drawing,
+        });
+        let motion = motions.get_mut(number).and_then(Option::take);
+        if let Some(drawing) = motion.filter(|_| has_mechanism(found)) {
+            step.plates.push(Plate {
+                caption: "How it begins to fall: dashed where the blocks stand.".into(),
+                drawing,
+            });
+        }
+        steps.push(step);
+    }
+    steps
+}
+
+/// What is told of a frame, without its figures.
+fn of(scene: &Scene, number: usize, found: &FrameAnalysis, wanted: &Wanted) -> Step {
+    let several = scene.frames.len() > 1;
+    let title = line(&scene.frames[number].title);
+    let mut step = Step {
+        letter: if several {
+            letter(number)
+        } else {
+            String::new()
+        },
+        title: if title.is_empty() && several {
+            format!("Step {}", number + 1)
+        } else {
+            title
+        },
+        verdict: found.verdict,
+        sentence: line(&verdict::sentence(scene, found)),
+        remarks: remarks(found),
+        plates: Vec::new(),
+        touches: touches(scene, found),
+        bullets: bullet::of(scene, found),
+        charts: charts(found),
+        grids: Vec::new(),
+        proof: proof::sentence(found.proof),
+    };
+    let grids = [
+        totals(scene, number, found),
+        failures(scene, found),
+        interfaces(scene, found),
+        robots(scene, found),
+        cost(found, wanted.timing),
+        proved(found),
+    ];
+    step.grids = grids.into_iter().filter(|g| !g.lines.is_empty()).collect();
+    step
+}
+
+fn remarks(found: &FrameAnalysis) -> Vec<String> {
+    let mut remarks = Vec::new();
+    if !found.least_force && found.verdict == Verdict::Stable {
+        remarks.push("These forces balance; it was not shown that no smaller sum does.".to_owned());
+    }
+    let wedging = found
+        .effects
+        .iter()
+        .find(|e| e.effect == "wedging" && e.simulated);
+    if let Some(wedging) = wedging.filter(|_| found.only_by_wedging != Some(false)) {
+        remarks.push(format!("Wedging: {}.", line(&wedging.why)));
+    }
+    remarks.extend(found.notices.iter().map(|n| format!("Note: {}.", line(n))));
+    remarks
+}
+
+fn totals(scene: &Scene, number: usize, found: &FrameAnalysis) -> Grid {
+    let mut grid = Grid::new("In numbers", &["what", "#how much"]);
+    let mut add = |what: &str, much: String| grid.add("", [what.to_owned(), much]);
+    add("blocks", scene.frames[number].placed.len().to_string());
+    add(
+        "weight of all blocks",
+        format!("{} N", digits(found.weight)),
+    );
+    add(
+        "total force: sum of all normal, friction and robot forces",
+        format!("{} N", digits(found.total_force)),
+    );
+    if found.total_sticking > 0.0 {
+        add(
+            "total sticking: what would have to be glued for it to stand",
+            format!("{} N", digits(found.total_sticking)),
+        );
+    }
+    let largest = found
+        .contacts
+        .iter()
+        .max_by(|a, b| size(a).total_cmp(&size(b)));
+    if let Some(largest) = largest {
+        let between = failure::pair(scene, largest.interface.bodies);
+        add(
+            &line(&format!("largest force at an interface, between {between}")),
+            format!("{} N", digits(size(largest))),
+        );
+    }
+    grid
+}
+
+fn size(contact: &Contact) -> f64 {
+    contact.resultant.force.norm()
+}
+
+fn sum(contact: &Contact) -> f64 {
+    contact.normal_forces[0] + contact.normal_forces[1]
+}
+
+/// Where a resultant sits: 0 in the middle of its interface, 1 at an end; `None` without force or length.
+fn off_middle(contact: &Contact) -> Option<f64> {
+    let length = contact.interface.length();
+    if contact.interface.kind == ContactKind::Corner || length <= 0.0 || size(contact) == 0.0 {
+        return None;
+    }
+    let off = (contact.resultant.at - contact.interface.middle()).dot(&contact.interface.tangent());
+    Some((2.0 * off.abs() / length).min(1.0))
+}
+
+fn interfaces(scene: &Scene, found: &FrameAnalysis) -> Grid {
+    let mut grid = Grid::new(
+        "Interfaces",
+        &[
+            "between",
+            "#normal force N, N",
+            "#friction force T, N",
+            "#friction used",
+            "#resultant, from the middle to the edge",
+        ],
+    );
+    for (number, contact) in found.contacts.iter().enumerate() {
+        let between = failure::pair(scene, contact.interface.bodies);
+        let sits = match (contact.interface.kind, off_middle(contact)) {
+            (ContactKind::Corner, _) => "a corner".to_owned(),
+            (_, Some(off)) => percent(off),
+            (_, None) => "no force".to_owned(),
+        };
+        let cells = [
+            line(&between),
+            digits(sum(contact)),
+            digits(contact.friction_force.abs()),
+            percent(contact.friction_used),
+            sits,
+        ];
+        grid.add(format!("i{number}"), cells);
+    }
+    grid
+}
+
+fn robots(scene: &Scene, found: &FrameAnalysis) -> Grid {
+    let mut grid = Grid::new(
+        "Robots",
+        &[
+            "robot",
+            "holds",
+            "#force to the right, N",
+            "#force up, N",
+            "#torque, N·m",
+            "#limit used",
+        ],
+    );
+    for (number, robot) in found.robots.iter().enumerate() {
+        let limits = scene.robots[robot.robot.0].limits;
+        let limited = [limits.fx, limits.fy, limits.torque]
+            .iter()
+            .any(|l| l.is_finite() && *l > 0.0);
+        let cells = [
+            line(&scene.robots[robot.robot.0].id),
+            line(&scene.blocks[robot.block.0].id),
+            digits(robot.force.x),
+            digits(robot.force.y),
+            digits(robot.torque),
+            if limited {
+                percent(robot.limit_used)
+            } else {
+                "no limit".into()
+            },
+        ];
+        grid.add(format!("r{number}"), cells);
+    }
+    grid
+}
+
+fn failures(scene: &Scene, found: &FrameAnalysis) -> Grid {
+    let mut grid = Grid::new("What fails", &["what", "#missing"]);
+    for id in &found.unsupported {
+        let name = line(&scene.blocks[id.0].id);
+        let what = format!("nothing carries {name}: no way from there to the ground or to a robot");
+        grid.add("", [what, "all of it".to_owned()]);
+    }
+    for (number, failed) in found.failures.iter().enumerate() {
+        let cells = [
+            line(&failure::sentence(scene, failed)),
+            failure::amount_with_unit(failed),
+        ];
+        grid.add(format!("f{number}"), cells);
+    }
+    grid
+}
+
+fn cost(found: &FrameAnalysis, timing: Timing) -> Grid {
+    let mut grid = Grid::new(
+        "What was simulated, and what was left out",
+        &["effect", "simulated", "why", "#unknowns"],
+    );
+    for told in &found.effects {
+        let meaning = effect::meaning(told.effect);
+        let name = if meaning.is_empty() {
+            told.effect.to_owned()
+        } else {
+            format!("{}: {meaning}", told.effect)
+        };
+        let simulated = if told.simulated { "yes" } else { "left out" };
+        let unknowns = match (told.simulated, told.unknowns) {
+            (false, 0) | (true, 0) => "none".to_owned(),
+            (true, n) => n.to_string(),
+            (false, n) => format!("{n} saved"),
+        };
+        grid.add("", [name, simulated.to_owned(), line(&told.why), unknowns]);
+    }
+    let solve = &found.solve;
+    let unknowns: usize = found
+        .effects
+        .iter()
+        .filter(|e| e.simulated)
+        .map(|e| e.unknowns)
+        .sum();
+    let mut how = format!(
+        "{}, {}; {}, of which earlier steps answered {}",
+        counted(solve.programs, "program"),
+        counted(solve.iterations, "iteration"),
+        counted(solve.groups, "separate part"),
+        solve.reused
+    );
+    if timing == Timing::Included {
+        how.push_str(&format!("; {}", duration(solve.seconds)));
+    }
+    let name = format!("all together, decided by: {}", solve.method.name());
+    grid.add("", [name, String::new(), how, unknowns.to_string()]);
+    grid
+}
+
+fn proved(found: &FrameAnalysis) -> Grid {
+    let mut grid = Grid::new("The proof in numbers", &["what", "#how much"]);
+    for (what, much) in proof::numbers(found.proof) {
+        grid.add("", [what.to_owned(), much]);
+    }
+    grid
+}
+
+fn charts(found: &FrameAnalysis) -> Vec<Chart> {
+    if found.contacts.len() < FEW {
+        return Vec::new();
+    }
+    let forces: Vec<f64> = found.contacts.iter().map(size).collect();
+    let used: Vec<f64> = found
+        .contacts
+        .iter()
+        .filter(|c| sum(c) > 0.0)
+        .map(|c| 100.0 * c.friction_used)
+        .collect();
+    let kinds = [
+        (
+            "How many interfaces carry how much force",
+            "force at an interface, N",
+            Bars::counted(&forces, None),
+        ),
+        (
+            "How many pressed interfaces use how much of their friction",
+            "friction used, %",
+            Bars::counted(&used, Some(100.0)),
+        ),
+    ];
+    let drawn = kinds.into_iter().filter_map(|(caption, x, bars)| {
+        let chart = Bars {
+            title: caption.to_owned(),
+            x: x.to_owned(),
+            y: "interfaces".to_owned(),
+            ..bars
+        };
+        // Without any force there is nothing to count.
+        let svg = chart::bars(&chart).ok()?;
+        Some(Chart {
+            caption: caption.to_owned(),
+            svg,
+        })
+    });
+    drawn.collect()
+}
+
+fn touches(scene: &Scene, found: &FrameAnalysis) -> Vec<Touch> {
+    if found.contacts.len() > MOST_TOUCHES {
+        return Vec::new();
+    }
+    let mut touches = Vec::new();
+    for (number, contact) in found.contacts.iter().enumerate() {
+        let mut parts = vec![
+            format!("normal force {} N", digits(sum(contact))),
+            format!("friction force {} N", digits(contact.friction_force.abs())),
+            format!("friction used {}", percent(contact.friction_used)),
+        ];
+        if let Some(off) = off_middle(contact) {
+            parts.push(format!(
+                "resultant {} from the middle to the edge",
+                percent(off)
+            ));
+        }
+        let between = failure::pair(scene, contact.interface.bodies);
+        touches.push(Touch {
+            mark: format!("i{number}"),
+            words: line(&format!("Interface between {between}: {}", listed(&parts))),
+            ends: contact.interface.ends,
+        });
+    }
+    for (number, robot) in found.robots.iter().enumerate() {
+        let id = &scene.robots[robot.robot.0].id;
+        let held = failure::named(scene, BodyId::Block(robot.block));
+        let (x, y, turn) = (
+            digits(robot.force.x),
+            digits(robot.force.y),
+            digits(robot.torque),
+        );
+        let words = format!(
+            "Robot {id} holds {held} at {}: force ({x}, {y}) N, torque {turn} N·m",
+            place(robot.at)
+        );
+        touches.push(touch(format!("r{number}"), &words, robot.at));
+    }
+    for (number, failed) in found.failures.iter().enumerate() {
+        let at = match failed {
+            Failure::Tension { at, .. }
+            | Failure::Friction { at, .. }
+            | Failure::RobotForce { at, .. }
+            | Failure::RobotTorque { at, .. } => *at,
+        };
+        let words = format!("Failure: {}", failure::sentence(scene, failed));
+        touches.push(touch(format!("f{number}"), &words, at));
+    }
+    touches
+}
+
+fn touch(mark: String, words: &str, at: Point) -> Touch {
+    Touch {
+        mark,
+        words: line(words),
+        ends: [at, at],
+    }
+}

@@ -1,0 +1,386 @@
+//! A report as a PDF: pages of A4, figures as they are drawn, words in our own fonts that can be searched.
+//!
+//! A page is a drawing of words and lines, and figures in their places on it. Tables break between lines and begin again
+//! with their heads; a figure is made smaller where it must be and never cut.
+
+use super::entry::{Entry, Grid, Step};
+use super::page::{Report, Unwritable};
+use crate::drawing::text::{width, wrap};
+use crate::drawing::{
+    Anchor, Colour, Drawing, Face, Item, Outline, PagePoint, Path, Stroke, Text, Theme,
+};
+use crate::output::fonts::Fonts;
+use crate::output::pdf::{self, Part, Sheet, Told};
+use crate::text::line;
+use crate::wording::number::{percent, quantity};
+use crate::wording::verdict::plain;
+
+/// Width and height of A4, pixels, 96 to the inch.
+const PAGE: (f64, f64) = (793.7, 1122.5);
+/// The edge that stays empty, 15 mm.
+const EDGE: f64 = 56.7;
+/// Width of the words.
+const ROOM: f64 = PAGE.0 - 2.0 * EDGE;
+/// Where words end below.
+const BOTTOM: f64 = PAGE.1 - EDGE - 16.0;
+/// Size of the words, pixels: 9 pt.
+const SIZE: f64 = 12.0;
+/// Size of the words of tables, pixels: 7.9 pt.
+const SMALL: f64 = 10.5;
+/// Height of a line in sizes of its words.
+const LINE: f64 = 1.38;
+/// A figure is no higher than this.
+const HIGHEST: f64 = 460.0;
+/// Room between two columns of a table.
+const GAP: f64 = 12.0;
+
+/// A page: its words, and figures in their places.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Page {
+    items: Vec<Item>,
+    figures: Vec<(Drawing, PagePoint, f64)>,
+}
+
+/// What is put on pages from top to bottom.
+struct Flow {
+    pages: Vec<Page>,
+    y: f64,
+    fonts: Fonts,
+    theme: Theme,
+}
+
+impl Flow {
+    fn new() -> Flow {
+        Flow {
+            pages: vec![Page::default()],
+            y: EDGE,
+            fonts: Fonts::default(),
+            theme: Theme::thesis(),
+        }
+    }
+
+    fn page(&mut self) -> &mut Page {
+        if self.pages.is_empty() {
+            self.pages.push(Page::default());
+        }
+        let last = self.pages.len() - 1;
+        &mut self.pages[last]
+    }
+
+    /// Makes sure of so much room below, on a new page where there is too little.
+    fn need(&mut self, height: f64) {
+        if self.y + height > BOTTOM && self.y > EDGE {
+            self.pages.push(Page::default());
+            self.y = EDGE;
+        }
+    }
+
+    fn put(&mut self, words: &str, x: f64, face: Face, size: f64, colour: Colour, anchor: Anchor) {
+        let at = PagePoint::new(x, self.y + size);
+        let text = Text::new(at, words, face, size, colour).anchored(anchor);
+        self.page().items.push(text.into());
+    }
+
+    /// Words that our fonts have: others are told by their code points.
+    fn legible(&self, words: &str) -> String {
+        self.fonts.spelled(&line(words)).into_owned()
+    }
+
+    fn words(&mut self, words: &str, face: Face, size: f64, colour: Colour) {
+        let words = self.legible(words);
+        for row in wrap(&words, face, size, ROOM) {
+            self.need(LINE * size);
+            self.put(&row, EDGE, face, size, colour, Anchor::Start);
+            self.y += LINE * size;
+        }
+    }
+
+    fn heading(&mut self, words: &str, size: f64) {
+        self.need(6.0 * size);
+        self.y += 0.5 * size;
+        self.words(words, Face::SerifBold, size, self.theme.ink);
+        self.y += 0.25 * size;
+    }
+
+    fn paragraph(&mut self, words: &str) {
+        self.words(words, Face::Sans, SIZE, self.theme.ink);
+        self.y += 0.4 * SIZE;
+    }
+
+    fn note(&mut self, words: &str) {
+        self.words(words, Face::Sans, SMALL, self.theme.faint);
+        self.y += 0.4 * SIZE;
+    }
+
+    /// A figure and what it shows, as wide as the words or less.
+    fn figure(&mut self, drawing: &Drawing, caption: &str) {
+        let scale = (ROOM / drawing.width)
+            .min(HIGHEST / drawing.height)
+            .min(1.0);
+        let (wide, high) = (scale * drawing.width, scale * drawing.height);
+        self.need(high + 3.0 * SMALL);
+        let at = PagePoint::new(EDGE + (ROOM - wide) / 2.0, self.y);
+        self.page().figures.push((drawing.clone(), at, scale));
+        self.y += high + 4.0;
+        self.note(caption);
+    }
+
+    fn grid(&mut self, grid: &Grid) {
+        if grid.lines.is_empty() {
+            return;
+        }
+        let cells: Vec<Vec<String>> = grid
+            .lines
+            .iter()
+            .map(|l| l.cells.iter().map(|c| self.legible(c)).collect())
+            .collect();
+        let heads: Vec<String> = grid.heads.iter().map(|h| h.0.clone()).collect();
+        let widths = widths(&heads, &cells);
+        let height = |row: &[String], face: Face| {
+            let lines = row.iter().zip(&widths);
+            let lines = lines.map(|(cell, w)| wrap(cell, face, SMALL, *w).len());
+            LINE * SMALL * lines.max().unwrap_or(1).max(1) as f64 + 4.0
+        };
+        let head = height(&heads, Face::SansBold);
+        self.need(3.0 * SIZE + head + 2.0 * LINE * SMALL);
+        if !grid.caption.is_empty() {
+            self.y += 0.4 * SIZE;
+            self.words(&grid.caption, Face::SansBold, SIZE, self.theme.ink);
+        }
+        self.row(&heads, grid, &widths, Face::SansBold, head);
+        for row in &cells {
+            let high = height(row, Face::Sans);
+            if self.y + high > BOTTOM {
+                self.pages.push(Page::default());
+                self.y = EDGE;
+                self.row(&heads, grid, &widths, Face::SansBold, head);
+            }
+            self.row(row, grid, &widths, Face::Sans, high);
+        }
+        self.y += 0.6 * SIZE;
+    }
+
+    fn row(&mut self, row: &[String], grid: &Grid, widths: &[f64], face: Face, high: f64) {
+        let top = self.y;
+        let mut x = EDGE;
+        for (column, (cell, wide)) in row.iter().zip(widths).enumerate() {
+            let number = grid.heads.get(column).is_some_and(|h| h.1);
+            let (at, anchor) = if number {
+                (x + wide, Anchor::End)
+            } else {
+                (x, Anchor::Start)
+            };
+            self.y = top;
+            // A cell that would not fit a page loses its end; its whole text is in the other forms of the report.
+            let most = ((BOTTOM - EDGE) / (LINE * SMALL)) as usize - 4;
+            for part in wrap(cell, face, SMALL, *wide).into_iter().take(most) {
+                self.put(&part, at, face, SMALL, self.theme.ink, anchor);
+                self.y += LINE * SMALL;
+            }
+            x += wide + GAP;
+        }
+        self.y = top + high.min(BOTTOM - EDGE);
+        let rule = Outline::line([
+            PagePoint::new(EDGE, self.y - 1.0),
+            PagePoint::new(x - GAP, self.y - 1.0),
+        ]);
+        let stroke = Stroke::new(self.theme.rule, 0.7);
+        self.page().items.push(Path::stroked(rule, stroke).into());
+    }
+}
+
+/// How wide the columns of a table are: as wide as their words where there is room, the widest narrowed where not.
+fn widths(heads: &[String], cells: &[Vec<String>]) -> Vec<f64> {
+    let longest = |words: &str| {
+        let parts = words.split_whitespace();
+        parts
+            .map(|w| width(w, Face::SansBold, SMALL))
+            .fold(0.0, f64::max)
+    };
+    let wide = |column: usize| {
+        let own = cells.iter().filter_map(|row| row.get(column));
+        let own = own.map(|c| width(c, Face::Sans, SMALL)).fold(0.0, f64::max);
+        // A head is broken at its spaces before it makes its column wider.
+        let head = width(&heads[column], Face::SansBold, SMALL).min(110.0);
+        own.max(head).max(longest(&heads[column])) + 2.0
+    };
+    let mut widths: Vec<f64> = (0..heads.len()).map(wide).collect();
+    let room = ROOM - GAP * heads.len().saturating_sub(1) as f64;
+    loop {
+        let sum: f64 = widths.iter().sum();
+        if sum <= room {
+            return widths;
+        }
+        let most = widths.iter().copied().fold(0.0, f64::max);
+        let next = widths
+            .iter()
+            .copied()
+            .filter(|w| *w < most)
+            .fold(20.0, f64::max);
+        let count = widths.iter().filter(|w| **w >= most).count() as f64;
+        let to = next.max(most - (sum - room) / count);
+        if to >= most {
+            // All are as narrow as they may be.
+            return widths;
+        }
+        for wide in widths.iter_mut().filter(|w| **w >= most) {
+            *wide = to;
+        }
+    }
+}
+
+/// The pages before the scenes.
+pub(super) fn head(report: &Report, summary: &str) -> Vec<Page> {
+    let mut flow = Flow::new();
+    flow.heading(&report.title, 24.0);
+    flow.paragraph(&format!("{summary}."));
+    flow.note(
+        "“Stands” says that a balance of forces exists: for rigid blocks, laid dry (no mortar, no cohesion), at rest. A \
+         balance that lives on wedging counts. Nothing here moves in time.",
+    );
+    for note in &report.notes {
+        flow.note(note);
+    }
+    if !report.refused.is_empty() {
+        flow.heading("Files that are no scenes", 16.0);
+        for file in &report.refused {
+            flow.words(&file.name, Face::SansBold, SIZE, flow.theme.ink);
+            for line in file.lines() {
+                flow.paragraph(&line);
+            }
+        }
+    }
+    if report.pieces.len() > 1 {
+        let what = if report.compares {
+            "what changed"
+        } else {
+            "what fails"
+        };
+        let mut grid = Grid::new(
+            "All of them",
+            &[
+                "name",
+                "verdict",
+                "#friction used",
+                "#blocks",
+                "#largest force",
+                what,
+            ],
+        );
+        for piece in &report.pieces {
+            let row = &piece.row;
+            let cells = [
+                row.title.clone(),
+                plain(row.verdict).to_owned(),
+                percent(row.friction),
+                row.blocks.to_string(),
+                quantity(row.largest, "N"),
+                row.fails.clone(),
+            ];
+            grid.add("", cells);
+        }
+        flow.grid(&grid);
+    }
+    flow.pages
+}
+
+/// The pages of a scene.
+pub(super) fn section(entry: &Entry) -> Vec<Page> {
+    let mut flow = Flow::new();
+    let row = &entry.row;
+    flow.heading(&format!("{}: {}", row.title, plain(row.verdict)), 18.0);
+    flow.note(&row.name);
+    for remark in &entry.remarks {
+        flow.note(remark);
+    }
+    for step in &entry.steps {
+        self::step(&mut flow, step);
+    }
+    for (_, command) in &entry.commands {
+        flow.note(command);
+    }
+    flow.pages
+}
+
+fn step(flow: &mut Flow, step: &Step) {
+    if !step.letter.is_empty() {
+        let words = format!("({}) {}: {}", step.letter, step.title, plain(step.verdict));
+        flow.heading(&words, 14.0);
+    }
+    flow.paragraph(&step.sentence);
+    for remark in &step.remarks {
+        flow.note(remark);
+    }
+    for plate in &step.plates {
+        flow.figure(&plate.drawing, &plate.caption);
+    }
+    if !step.bullets.is_empty() {
+        let mut grid = Grid::new("Margins", &["margin", "in numbers"]);
+        for bullet in &step.bullets {
+            grid.add("", [bullet.name.clone(), bullet.words.clone()]);
+        }
+        flow.grid(&grid);
+    }
+    for grid in &step.grids {
+        flow.grid(grid);
+    }
+    if !step.proof.is_empty() {
+        flow.paragraph(&step.proof);
+    }
+}
+
+/// The pages as a PDF, each with its number.
+pub(super) fn written(
+    pages: &mut [Page],
+    title: &str,
+    description: &str,
+) -> Result<Vec<u8>, Unwritable> {
+    let count = pages.len();
+    let theme = Theme::thesis();
+    let title = line(title);
+    let words: Vec<Drawing> = pages
+        .iter_mut()
+        .enumerate()
+        .map(|(number, page)| {
+            let mut items = std::mem::take(&mut page.items);
+            let at = PagePoint::new(PAGE.0 - EDGE, PAGE.1 - EDGE + 8.0);
+            let number = format!("{} of {count}", number + 1);
+            let number = Text::new(at, number, Face::Sans, SMALL, theme.faint);
+            items.push(number.anchored(Anchor::End).into());
+            Drawing {
+                width: PAGE.0,
+                height: PAGE.1,
+                title: title.clone(),
+                description: String::new(),
+                background: None,
+                items,
+            }
+        })
+        .collect();
+    let sheets: Vec<Sheet<'_>> = pages
+        .iter()
+        .zip(&words)
+        .map(|(page, words)| {
+            let mut parts = vec![Part {
+                drawing: words,
+                at: PagePoint::new(0.0, 0.0),
+                scale: 1.0,
+            }];
+            parts.extend(page.figures.iter().map(|(drawing, at, scale)| Part {
+                drawing,
+                at: *at,
+                scale: *scale,
+            }));
+            Sheet {
+                width: PAGE.0,
+                height: PAGE.1,
+                parts,
+            }
+        })
+        .collect();
+    let told = Told {
+        title: &title,
+        description,
+    };
+    Ok(pdf::write_sheets(&sheets, &told)?)
+}

@@ -1,0 +1,282 @@
+//! Numbers with units and directions, as a person writes them.
+
+use crate::geometry::{Point, Vector};
+
+/// The space at which no line is broken.
+pub const NO_BREAK: char = '\u{a0}';
+
+/// An amount with three significant digits and its unit, with a prefix that keeps the number between 1 and 1000.
+///
+/// ```
+/// use drystone::wording::number::quantity;
+/// assert_eq!(quantity(5.7367, "N·m"), "5.74 N·m");
+/// assert_eq!(quantity(-12_000.0, "N"), "−12 kN");
+/// assert_eq!(quantity(999.7, "N"), "1 kN");
+/// assert_eq!(quantity(0.000_25, "N"), "250 µN");
+/// ```
+pub fn quantity(value: f64, unit: &str) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return if value == 0.0 {
+            format!("0 {unit}")
+        } else {
+            format!("unlimited {unit}")
+        };
+    }
+    // Rounded in decimal first: the digits then cannot round up over the edge of a prefix. A tie goes up, whichever side
+    // of it the noise of a solution fell.
+    let rounded = format!("{:.2e}", value.abs() * (1.0 + 1e-7));
+    let (mantissa, exponent) = rounded.split_once('e').unwrap_or((&rounded, "0"));
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    let sign = if value < 0.0 { "−" } else { "" };
+    let prefixes = ["n", "µ", "m", "", "k", "M", "G"];
+    // Down to hundredths a plain number is easier to compare with its neighbours than one with another prefix.
+    if (-2..0).contains(&exponent) {
+        let digits = mantissa.replace('.', "");
+        let zeros = "0".repeat((-1 - exponent) as usize);
+        return format!("{sign}0.{zeros}{} {unit}", digits.trim_end_matches('0'));
+    }
+    let step = exponent.div_euclid(3);
+    match usize::try_from(step + 3).ok().and_then(|i| prefixes.get(i)) {
+        Some(prefix) => {
+            let shift = exponent.rem_euclid(3) as usize;
+            let digits = mantissa.replace('.', "");
+            let (whole, part) = digits.split_at(1 + shift);
+            let part = part.trim_end_matches('0');
+            let dot = if part.is_empty() { "" } else { "." };
+            format!("{sign}{whole}{dot}{part} {prefix}{unit}")
+        }
+        None => {
+            let mantissa = mantissa.trim_end_matches('0').trim_end_matches('.');
+            format!("{sign}{mantissa}×10{} {unit}", superscript(exponent))
+        }
+    }
+}
+
+fn superscript(value: i32) -> String {
+    let raised = |c: char| match c {
+        '-' => '⁻',
+        '0' => '⁰',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        '4' => '⁴',
+        '5' => '⁵',
+        '6' => '⁶',
+        '7' => '⁷',
+        '8' => '⁸',
+        _ => '⁹',
+    };
+    value.to_string().chars().map(raised).collect()
+}
+
+/// A force's amount and direction: `7.1 N at 30°`, anticlockwise from the right.
+pub fn force(force: Vector) -> String {
+    // Rounded before it is brought into 0 … 359, so that a hair below the right is 0° and neither −0° nor 360°.
+    let degrees = (libm::atan2(force.y, force.x).to_degrees().round() + 360.0) % 360.0;
+    format!("{} at {degrees:.0}°", quantity(force.norm(), "N"))
+}
+
+/// An angle in degrees with two digits: `5.3°`, `12°`.
+pub fn degrees(angle: f64) -> String {
+    let decimals = if angle.abs() < 9.95 { 1 } else { 0 };
+    format!("{angle:.decimals$}°")
+}
+
+/// A share in whole percent: `97 %`. What is less than all of it is never called 100 %, what is more than nothing never 0 %.
+pub fn percent(share: f64) -> String {
+    let rounded = (100.0 * share).round();
+    let space = NO_BREAK;
+    match rounded {
+        _ if share >= ALL => format!("100{space}%"),
+        r if r >= 100.0 => format!("over 99{space}%"),
+        r if r <= 0.0 && share > 1.0 - ALL => format!("under 1{space}%"),
+        r => format!("{:.0}{space}%", r.max(0.0)),
+    }
+}
+
+/// A share that is no less than this is all of it: what is left is noise of the solution.
+pub const ALL: f64 = 1.0 - 1e-6;
+
+/// `1 hinge`, `2 hinges`.
+pub fn counted(count: usize, what: &str) -> String {
+    if count == 1 {
+        format!("1 {what}")
+    } else {
+        format!("{count} {what}s")
+    }
+}
+
+/// The largest of 1, 2 and 5 times a power of ten that is at most `value`, 0 for none.
+pub fn round_below(value: f64) -> f64 {
+    if !(value > 0.0 && value.is_finite()) {
+        return 0.0;
+    }
+    let text = format!("{value:e}");
+    let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    let lead = match mantissa.as_bytes().first() {
+        Some(b'5'..=b'9') => '5',
+        Some(b'2'..=b'4') => '2',
+        _ => '1',
+    };
+    format!("{lead}e{exponent}").parse().unwrap_or(0.0)
+}
+
+/// `a`, `a and b`, `a, b and c`.
+pub fn listed(parts: &[String]) -> String {
+    match parts {
+        [] => String::new(),
+        [one] => one.clone(),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+    }
+}
+
+/// The letter of panel `number` from 0: a … z, then aa, ab ….
+pub fn letter(number: usize) -> String {
+    let mut rest = number + 1;
+    let mut letters = Vec::new();
+    while rest > 0 {
+        rest -= 1;
+        letters.push(char::from(b'a' + (rest % 26) as u8));
+        rest /= 26;
+    }
+    letters.iter().rev().collect()
+}
+
+/// Four significant digits, without zeros that say nothing: for columns of numbers of one unit.
+///
+/// ```
+/// use drystone::wording::number::digits;
+/// assert_eq!((digits(43.371_94), digits(-0.0), digits(1e9)), ("43.37".into(), "0".into(), "1.000e9".into()));
+/// ```
+pub fn digits(x: f64) -> String {
+    let size = x.abs();
+    if x == 0.0 {
+        return "0".into();
+    }
+    if !(1e-3..1e6).contains(&size) {
+        return format!("{x:.3e}");
+    }
+    let before = if size >= 1.0 {
+        libm::log10(size).floor() as usize + 1
+    } else {
+        0
+    };
+    let text = format!("{x:.*}", 4usize.saturating_sub(before));
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').into()
+    } else {
+        text
+    }
+}
+
+/// One digit, enough to see how small a number is: `3e-12`.
+pub fn rough(x: f64) -> String {
+    if x == 0.0 {
+        "0".into()
+    } else {
+        format!("{x:.0e}")
+    }
+}
+
+/// A share in percent with one decimal: `66.7 %`.
+pub fn tenths(share: f64) -> String {
+    format!("{} %", digits((share * 1000.0).round() / 10.0))
+}
+
+/// A time in ms or s with four digits.
+pub fn duration(seconds: f64) -> String {
+    if seconds < 1.0 {
+        format!("{} ms", digits(seconds * 1e3))
+    } else {
+        format!("{} s", digits(seconds))
+    }
+}
+
+/// A place in metres: `(2, 1.5) m`.
+pub fn place(p: Point) -> String {
+    format!("({}, {}) m", digits(p.x), digits(p.y))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn amounts_are_short_and_keep_their_size() {
+        let cases = [
+            (0.0, "0 N"),
+            (24.0, "24 N"),
+            (43.372, "43.4 N"),
+            (433.72, "434 N"),
+            (0.1348, "0.135 N"),
+            (0.0123, "0.0123 N"),
+            (0.00456, "4.56 mN"),
+            (9.995e5, "1 MN"),
+            (4.125 - 1e-9, "4.13 N"),
+            (4.125 + 1e-9, "4.13 N"),
+            (1e-9, "1 nN"),
+            (2.5e14, "2.5×10¹⁴ N"),
+            (3e-15, "3×10⁻¹⁵ N"),
+        ];
+        for (value, expected) in cases {
+            assert_eq!(quantity(value, "N"), expected);
+        }
+    }
+
+    #[test]
+    fn only_all_of_it_is_100_percent() {
+        let plain = |share: f64| percent(share).replace(NO_BREAK, " ");
+        assert_eq!(plain(1.0 - 1e-9), "100 %");
+        assert_eq!(plain(0.9999), "over 99 %");
+        assert_eq!(plain(0.974), "97 %");
+        assert_eq!(plain(1e-4), "under 1 %");
+        assert_eq!((plain(0.0), plain(1e-12)), ("0 %".into(), "0 %".into()));
+    }
+
+    #[test]
+    fn directions_go_anticlockwise_from_the_right() {
+        assert_eq!(force(Vector::new(0.0, -6.0)), "6 N at 270°");
+        assert_eq!(force(Vector::new(3.0, 3.0)), "4.24 N at 45°");
+        assert_eq!(force(Vector::new(1.0, -1e-9)), "1 N at 0°");
+    }
+
+    #[test]
+    fn round_numbers_lie_below() {
+        for (value, expected) in [
+            (9.99, 5.0),
+            (5.0, 5.0),
+            (4.9, 2.0),
+            (0.013, 0.01),
+            (1e9, 1e9),
+            (0.0, 0.0),
+        ] {
+            assert_eq!(round_below(value), expected);
+        }
+        assert_eq!(
+            (letter(0), letter(25), letter(26)),
+            ("a".into(), "z".into(), "aa".into())
+        );
+        assert_eq!(listed(&["a".into(), "b".into(), "c".into()]), "a, b and c");
+    }
+
+    #[test]
+    fn numbers_are_short_and_keep_four_digits() {
+        let cases = [
+            (0.0, "0"),
+            (-0.0, "0"),
+            (43.371_94, "43.37"),
+            (24.0, "24"),
+            (1234.56, "1235"),
+            (-0.5, "-0.5"),
+            (0.054_12, "0.0541"),
+            (9.999_99, "10"),
+            (123_456.0, "123456"),
+            (1e9, "1.000e9"),
+            (1e-6, "1.000e-6"),
+            (f64::INFINITY, "inf"),
+        ];
+        for (x, text) in cases {
+            assert_eq!(digits(x), text, "{x}");
+        }
+    }
+}

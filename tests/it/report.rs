@@ -1,0 +1,283 @@
+//! `report`: one page for a person, in four forms; what it says, and how it behaves in a real browser.
+
+mod browser;
+mod page;
+
+use std::fs;
+use std::path::PathBuf;
+use std::process::{Command, Stdio};
+
+use tempfile::TempDir;
+
+const STANDS: &str = r#"{ "drystone": 1, "title": "A lintel", "friction": 0.6,
+  "ground": [{ "polygon": [[-1, -1], [7, -1], [7, 0], [-1, 0]] }],
+  "blocks": [
+    { "id": "left",   "polygon": [[0, 0], [1, 0], [1, 3], [0, 3]], "weight": 6 },
+    { "id": "right",  "polygon": [[5, 0], [6, 0], [6, 3], [5, 3]], "weight": 7 },
+    { "id": "lintel", "polygon": [[0, 3], [6, 3], [6, 4], [0, 4]], "weight": 11 } ] }"#;
+
+/// Falls in its first step, and is held in its second.
+const FALLS: &str = r#"{ "drystone": 1, "title": "Half a lintel", "friction": 0.6,
+  "ground": [{ "polygon": [[-1, -1], [7, -1], [7, 0], [-1, 0]] }],
+  "blocks": [
+    { "id": "left",   "polygon": [[0, 0], [1, 0], [1, 3], [0, 3]], "weight": 6 },
+    { "id": "lintel", "polygon": [[0, 3], [6, 3], [6, 4], [0, 4]], "weight": 11 } ],
+  "robots": [{ "id": "crane" }],
+  "steps": [ { "title": "Alone", "place": ["left", "lintel"] },
+             { "title": "Held", "hold": { "crane": { "block": "lintel", "at": [5, 3.5] } } } ] }"#;
+
+/// Text that would act if it were taken for anything but text.
+const HOSTILE: &str = r#"{ "drystone": 1, "title": "<script>alert(1)</script> 𝔘🧱 שלום \u202egnihton",
+  "ground": [{ "polygon": [[-1, -1], [4, -1], [4, 0], [-1, 0]] }],
+  "blocks": [{ "id": "</noscript><img src=x onerror=alert(2)>", "polygon": [[0, 0], [1, 0], [1, 1], [0, 1]] }] }"#;
+
+const WRONG: &str = r#"{ "drystone": 1,
+  "blocks": [{ "id": "a", "polygon": [[0, 0], [1, 0], [1, 1]], "frction": 0.5, "weight": -3 }] }"#;
+
+/// A folder of scenes, gone with the test.
+struct Folder(TempDir);
+
+/// How a run ended, and what it said on standard error.
+struct Ran(i32, String);
+
+impl Folder {
+    fn new(files: &[(&str, &str)]) -> Folder {
+        let folder = Folder(tempfile::tempdir().expect("a folder"));
+        for (name, text) in files {
+            let path = folder.path(name);
+            fs::create_dir_all(path.parent().expect("below")).expect("writable");
+            fs::write(path, text).expect("writable");
+        }
+        folder
+    }
+
+    /// Two that stand or fall, and one of hostile words.
+    fn three() -> Folder {
+        Folder::new(&[
+            ("in/a.json", STANDS),
+            ("in/b.json", FALLS),
+            ("in/deep/c.json", HOSTILE),
+        ])
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn text(&self, name: &str) -> String {
+        fs::read_to_string(self.path(name)).unwrap_or_else(|e| panic!("{name}: {e}"))
+    }
+
+    fn run(&self, line: &str) -> Ran {
+        let output = Command::new(env!("CARGO_BIN_EXE_drystone"))
+            .args(line.split_whitespace())
+            .current_dir(self.0.path())
+            .stdin(Stdio::null())
+            .output()
+            .expect("starts");
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(!said.contains("panicked"), "{said}");
+        Ran(output.status.code().expect("no signal"), said)
+    }
+
+    /// Runs a line that must end well.
+    fn done(&self, line: &str) {
+        let Ran(code, said) = self.run(line);
+        assert_eq!(code, 0, "{line}: {said}");
+    }
+}
+
+#[test]
+fn a_report_ends_as_other_pictures_do_and_strict_as_check_does() {
+    let folder = Folder::three();
+    for (line, code) in [
+        ("report in -o r.html", 0),
+        ("report in -o r.html --strict", 1),
+        ("report in/a.json -o r.html --strict", 0),
+        ("report in -o r.txt", 2),
+        ("report in -o r.html --split", 2),
+        ("report -o r.html", 2),
+        ("report nowhere.json -o n.html", 2),
+        ("report in/a.json -o in/a.json", 2),
+        ("report in --compare -o r.html", 2),
+        ("report in in/a.json --compare -o r.html", 2),
+        ("report in -o missing/r.html", 4),
+    ] {
+        let Ran(ended, said) = folder.run(line);
+        assert_eq!(ended, code, "{line}: {said}");
+    }
+    assert!(!folder.path("n.html").exists(), "nothing was sound");
+    assert_eq!(folder.text("in/a.json"), STANDS);
+}
+
+#[test]
+fn a_broken_scene_among_sound_ones_is_listed_and_nothing_is_lost() {
+    let folder = Folder::new(&[
+        ("in/a.json", STANDS),
+        ("in/b.json", WRONG),
+        ("in/c.json", FALLS),
+    ]);
+    for form in ["html", "md", "json", "pdf"] {
+        let Ran(code, said) = folder.run(&format!("report in -o r.{form}"));
+        assert_eq!(code, 2, "{said}");
+        assert!(said.contains("frction") && said.contains("-3"), "{said}");
+        assert!(folder.path(&format!("r.{form}")).exists());
+    }
+    let page = folder.text("r.html");
+    let listed = page.find("in/b.json").expect("listed");
+    assert!(
+        listed < page.find("A lintel").expect("reported"),
+        "at the top"
+    );
+    for words in [
+        "frction",
+        "-3",
+        "Half a lintel",
+        "1 stands, 1 falls; 1 file is no scene",
+    ] {
+        assert!(page.contains(words), "{words}");
+    }
+    let json: serde_json::Value = serde_json::from_str(&folder.text("r.json")).expect("JSON");
+    assert_eq!(
+        json["summary"],
+        serde_json::json!({ "stable": 1, "unstable": 1, "undecided": 0, "refused": 1 })
+    );
+    let scenes = json["scenes"].as_array().expect("a list");
+    assert_eq!(scenes[0]["file"], "in/a.json");
+    assert_eq!(scenes[1]["frames"][0]["verdict"], "unstable");
+    assert_eq!(scenes[2]["problems"].as_array().map(Vec::len), Some(2));
+}
+
+#[test]
+fn the_same_scenes_give_the_same_bytes_and_times_only_where_asked_for() {
+    let folder = Folder::three();
+    for form in ["html", "md", "json", "pdf"] {
+        folder.done(&format!("report in -o a.{form} --margins --title T"));
+        folder.done(&format!("report in -o a2.{form} --margins --title T"));
+        let [a, b] = ["a", "a2"].map(|stem| {
+            let bytes = fs::read(folder.path(&format!("{stem}.{form}"))).expect("there");
+            String::from_utf8_lossy(&bytes).replace("a2-figures", "a-figures")
+        });
+        assert_eq!(a, b, "{form}");
+    }
+    assert!(!folder.text("a.json").contains("\"seconds\""));
+    folder.done("report in -o t.json --timing");
+    assert!(folder.text("t.json").contains("\"seconds\""));
+}
+
+#[test]
+fn every_result_is_the_one_that_check_prints() {
+    let folder = Folder::three();
+    folder.done("report in/b.json -o r.json --margins");
+    let report: serde_json::Value = serde_json::from_str(&folder.text("r.json")).expect("JSON");
+    let output = Command::new(env!("CARGO_BIN_EXE_drystone"))
+        .args(["check", "--json", "--no-timing", "--margins", "in/b.json"])
+        .current_dir(folder.0.path())
+        .output()
+        .expect("starts");
+    let check: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let mut scene = report["scenes"][0].clone();
+    let object = scene.as_object_mut().expect("an object");
+    assert_eq!(object.remove("file"), Some("in/b.json".into()));
+    assert_eq!(scene, check);
+}
+
+#[test]
+fn markdown_has_its_figures_beside_it_and_its_words_do_nothing() {
+    let folder = Folder::three();
+    folder.done("report in -o r.md");
+    let text = folder.text("r.md");
+    assert!(text.contains("# Do they stand? 3 scenes") && text.contains("Half a lintel: falls"));
+    let mut figures = 0;
+    for part in text.split("](<").skip(1) {
+        let name = part.split(">)").next().expect("closed");
+        assert!(folder.text(name).starts_with("<svg"), "{name}");
+        figures += 1;
+    }
+    // Each of four steps has its forces, the falling one its motion, and two steps one chart.
+    assert_eq!(figures, 6, "{text}");
+    assert!(
+        !text.contains("<script") && !text.contains("<img"),
+        "{text}"
+    );
+    assert!(!text.contains('\u{202e}'));
+}
+
+#[test]
+fn a_split_report_is_an_index_and_a_page_for_each_scene() {
+    let folder = Folder::three();
+    folder.done("report in -o out --split");
+    let index = folder.text("out/index.html");
+    for name in ["0001-a-lintel.html", "0002-half-a-lintel.html"] {
+        assert!(index.contains(&format!("href=\"{name}\"")), "{name}");
+        assert!(
+            folder
+                .text(&format!("out/{name}"))
+                .contains("href=\"index.html\"")
+        );
+    }
+    assert_eq!(fs::read_dir(folder.path("out")).expect("there").count(), 4);
+}
+
+#[test]
+fn a_comparison_tells_what_changed_and_marks_it_in_both_figures() {
+    let heavier = STANDS.replace("\"weight\": 11", "\"weight\": 22");
+    let shifted = heavier.replace(
+        "[5, 0], [6, 0], [6, 3], [5, 3]",
+        "[4, 0], [5, 0], [5, 3], [4, 3]",
+    );
+    let folder = Folder::new(&[
+        ("a/x.json", STANDS),
+        ("b/x.json", &shifted),
+        ("a/only.json", STANDS),
+        ("b/same.json", STANDS),
+        ("a/same.json", STANDS),
+    ]);
+    folder.done("report --compare a b -o r.html");
+    let page = folder.text("r.html");
+    for words in [
+        "Only in the first folder: only.json",
+        "changed: lintel and right",
+        "weight 11 N → 22 N",
+        "centroid moved by (-1, 0) m",
+        "the same blocks in the same places",
+        "no force changed by over 5 %",
+    ] {
+        assert!(page.contains(words), "{words}");
+    }
+    // Two figures for each of two pairs; only the pair that differs bears marks, in both of its figures.
+    assert_eq!(page.matches("class=\"changed\"").count(), 2, "marks");
+    assert_eq!(page.matches("<figure class=\"plate\"").count(), 4);
+    folder.done("report --compare a/x.json b/x.json -o r.json");
+    let json: serde_json::Value = serde_json::from_str(&folder.text("r.json")).expect("JSON");
+    let pair = &json["comparisons"][0];
+    assert_eq!(pair["scenes"].as_array().map(Vec::len), Some(2));
+    assert!(
+        pair["changes"][0]
+            .as_str()
+            .is_some_and(|said| said.contains("right")),
+        "{pair}"
+    );
+}
+
+#[test]
+fn a_pdf_holds_the_words_and_a_study_its_chart() {
+    let folder = Folder::three();
+    folder.done("report in -o r.pdf --theme paper");
+    let pdf = fs::read(folder.path("r.pdf")).expect("there");
+    assert!(pdf.starts_with(b"%PDF-"));
+    let pages = String::from_utf8_lossy(&pdf).matches("/Type/Page/").count()
+        + String::from_utf8_lossy(&pdf)
+            .matches("/Type /Page\n")
+            .count();
+    assert!(
+        pages >= 5,
+        "{pages} pages: the first, and at least one for each step"
+    );
+    folder.done("report in/a.json -o s.html --accuracy-study");
+    assert!(
+        folder
+            .text("s.html")
+            .contains("What accuracy costs on this scene")
+    );
+}
