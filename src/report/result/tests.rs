@@ -34,6 +34,7 @@ fn scene() -> Scene {
         exact: false,
         tolerance: Closeness::of(3.0, 3.0),
         healed: Healed::default(),
+        penetrations: Vec::new(),
         ground: vec![],
         blocks: vec![block("a"), block("b")],
         robots: vec![Arm {
