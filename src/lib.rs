@@ -56,6 +56,7 @@
 //! | [`output::pdf::write`] | a PDF page | a drawing, through that text |
 //! | [`study::study`] | what accuracy costs | scenes |
 //! | [`report::result::to_json`] | JSON for other programs | an analysis |
+//! | [`snapshot`] | what is not as it was | scenes and what is kept beside them |
 //! | [`text`] | words that do nothing | text of others |
 //!
 //! Why it is built so stands in [`doc::design`]; axes, units and signs in [`doc::conventions`]; tolerances and traps in
@@ -99,6 +100,8 @@ pub mod study;
 
 pub mod report;
 
+pub mod snapshot;
+
 pub mod cli;
 
 pub use analysis::Analysis;
@@ -124,6 +127,9 @@ pub mod doc {
 
     #[doc = include_str!("doc/import.md")]
     pub mod import {}
+
+    #[doc = include_str!("doc/snapshot.md")]
+    pub mod snapshot {}
 
     #[doc = include_str!("doc/claims.md")]
     pub mod claims {}

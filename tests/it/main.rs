@@ -34,6 +34,7 @@ mod program;
 mod scenes;
 mod sinks;
 mod small;
+mod snapshot;
 mod statics;
 mod structure;
 mod wedging;
