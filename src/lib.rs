@@ -60,6 +60,7 @@
 //! | [`report::result::to_json`] | JSON for other programs | an analysis |
 //! | [`batch`] | answers in order, by several threads | many scenes, one by one |
 //! | [`session::Session`] | a verdict after every step | blocks placed and held one by one |
+//! | [`snapshot`] | what is not as it was | scenes and what is kept beside them |
 //! | [`text`] | words that do nothing | text of others |
 //!
 //! Why it is built so stands in [`doc::design`]; axes, units and signs in [`doc::conventions`]; tolerances and traps in
@@ -111,6 +112,8 @@ pub mod batch;
 
 pub mod session;
 
+pub mod snapshot;
+
 pub mod cli;
 
 pub use analysis::Analysis;
@@ -142,6 +145,9 @@ pub mod doc {
 
     #[doc = include_str!("doc/import.md")]
     pub mod import {}
+
+    #[doc = include_str!("doc/snapshot.md")]
+    pub mod snapshot {}
 
     #[doc = include_str!("doc/claims.md")]
     pub mod claims {}

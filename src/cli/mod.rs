@@ -38,6 +38,7 @@ mod schema;
 mod script;
 mod shapes;
 mod signal;
+mod snapshot;
 mod source;
 mod style;
 mod table;
@@ -85,6 +86,7 @@ enum Command {
     #[command(name = "mdbook")]
     MdBook(mdbook::MdBook),
     Shapes(shapes::Shapes),
+    Snapshot(snapshot::Snapshot),
     Style(style::Style),
     Completions(completions::Completions),
     #[command(name = "man")]
@@ -114,6 +116,7 @@ pub fn run() -> ExitCode {
         Command::Import(import) => import.run(&terminal),
         Command::MdBook(mdbook) => mdbook.run(&terminal),
         Command::Shapes(shapes) => shapes.run(&terminal),
+        Command::Snapshot(snapshot) => snapshot.run(&terminal),
         Command::Style(style) => style.run(&terminal),
         Command::Completions(completions) => completions.run(&terminal),
         Command::Manual(manual) => manual.run(&terminal),

@@ -42,7 +42,9 @@ pub(crate) fn apart(marks: &mut Marks) {
                 places.extend([needed - now, -needed - now]);
             }
         }
-        let far = |place: &f64| (place - ideal).abs();
+        // To a millionth of a shaft: of two places as far as each other noise of the forces must not choose.
+        let shafts = |far: f64| (far / original[i].width * 1e6).round();
+        let far = |place: &f64| shafts((place - ideal).abs());
         places.sort_by(|a, b| far(a).total_cmp(&far(b)).then(b.total_cmp(a)));
         let clear = |place: &f64| {
             let there = moved(*place);

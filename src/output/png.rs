@@ -83,6 +83,30 @@ pub fn render_in(svg: &str, size: Size, fonts: &Fonts) -> Result<Vec<u8>, PngErr
     encode(&raster(svg, size, fonts)?, per_metre)
 }
 
+/// The pixels of a picture, before they are packed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Raster {
+    /// Pixels across.
+    pub width: u32,
+    /// Pixels down.
+    pub height: u32,
+    /// Red, green, blue and alpha of each, row by row from the upper left corner, not premultiplied.
+    pub rgba: Vec<[u8; 4]>,
+}
+
+/// As [`render`], without packing the pixels into a PNG.
+///
+/// # Errors
+/// As [`render`].
+pub fn rgba(svg: &str, size: Size) -> Result<Raster, PngError> {
+    let pixels = raster(svg, size, &Fonts::default())?;
+    Ok(Raster {
+        width: pixels.width(),
+        height: pixels.height(),
+        rgba: pixels.pixels().iter().map(|p| straight(*p)).collect(),
+    })
+}
+
 /// Drawings of one size as an animated PNG, each shown for `seconds`, over and over. Where animation is unknown the first
 /// is shown.
 ///

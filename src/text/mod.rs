@@ -143,6 +143,33 @@ pub fn json(text: &str) -> String {
     out
 }
 
+/// Text of an annotation of GitHub, which ends at a line break and knows its own escapes; lines stay lines.
+pub fn github(text: &str) -> String {
+    let lines: Vec<String> = text.split('\n').map(line).collect();
+    lines.join("\n").replace('%', "%25").replace('\n', "%0A")
+}
+
+/// Text of a property of such an annotation, its file or title.
+pub fn github_property(text: &str) -> String {
+    github(&line(text)).replace(':', "%3A").replace(',', "%2C")
+}
+
+/// Whether a line is a mark that a version control system leaves between two versions of a place.
+pub fn is_conflict_mark(line: &str) -> bool {
+    let marks = |c: char| line.chars().take(7).filter(|found| *found == c).count() == 7;
+    marks('<') || marks('=') || marks('>')
+}
+
+/// Text as one word of a shell, to be copied into it.
+pub fn shell(text: &str) -> String {
+    let line = line(text);
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./+:@".contains(c);
+    if !line.is_empty() && line.chars().all(plain) {
+        return line;
+    }
+    format!("'{}'", line.replace('\'', "'\\''"))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -181,6 +208,14 @@ mod tests {
         ] {
             assert_eq!(markdown(text), written);
         }
+    }
+
+    #[test]
+    fn annotations_end_where_they_end_and_shells_read_one_word() {
+        assert_eq!(github("50 %\n::error::x"), "50 %25%0A::error::x");
+        assert_eq!(github_property("a,b:c\n\u{1b}"), "a%2Cb%3Ac \u{fffd}");
+        assert_eq!(shell("scenes/arch.json"), "scenes/arch.json");
+        assert_eq!(shell("it's $(x)"), "'it'\\''s $(x)'");
     }
 
     #[test]

@@ -39,6 +39,7 @@ mod session;
 mod sinks;
 mod small;
 mod starters;
+mod snapshot;
 mod statics;
 mod structure;
 mod wedging;

@@ -250,6 +250,62 @@ fn markdown_is_words_and_a_book_keeps_them_in_its_figure() {
 }
 
 #[test]
+fn snapshots_are_told_in_words_whatever_their_names() {
+    use drystone::snapshot::fact::{DIGITS, Facts};
+    use drystone::snapshot::{Finding, Layer, Report, Snapshot, State, ci, review};
+    let mut shapes = Vec::new();
+    each(|hostile, _, analysis| {
+        let facts = Facts::of(analysis, DIGITS);
+        silent(&facts.text(), hostile);
+        assert_eq!(Facts::read(&facts.text()), Ok(facts), "{hostile:?}");
+        let finding = Finding {
+            layer: Layer::Facts,
+            file: hostile.into(),
+            state: State::Changed,
+            words: vec![hostile.to_owned(), "N 3 → 4.2 N".into()],
+            fresh: Vec::new(),
+            expected: None,
+            difference: None,
+        };
+        let report = Report {
+            snapshots: vec![Snapshot {
+                name: hostile.to_owned(),
+                scene: Some(hostile.into()),
+                references: Vec::new(),
+                findings: vec![finding],
+            }],
+            orphans: vec![(hostile.into(), "delete it".into())],
+        };
+        let xml = ci::junit(&report);
+        silent(&xml, hostile);
+        let document =
+            roxmltree::Document::parse(&xml).unwrap_or_else(|e| panic!("{hostile:?}: {e}"));
+        let elements = document
+            .descendants()
+            .filter(roxmltree::Node::is_element)
+            .count();
+        let annotations = ci::annotations(&report);
+        for annotation in &annotations {
+            silent(annotation, hostile);
+            assert_eq!(annotation.lines().count(), 1, "{annotation:?}");
+            assert_eq!(
+                annotation.matches("::").count() - hostile.matches("::").count(),
+                2,
+                "{annotation}"
+            );
+        }
+        let page = review::page(&report, &[hostile.into()]);
+        silent(&page, hostile);
+        assert!(!page.contains("<script>alert") && !page.contains("\" onload=\""));
+        shapes.push((elements, annotations.len(), page.matches("<li>").count()));
+    });
+    assert!(
+        shapes.windows(2).all(|pair| pair[0] == pair[1]),
+        "{shapes:?}"
+    );
+}
+
+#[test]
 fn what_cannot_be_seen_is_seen() {
     each(|hostile, _, analysis| {
         let hidden = hostile.contains(|c: char| acts(c) && !"\r\u{85}\u{2028}\u{2029}".contains(c));
@@ -269,7 +325,7 @@ const WRITERS: &[(&str, &[&str])] = &[
         &["cli/terminal.rs", "cli/mod.rs", "cli/progress.rs"],
     ),
     ("anstream", &["cli/terminal.rs"]),
-    ("PreEscaped", &["report/accuracy.rs", "report/html/"]),
+    ("PreEscaped", &["report/accuracy.rs", "report/html/", "snapshot/review.rs"]),
     (
         "\"<",
         &[
@@ -281,6 +337,7 @@ const WRITERS: &[(&str, &[&str])] = &[
             "report/accuracy.rs",
             "report/markdown.rs",
             "report/result.rs",
+            "snapshot/ci.rs",
         ],
     ),
     ("fs::write", &[]),

@@ -1,0 +1,238 @@
+//! `drystone snapshot`: scenes and their pictures against the references beside them.
+
+mod answer;
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use crate::cli::complaint::Complaint;
+use crate::cli::destination;
+use crate::cli::ending::Ending;
+use crate::cli::page::Page;
+use crate::cli::progress::{Progress, Shown};
+use crate::cli::terminal::Terminal;
+use crate::output::file::{Existing, Unwritten};
+use crate::snapshot::check::{Acceptance, folders};
+use crate::snapshot::store::{self, Use};
+use crate::snapshot::{Fault, Report, check, ci, discover, review};
+
+/// Check scenes and their pictures against the references beside them, in words
+///
+/// Every scene under the folders has its references beside it: name.txt (facts), name.svg and name.png. What changed, and
+/// what is new, lies beside them as .new.* and .diff.png until it is accepted. What is checked, how wide and how precisely,
+/// stands in drystone-snapshots.toml.
+///
+/// Exit codes: 0 everything is as its references say, 1 something is not, 2 a scene or the command line is wrong, 4 a file
+/// could not be written.
+#[derive(Debug, Args)]
+pub(crate) struct Snapshot {
+    /// Folders, or single scenes
+    #[arg(value_name = "DIR", default_value = ".")]
+    folders: Vec<PathBuf>,
+    /// Write what was found as references; refused where CI is set
+    #[arg(long)]
+    accept: bool,
+    /// The same also where CI is set
+    #[arg(long)]
+    accept_in_ci: bool,
+    /// Only scenes whose path contains this, or fits it where it has a *
+    #[arg(long, value_name = "FILTER")]
+    only: Option<String>,
+    /// Write a page to look at: expected, difference and found beside each other. Without a file: ask here, one by one
+    #[arg(long, value_name = "FILE.html", num_args = 0..=1)]
+    review: Option<Option<PathBuf>>,
+    /// Write the result as JUnit XML
+    #[arg(long, value_name = "FILE")]
+    junit: Option<PathBuf>,
+    /// Print the result as annotations that GitHub shows beside the code
+    #[arg(long)]
+    github: bool,
+}
+
+impl Snapshot {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
+        let asks = matches!(self.review, Some(None));
+        let accepts = self.accept || self.accept_in_ci;
+        self.sound(asks, accepts).map_err(|c| vec![c])?;
+        let found = discover(&self.folders, self.only.as_deref()).map_err(complaints)?;
+        if found.jobs.is_empty() && found.orphans.is_empty() {
+            return Err(vec![self.nothing()]);
+        }
+        let shown = if terminal.shows_progress() {
+            Shown::WhenLong
+        } else {
+            Shown::Never
+        };
+        let folders = folders(found.jobs.iter().flat_map(|j| &j.parts).map(|p| &p.file));
+        let usage = if accepts { Use::Accept } else { Use::Check };
+        let turn = store::turn(folders, usage);
+        let progress = Progress::begin(found.jobs.len(), shown);
+        let mut report = check(found, &|name| {
+            progress.doing(name);
+            progress.step();
+        });
+        drop(progress);
+
+        let failing: Vec<String> = report.failing().map(|s| s.name.clone()).collect();
+        let told = report.lines();
+        // With what is accepted now, for whoever looks afterwards.
+        let page = match &self.review {
+            Some(Some(_)) => review::page(&report, &self.folders),
+            _ => String::new(),
+        };
+        let unwritten = if accepts {
+            report.settle(Acceptance::Accept)
+        } else {
+            report.settle(Acceptance::Beside)
+        };
+        let mut written = Vec::new();
+        if let Some(Some(file)) = &self.review {
+            written.push((file.clone(), page.into_bytes()));
+        }
+        if let Some(file) = &self.junit {
+            written.push((file.clone(), ci::junit(&report).into_bytes()));
+        }
+        destination::write(&written, Existing::Replace).map_err(|c| vec![c])?;
+        drop(turn);
+        self.tell(terminal, &report, &told, accepts, &failing)?;
+        match unwritten {
+            // What lies beside is for looking at; the answer stands without it.
+            Err(failed) if !accepts => {
+                for Unwritten { path, why } in failed {
+                    terminal.note(&format!("could not write {}: {why}", path.display()));
+                }
+            }
+            Err(failed) => return Err(failed.into_iter().map(not_written).collect()),
+            Ok(()) => {}
+        }
+        if asks {
+            return answer::ask(terminal, &mut report);
+        }
+        Ok(ending(&report))
+    }
+
+    /// Refuses what cannot be meant.
+    fn sound(&self, asks: bool, accepts: bool) -> Result<(), Complaint> {
+        let refuse = |why: &str| Err(Complaint::CommandLine(why.to_owned()));
+        if let Some(Some(page)) = &self.review {
+            let html = page
+                .extension()
+                .is_some_and(|e| e.eq_ignore_ascii_case("html"));
+            if !html {
+                return Err(Complaint::CommandLine(format!(
+                    "--review {}: the page is an .html file; to be asked here, put --review behind the folders",
+                    page.display()
+                )));
+            }
+        }
+        if asks && accepts {
+            return refuse("--accept takes everything and --review asks; leave one of them out");
+        }
+        if store::in_ci() && !self.accept_in_ci && (self.accept || asks) {
+            return refuse(
+                "CI is set, where nobody looks before references are accepted; accept them on your own machine, or with \
+                 --accept-in-ci if this is meant",
+            );
+        }
+        let outputs: Vec<PathBuf> = self
+            .review
+            .iter()
+            .flatten()
+            .chain(&self.junit)
+            .cloned()
+            .collect();
+        destination::apart(&outputs, &[])
+    }
+
+    fn nothing(&self) -> Complaint {
+        let places: Vec<String> = self
+            .folders
+            .iter()
+            .map(|f| f.display().to_string())
+            .collect();
+        let filter = self
+            .only
+            .as_ref()
+            .map_or_else(String::new, |f| format!(" whose path contains {f:?}"));
+        Complaint::CommandLine(format!(
+            "there is no scene under {}{filter}: a scene is a .json file with the key \"drystone\"",
+            places.join(", ")
+        ))
+    }
+
+    fn tell(
+        &self,
+        terminal: &Terminal,
+        report: &Report,
+        told: &[String],
+        accepts: bool,
+        failing: &[String],
+    ) -> Result<(), Vec<Complaint>> {
+        let mut page = Page::default();
+        if self.github {
+            for annotation in ci::annotations(report) {
+                page.line(&annotation);
+            }
+        } else if !terminal.is_quiet() {
+            for line in told {
+                page.line(line);
+            }
+        }
+        terminal.print(&page).map_err(|c| vec![c])?;
+        let after: Vec<&str> = report.failing().map(|s| s.name.as_str()).collect();
+        let accepted = failing
+            .iter()
+            .filter(|name| !after.contains(&name.as_str()))
+            .count();
+        if accepts {
+            terminal.note(&format!("{accepted} accepted; {}", report.summary()));
+            return Ok(());
+        }
+        terminal.note(&report.summary());
+        if !report.holds() {
+            let places: Vec<String> = self
+                .folders
+                .iter()
+                .map(|f| crate::text::shell(&f.display().to_string()))
+                .collect();
+            let places = places.join(" ");
+            terminal.note(&format!("to look: drystone snapshot {places} --review review.html; to accept: drystone snapshot {places} --accept"));
+        }
+        Ok(())
+    }
+}
+
+fn ending(report: &Report) -> Ending {
+    if report.holds() {
+        Ending::Done
+    } else {
+        Ending::Unstable
+    }
+}
+
+fn not_written(unwritten: Unwritten) -> Complaint {
+    Complaint::NotWritten {
+        what: unwritten.path.display().to_string(),
+        why: unwritten.why.to_string(),
+    }
+}
+
+fn complaints(faults: Vec<Fault>) -> Vec<Complaint> {
+    let name = |path: &Path| path.display().to_string();
+    let complaint = |fault| match fault {
+        Fault::Scene { path, problems } => Complaint::Scene {
+            name: name(&path),
+            problems,
+        },
+        Fault::Unread { path, why } => Complaint::NotRead {
+            what: name(&path),
+            why,
+        },
+        Fault::Settings { path, problem } => {
+            Complaint::CommandLine(format!("{}:{problem}", path.display()))
+        }
+        Fault::Clash(words) => Complaint::CommandLine(words),
+    };
+    faults.into_iter().map(complaint).collect()
+}

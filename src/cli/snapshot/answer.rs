@@ -1,0 +1,152 @@
+//! The review in the terminal: each snapshot that does not hold, in words and where the terminal can in pictures, and a question.
+
+use std::io::{self, BufRead};
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+
+use crate::cli::complaint::Complaint;
+use crate::cli::ending::Ending;
+use crate::cli::page::Page;
+use crate::cli::terminal::Terminal;
+use crate::snapshot::check::{Acceptance, Report, Snapshot};
+use crate::snapshot::store::{self, Use};
+
+/// How a terminal shows a picture within its text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Pictures {
+    /// As iTerm2 and WezTerm do.
+    Inline,
+    /// As kitty and Ghostty do.
+    Kitty,
+    /// Not at all.
+    None,
+}
+
+/// Bytes of a picture in one message to kitty.
+const PIECE: usize = 4096;
+
+/// Asks of each snapshot that does not hold whether it is meant: `y` accepts it, `n` keeps the reference, `s` leaves it for later,
+/// `q` leaves all that follow.
+pub(super) fn ask(terminal: &Terminal, report: &mut Report) -> Result<Ending, Vec<Complaint>> {
+    let pictures = pictures(terminal);
+    let total = report.failing().count();
+    let mut number = 0;
+    let mut failed = Vec::new();
+    let mut answers = io::stdin().lock().lines();
+    'all: for snapshot in report.snapshots.iter_mut().filter(|s| !s.holds()) {
+        number += 1;
+        show(terminal, snapshot, pictures).map_err(|c| vec![c])?;
+        loop {
+            let mut page = Page::default();
+            page.words(&format!("{number} of {total}, {}: ", snapshot.name));
+            page.ours("accept? y(es), n(o), s(kip), q(uit) ");
+            terminal.print(&page).map_err(|c| vec![c])?;
+            // The end of the input is nobody's yes.
+            let Some(Ok(answer)) = answers.next() else {
+                break 'all;
+            };
+            match answer.trim().to_lowercase().as_str() {
+                "y" | "yes" => {
+                    // A turn for each: a person may take long.
+                    let _turn = store::turn(snapshot.folders(), Use::Accept);
+                    if let Err(unwritten) = snapshot.settle(Acceptance::Accept) {
+                        failed.push(super::not_written(unwritten));
+                    }
+                    break;
+                }
+                "n" | "no" | "s" | "skip" => break,
+                "q" | "quit" => break 'all,
+                _ => {}
+            }
+        }
+    }
+    terminal.note(&report.summary());
+    if !failed.is_empty() {
+        return Err(failed);
+    }
+    Ok(super::ending(report))
+}
+
+fn show(terminal: &Terminal, snapshot: &Snapshot, pictures: Pictures) -> Result<(), Complaint> {
+    let mut page = Page::default();
+    page.end();
+    page.line(&snapshot.name);
+    for line in snapshot.lines() {
+        page.line(&line);
+    }
+    terminal.print(&page)?;
+    for finding in &snapshot.findings {
+        // The difference where there is one, else what is new.
+        let png = finding.difference.as_ref().or_else(|| {
+            let is_picture = finding.fresh.starts_with(b"\x89PNG");
+            is_picture.then_some(&finding.fresh)
+        });
+        if let Some(png) = png {
+            terminal.print_bytes(&drawn(png, pictures))?;
+        }
+    }
+    Ok(())
+}
+
+fn pictures(terminal: &Terminal) -> Pictures {
+    if !terminal.is_watched() {
+        return Pictures::None;
+    }
+    let value = |name: &str| std::env::var(name).unwrap_or_default();
+    let program = value("TERM_PROGRAM");
+    match program.as_str() {
+        "iTerm.app" | "WezTerm" => Pictures::Inline,
+        "ghostty" => Pictures::Kitty,
+        _ if !value("KITTY_WINDOW_ID").is_empty() || value("TERM") == "xterm-kitty" => {
+            Pictures::Kitty
+        }
+        _ => Pictures::None,
+    }
+}
+
+/// The message that makes a terminal show a picture. It holds letters, digits and marks of base 64 alone.
+fn drawn(png: &[u8], pictures: Pictures) -> Vec<u8> {
+    let data = STANDARD.encode(png);
+    match pictures {
+        Pictures::None => Vec::new(),
+        Pictures::Inline => format!("\x1b]1337;File=inline=1;width=80%:{data}\x07\n").into_bytes(),
+        Pictures::Kitty => {
+            let pieces: Vec<&[u8]> = data.as_bytes().chunks(PIECE).collect();
+            let mut out = Vec::new();
+            for (number, piece) in pieces.iter().enumerate() {
+                let begin = if number == 0 { "f=100,a=T," } else { "" };
+                let more = usize::from(number + 1 < pieces.len());
+                out.extend(format!("\x1b_G{begin}m={more};").bytes());
+                out.extend_from_slice(piece);
+                out.extend(b"\x1b\\");
+            }
+            out.push(b'\n');
+            out
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pictures_are_sent_whole_and_only_where_they_are_shown() {
+        let png: Vec<u8> = (0..10_000u32).map(|i| i as u8).collect();
+        assert!(drawn(&png, Pictures::None).is_empty());
+        let inline = String::from_utf8(drawn(&png, Pictures::Inline)).expect("ASCII");
+        assert!(inline.starts_with("\x1b]1337;File=inline=1") && inline.ends_with("\x07\n"));
+        let kitty = String::from_utf8(drawn(&png, Pictures::Kitty)).expect("ASCII");
+        let data: String = kitty
+            .split("\x1b_G")
+            .filter_map(|piece| piece.split_once(';'))
+            .map(|(_, data)| data.trim_end().trim_end_matches("\x1b\\"))
+            .collect();
+        assert_eq!(STANDARD.decode(data).expect("base 64"), png);
+        assert_eq!(
+            (kitty.matches("m=1").count(), kitty.matches("m=0").count()),
+            (3, 1)
+        );
+    }
+}

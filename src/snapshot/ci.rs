@@ -1,0 +1,73 @@
+//! A report for programs of continuous integration: JUnit XML, and annotations as GitHub shows them beside the code.
+
+use super::check::{Report, Snapshot};
+use super::discovery::shown;
+use crate::text::{github, github_property, xml};
+
+/// The report as JUnit XML: a case for each snapshot and for each reference without a scene, a failure for each that does not hold.
+/// Times are left out: the same report gives the same bytes.
+pub fn junit(report: &Report) -> String {
+    let mut cases = Vec::new();
+    for snapshot in &report.snapshots {
+        cases.push(case(&snapshot.name, &snapshot.lines()));
+    }
+    for (path, words) in &report.orphans {
+        cases.push(case(
+            &shown(path),
+            &[format!("a reference without a scene: {words}")],
+        ));
+    }
+    let failures = report.failing().count() + report.orphans.len();
+    let counts = format!("tests=\"{}\" failures=\"{failures}\"", cases.len());
+    format!(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites {counts}>\n<testsuite name=\"drystone snapshot\" {counts}>\n\
+         {}</testsuite>\n</testsuites>\n",
+        cases.concat()
+    )
+}
+
+fn case(name: &str, lines: &[String]) -> String {
+    let (folder, short) = name.rsplit_once('/').unwrap_or(("", name));
+    let head = format!(
+        "<testcase classname=\"{}\" name=\"{}\"",
+        xml(folder),
+        xml(short)
+    );
+    let Some(first) = lines.first() else {
+        return format!("{head}/>\n");
+    };
+    let all: Vec<String> = lines.iter().map(|line| xml(line)).collect();
+    format!(
+        "{head}>\n<failure message=\"{}\">{}</failure>\n</testcase>\n",
+        xml(first.trim()),
+        all.join("\n")
+    )
+}
+
+/// The report as annotations of GitHub, one per line: `::error file=scenes/arch.json,title=…::…`. Paths must begin at the root of the
+/// repository for GitHub to show them at their files.
+pub fn annotations(report: &Report) -> Vec<String> {
+    let failing = report.failing().map(annotation);
+    let orphans = report.orphans.iter().map(|(path, words)| {
+        let words = format!("a reference without a scene: {words}");
+        error(&shown(path), "drystone snapshot", &words)
+    });
+    failing.chain(orphans).collect()
+}
+
+fn annotation(snapshot: &Snapshot) -> String {
+    let file = snapshot
+        .scene
+        .as_deref()
+        .map_or_else(|| snapshot.name.clone(), shown);
+    error(
+        &file,
+        &format!("drystone snapshot {}", snapshot.name),
+        &snapshot.lines().join("\n"),
+    )
+}
+
+fn error(file: &str, title: &str, words: &str) -> String {
+    let (file, title) = (github_property(file), github_property(title));
+    format!("::error file={file},title={title}::{}", github(words))
+}

@@ -1,0 +1,282 @@
+//! [`changes`]: what became of the elements of an SVG: which appeared, vanished, moved, turned, took another colour or other words.
+//!
+//! Made for the SVG that we write, and right for any other: what is told is always so, but a shape that another program
+//! writes as other elements is told as other elements. Names made from a drawing's content (`id`) are left out, and numbers are
+//! compared within a fortieth of a pixel, since a hundredth is where they are rounded.
+
+mod pairing;
+mod shape;
+mod tree;
+
+use shape::Movement;
+use tree::Element;
+pub use tree::NoSvg;
+
+/// So far may a place be from the one expected, pixels.
+const NEAR: f64 = 0.025;
+/// A change that so many elements share is told once.
+const SHARED: usize = 4;
+
+/// Something that happened to an element.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Event {
+    /// The element, as a person would point at it.
+    whose: String,
+    /// What happened to it.
+    what: String,
+}
+
+/// What became of the elements of a drawing, in words; nothing where they agree.
+///
+/// # Errors
+/// Which of the two is no SVG, and why: `expected` first.
+///
+/// # Example
+/// ```
+/// use drystone::snapshot::element::changes;
+/// let page = |colour: &str| format!(r##"<svg xmlns="http://www.w3.org/2000/svg"><g class="block"><title>Block a</title>
+///     <path d="M0 0h9v5z" fill="{colour}"/></g></svg>"##);
+/// let found = changes(&page("#ff0000"), &page("#0000ff"))?;
+/// assert_eq!(found, ["path in block \"Block a\": fill #ff0000 → #0000ff"]);
+/// # Ok::<(), drystone::snapshot::element::NoSvg>(())
+/// ```
+pub fn changes(expected: &str, found: &str) -> Result<Vec<String>, NoSvg> {
+    if expected == found {
+        return Ok(Vec::new());
+    }
+    let (old, new) = (tree::read(expected)?, tree::read(found)?);
+    let mut events = Vec::new();
+    compare(&old, &new, "the page", &mut events);
+    Ok(told(events))
+}
+
+/// Events in words, those that many elements share told once.
+fn told(events: Vec<Event>) -> Vec<String> {
+    let mut told: Vec<String> = Vec::new();
+    let mut done: Vec<&str> = Vec::new();
+    for event in &events {
+        if done.contains(&event.what.as_str()) {
+            continue;
+        }
+        let alike: Vec<&Event> = events.iter().filter(|e| e.what == event.what).collect();
+        if alike.len() < SHARED {
+            told.push(format!("{}: {}", event.whose, event.what));
+            continue;
+        }
+        done.push(&event.what);
+        told.push(format!(
+            "{} elements, such as {}: {}",
+            alike.len(),
+            event.whose,
+            event.what
+        ));
+    }
+    told
+}
+
+/// Compares two elements that stand for the same thing. `within` is what a person would call the place they are in.
+fn compare(old: &Element, new: &Element, within: &str, events: &mut Vec<Event>) {
+    let whose = new.called(within);
+    let mut tell = |what: String| {
+        events.push(Event {
+            whose: whose.clone(),
+            what,
+        });
+    };
+    for (what, a, b) in [
+        ("title", &old.title, &new.title),
+        ("description", &old.description, &new.description),
+        ("words", &old.words, &new.words),
+    ] {
+        if !same_words(a, b) {
+            tell(match (a.is_empty(), b.is_empty()) {
+                (true, _) => format!("{what} is new: {b:?}"),
+                (_, true) => format!("{what} is gone: {a:?}"),
+                _ => format!("{what} {a:?} → {b:?}"),
+            });
+        }
+    }
+    if old.tag == "svg" && old.tag == new.tag && old.size() != new.size() {
+        tell(format!("size {} → {}", old.size(), new.size()));
+    }
+    match shape::movement(old, new) {
+        Movement::None => {}
+        movement => tell(movement.words()),
+    }
+    for (name, a) in &old.attributes {
+        match new.attribute(name) {
+            Some(b) if same_value(a, b) => {}
+            Some(b) => tell(format!("{name} {a} → {b}")),
+            None => tell(format!("{name} {a} is gone")),
+        }
+    }
+    for (name, b) in &new.attributes {
+        if old.attribute(name).is_none() {
+            tell(format!("{name} {b} is new"));
+        }
+    }
+    let inside = new.place(within);
+    for pair in pairing::pairs(&old.children, &new.children) {
+        match pair {
+            (Some(old), Some(new)) => compare(old, new, &inside, events),
+            (Some(old), None) => events.push(Event {
+                whose: old.called(&inside),
+                what: "vanished".into(),
+            }),
+            (None, Some(new)) => events.push(Event {
+                whose: new.called(&inside),
+                what: "appeared".into(),
+            }),
+            (None, None) => {}
+        }
+    }
+}
+
+/// Whether two values of an attribute are the same but for rounding.
+fn same_value(a: &str, b: &str) -> bool {
+    if a == b {
+        return true;
+    }
+    if let (Some(a), Some(b)) = (colour(a), colour(b)) {
+        return a.iter().zip(b).all(|(a, b)| a.abs_diff(b) <= 1);
+    }
+    let (a, b) = (pieces(a), pieces(b));
+    a.len() == b.len()
+        && a.iter()
+            .zip(&b)
+            .all(|(a, b)| match (a.parse::<f64>(), b.parse::<f64>()) {
+                (Ok(x), Ok(y)) => (x - y).abs() <= NEAR,
+                _ => a == b,
+            })
+}
+
+/// Whether words are the same, but for the last digit of a number that was rounded: one with a decimal point, or in degrees or
+/// percent. The facts tell amounts more precisely.
+fn same_words(a: &str, b: &str) -> bool {
+    if a == b {
+        return true;
+    }
+    let (a, b) = (pieces(a), pieces(b));
+    a.len() == b.len()
+        && (0..a.len()).all(|i| {
+            let next = a.get(i + 1).and_then(|p| p.trim_start().chars().next());
+            let rounded =
+                a[i].contains('.') && b[i].contains('.') || matches!(next, Some('°' | '%'));
+            match (a[i].parse::<f64>(), b[i].parse::<f64>()) {
+                (Ok(x), Ok(y)) if rounded => (x - y).abs() <= 1.5 * unit(a[i]).max(unit(b[i])),
+                _ => a[i] == b[i],
+            }
+        })
+}
+
+/// What the last digit of a number is worth.
+fn unit(number: &str) -> f64 {
+    let decimals = number.split_once('.').map_or(0, |(_, d)| d.len());
+    format!("1e-{decimals}").parse().unwrap_or(1.0)
+}
+
+fn colour(text: &str) -> Option<[u8; 3]> {
+    let digits = text.strip_prefix('#').filter(|d| d.len() == 6)?;
+    let value = u32::from_str_radix(digits, 16).ok()?;
+    let [_, r, g, b] = value.to_be_bytes();
+    Some([r, g, b])
+}
+
+/// A text cut into numbers and what stands between them.
+fn pieces(text: &str) -> Vec<&str> {
+    let mut pieces = Vec::new();
+    let mut begin = 0;
+    let mut in_number = false;
+    for (at, c) in text.char_indices() {
+        let number = c.is_ascii_digit() || (in_number && c == '.');
+        if number != in_number {
+            pieces.push(&text[begin..at]);
+            (begin, in_number) = (at, number);
+        }
+    }
+    pieces.push(&text[begin..]);
+    // A full stop behind a number is no decimal point.
+    pieces.iter_mut().for_each(|p| {
+        if p.len() > 1 {
+            *p = p.trim_end_matches('.');
+        }
+    });
+    pieces
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rounding_is_no_change_and_counting_is() {
+        assert!(same_words("6.91 N at 65°", "6.92 N at 66°"));
+        assert!(!same_words("6.91 N", "6.93 N"));
+        assert!(!same_words("3 hinges", "4 hinges") && !same_words("Block 3", "Block 4"));
+        assert!(same_value(
+            "192.8953857421875 206.76",
+            "192.8953857421900 206.77"
+        ));
+        assert!(!same_value("1.5", "1.6") && !same_value("none", "#000000"));
+        assert!(same_value("#102030", "#112030") && !same_value("#102030", "#122030"));
+    }
+
+    fn page(inside: &str) -> String {
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"90\" height=\"50\">{inside}</svg>"
+        )
+    }
+
+    #[test]
+    fn one_lost_among_many_alike_is_told_alone() {
+        let paths = |lost: usize| {
+            let path = |x: usize| format!("<path d=\"M{} 5l3 4h2z\" fill=\"#000000\"/>", 7 * x);
+            let all = (0..30).filter(|x| *x != lost).map(path);
+            page(&all.collect::<String>())
+        };
+        assert_eq!(
+            changes(&paths(99), &paths(11)),
+            Ok(vec!["path in the page: vanished".into()])
+        );
+        assert_eq!(
+            changes(&paths(11), &paths(99)),
+            Ok(vec!["path in the page: appeared".into()])
+        );
+    }
+
+    #[test]
+    fn what_many_share_is_told_once() {
+        let texts = |x: usize| {
+            let text = |k: usize| format!("<text x=\"{}\" y=\"{}\">word {k}</text>", x, 9 * k);
+            page(&(0..9).map(text).collect::<String>())
+        };
+        let told = changes(&texts(3), &texts(4)).expect("both are SVG");
+        assert_eq!(
+            told,
+            ["9 elements, such as text \"word 0\": moved by 1 px to the right"]
+        );
+    }
+
+    #[test]
+    fn broken_files_have_their_own_words() {
+        let sound = page("");
+        for (text, words) in [
+            ("", "it is empty (0 bytes)"),
+            (
+                "version https://git-lfs.github.com/spec/v1\n",
+                "it is a Git LFS pointer",
+            ),
+            (
+                "<<<<<<< HEAD\n<svg/>",
+                "line 1 is a mark of a merge conflict",
+            ),
+            ("<svg><g></svg>", "it is no SVG"),
+            ("{}", "it is no SVG"),
+        ] {
+            let refused = changes(text, &sound).expect_err(text).to_string();
+            assert!(refused.starts_with(words), "{refused}");
+        }
+        let deep = page(&("<g>".repeat(900) + &"</g>".repeat(900)));
+        assert!(changes(&deep, &sound).is_err());
+    }
+}

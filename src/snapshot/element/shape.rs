@@ -1,0 +1,171 @@
+//! [`movement`]: what became of an element's place and outline. The only file here that names svgtypes.
+
+use svgtypes::{SimplePathSegment, SimplifyingPathParser};
+
+use super::NEAR;
+use super::tree::Element;
+
+/// What became of a shape.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Movement {
+    /// It is where it was.
+    None,
+    /// It was moved to the right and down, pixels.
+    Moved(f64, f64),
+    /// It was turned, degrees anticlockwise, and perhaps moved.
+    Turned(f64),
+    /// It has another outline: so far from the old one, pixels.
+    Reshaped(f64),
+    /// Its outline has other parts.
+    Redrawn,
+}
+
+impl Movement {
+    /// In words.
+    pub(super) fn words(self) -> String {
+        let short = |value: f64| {
+            let text = format!("{:.2}", value.abs());
+            text.trim_end_matches('0').trim_end_matches('.').to_owned()
+        };
+        match self {
+            Movement::None => String::new(),
+            Movement::Moved(x, y) => {
+                let way = |by: f64, there: &str, back: &str| {
+                    let word = if by > 0.0 { there } else { back };
+                    (by.abs() > NEAR).then(|| format!("{} px {word}", short(by)))
+                };
+                let ways = [way(x, "to the right", "to the left"), way(y, "down", "up")];
+                let ways: Vec<String> = ways.into_iter().flatten().collect();
+                format!("moved by {}", ways.join(" and "))
+            }
+            Movement::Turned(degrees) => {
+                let way = if degrees > 0.0 {
+                    "anticlockwise"
+                } else {
+                    "clockwise"
+                };
+                format!("turned by {}° {way}", short(degrees))
+            }
+            Movement::Reshaped(far) => format!("changed its outline by up to {} px", short(far)),
+            Movement::Redrawn => "changed its outline".into(),
+        }
+    }
+}
+
+/// What became of an element's shape.
+pub(super) fn movement(old: &Element, new: &Element) -> Movement {
+    if old.shape == new.shape || old.tag == "svg" {
+        return Movement::None;
+    }
+    let (Some((a, what)), Some((b, is))) = (points(old), points(new)) else {
+        return Movement::Redrawn;
+    };
+    if what != is || a.len() != b.len() {
+        return Movement::Redrawn;
+    }
+    let far = |b: &[[f64; 2]], to: &dyn Fn([f64; 2]) -> [f64; 2]| {
+        let far = a.iter().zip(b).map(|(p, q)| {
+            let p = to(*p);
+            (p[0] - q[0]).abs().max((p[1] - q[1]).abs())
+        });
+        far.fold(0.0, f64::max)
+    };
+    let stayed = far(&b, &|p| p);
+    if stayed <= NEAR {
+        return Movement::None;
+    }
+    let (from, to) = (centre(&a), centre(&b));
+    let (x, y) = (to[0] - from[0], to[1] - from[1]);
+    if far(&b, &|p| [p[0] + x, p[1] + y]) <= 2.0 * NEAR {
+        // A hundredth is where places are rounded: what moves together differs by one.
+        let whole = |by: f64| match by.abs() {
+            far if far < 0.2 => (by * 100.0).round() / 100.0,
+            _ => (by * 10.0).round() / 10.0,
+        };
+        return Movement::Moved(whole(x), whole(y));
+    }
+    let (mut along, mut across) = (0.0, 0.0);
+    for (p, q) in a.iter().zip(&b) {
+        let (p, q) = (
+            [p[0] - from[0], p[1] - from[1]],
+            [q[0] - to[0], q[1] - to[1]],
+        );
+        along += p[0] * q[0] + p[1] * q[1];
+        across += p[0] * q[1] - p[1] * q[0];
+    }
+    let angle = libm::atan2(across, along);
+    let (sin, cos) = libm::sincos(angle);
+    let turned = |p: [f64; 2]| {
+        let p = [p[0] - from[0], p[1] - from[1]];
+        [
+            to[0] + cos * p[0] - sin * p[1],
+            to[1] + sin * p[0] + cos * p[1],
+        ]
+    };
+    if far(&b, &turned) <= 2.0 * NEAR {
+        // The page's y points down.
+        return Movement::Turned(-angle.to_degrees());
+    }
+    Movement::Reshaped(stayed)
+}
+
+fn centre(points: &[[f64; 2]]) -> [f64; 2] {
+    let count = points.len().max(1) as f64;
+    let sum = points
+        .iter()
+        .fold([0.0, 0.0], |s, p| [s[0] + p[0], s[1] + p[1]]);
+    [sum[0] / count, sum[1] / count]
+}
+
+/// The points of an element, and the letters of what joins them. `None` where a number cannot be read.
+fn points(element: &Element) -> Option<(Vec<[f64; 2]>, String)> {
+    let mut points = Vec::new();
+    let mut letters = String::new();
+    if let Some(data) = element.place_of("d") {
+        for segment in SimplifyingPathParser::from(data) {
+            match segment.ok()? {
+                SimplePathSegment::MoveTo { x, y } => {
+                    letters.push('M');
+                    points.push([x, y]);
+                }
+                SimplePathSegment::LineTo { x, y } => {
+                    letters.push('L');
+                    points.push([x, y]);
+                }
+                SimplePathSegment::CurveTo {
+                    x1,
+                    y1,
+                    x2,
+                    y2,
+                    x,
+                    y,
+                } => {
+                    letters.push('C');
+                    points.extend([[x1, y1], [x2, y2], [x, y]]);
+                }
+                SimplePathSegment::Quadratic { x1, y1, x, y } => {
+                    letters.push('Q');
+                    points.extend([[x1, y1], [x, y]]);
+                }
+                SimplePathSegment::ClosePath => letters.push('Z'),
+            }
+        }
+        return Some((points, letters));
+    }
+    let number = |name: &str| match element.place_of(name) {
+        None => Some(0.0),
+        Some(text) => text.trim_end_matches("px").parse::<f64>().ok(),
+    };
+    for (x, y) in [("x", "y"), ("x1", "y1"), ("x2", "y2"), ("cx", "cy")] {
+        if element.place_of(x).is_some() || element.place_of(y).is_some() {
+            points.push([number(x)?, number(y)?]);
+        }
+    }
+    if element.place_of("width").is_some() || element.place_of("height").is_some() {
+        let corner = points.first().copied().unwrap_or_default();
+        points.push([corner[0] + number("width")?, corner[1] + number("height")?]);
+    }
+    letters.push_str(element.place_of("r").unwrap_or_default());
+    letters.push_str(element.place_of("points").unwrap_or_default());
+    Some((points, letters))
+}

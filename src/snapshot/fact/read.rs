@@ -1,0 +1,128 @@
+//! From a text that was kept to facts.
+
+use super::write::HEAD;
+use super::{Fact, Facts, Section, Value};
+
+/// A text that holds no facts, and where it goes wrong.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum NoFacts {
+    /// No bytes at all.
+    #[error("it is empty (0 bytes)")]
+    Empty,
+    /// What Git LFS leaves where the file itself was not fetched.
+    #[error("it is a Git LFS pointer and not the facts; fetch them with `git lfs pull`")]
+    Pointer,
+    /// Two versions of it in one file.
+    #[error("line {0} is a mark of a merge conflict; settle it, or accept the facts anew")]
+    Conflict(usize),
+    /// It begins otherwise.
+    #[error("it does not begin with \"{HEAD}\"")]
+    Foreign,
+    /// A line is none.
+    #[error("line {line} is no fact: {text}")]
+    Line {
+        /// Its number, from 1.
+        line: usize,
+        /// What it says, shortened.
+        text: String,
+    },
+}
+
+pub(super) fn facts(text: &str) -> Result<Facts, NoFacts> {
+    let text = text.trim_start_matches('\u{feff}');
+    if text.trim().is_empty() {
+        return Err(NoFacts::Empty);
+    }
+    if text.starts_with("version https://git-lfs") {
+        return Err(NoFacts::Pointer);
+    }
+    if let Some(line) = text.lines().position(crate::text::is_conflict_mark) {
+        return Err(NoFacts::Conflict(line + 1));
+    }
+    let mut lines = text.lines().enumerate();
+    if lines.next().map(|(_, line)| line.trim_end()) != Some(HEAD) {
+        return Err(NoFacts::Foreign);
+    }
+    let mut sections: Vec<Section> = Vec::new();
+    for (number, line) in lines {
+        if line.trim().is_empty() {
+            continue;
+        }
+        let wrong = || NoFacts::Line {
+            line: number + 1,
+            text: crate::text::heading(line, 60),
+        };
+        let fact = fact(line.trim()).ok_or_else(wrong)?;
+        let heads = fact.kind == "scene" || fact.kind.starts_with("frame ");
+        match sections.last_mut() {
+            Some(section) if !heads => section.facts.push(fact),
+            None if !heads => return Err(wrong()),
+            _ => sections.push(Section {
+                head: fact,
+                facts: Vec::new(),
+            }),
+        }
+    }
+    Ok(Facts { sections })
+}
+
+/// `kind "name" "name": value, value`.
+fn fact(line: &str) -> Option<Fact> {
+    let begin = line.find(['"', ':'])?;
+    let kind = line[..begin].trim().to_owned();
+    let mut rest = &line[begin..];
+    let mut names = Vec::new();
+    while let Some(quoted) = rest.strip_prefix('"') {
+        let (name, behind) = unquoted(quoted)?;
+        names.push(name);
+        rest = behind.trim_start();
+    }
+    let values = rest.strip_prefix(':')?.trim();
+    let values: Vec<Value> = values.split(", ").map(value).collect();
+    let sound = !kind.is_empty()
+        && values
+            .iter()
+            .all(|v| !v.unit.is_empty() || !v.numbers.is_empty());
+    sound.then_some(Fact {
+        kind,
+        names,
+        values,
+    })
+}
+
+/// The name up to the closing quotation mark, and what stands behind it.
+fn unquoted(text: &str) -> Option<(String, &str)> {
+    let mut name = String::new();
+    let mut escaped = false;
+    for (at, c) in text.char_indices() {
+        match c {
+            '"' if !escaped => return Some((name, &text[at + 1..])),
+            '\\' if !escaped => escaped = true,
+            c => {
+                name.push(c);
+                escaped = false;
+            }
+        }
+    }
+    None
+}
+
+/// Words, numbers and a unit; or a word alone.
+fn value(text: &str) -> Value {
+    let parts: Vec<&str> = text.split_whitespace().collect();
+    let is_number = |part: &&str| part.parse::<f64>().is_ok() || *part == "none";
+    let Some(first) = parts.iter().position(|p| is_number(p)) else {
+        return Value {
+            name: String::new(),
+            numbers: Vec::new(),
+            unit: text.trim().to_owned(),
+        };
+    };
+    let count = parts[first..].iter().take_while(|p| is_number(p)).count();
+    let numbers = parts[first..first + count].iter().map(|p| (*p).to_owned());
+    Value {
+        name: parts[..first].join(" "),
+        numbers: numbers.collect(),
+        unit: parts[first + count..].join(" "),
+    }
+}

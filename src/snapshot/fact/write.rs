@@ -1,0 +1,295 @@
+//! From an analysis to facts, and from facts to text.
+
+use super::round::Rounding;
+use super::{Fact, Facts, Section, Value};
+use crate::analysis::{Analysis, Contact, Failure, FrameAnalysis, RobotForce, Verdict};
+use crate::geometry::{Point, Vector};
+use crate::scene::{BlockId, BodyId, RobotId, Scene};
+use crate::text;
+
+/// Digits of a force of the size of the largest load.
+pub const DIGITS: usize = 6;
+/// What the facts of this version begin with.
+pub(super) const HEAD: &str = "drystone facts 1";
+/// A block that moves by less than this share of what moves fastest is not said to fall: another solution of the same
+/// program may hold it still.
+const STILL: f64 = 1e-3;
+
+/// Places of the numbers of one scene.
+struct Places {
+    force: Rounding,
+    length: Rounding,
+    torque: Rounding,
+}
+
+pub(super) fn of(analysis: &Analysis<'_>, digits: usize) -> Facts {
+    let scene = analysis.scene;
+    let blocks = scene.blocks.iter().map(|b| b.weight.abs());
+    let loads = scene.loads.iter().map(|l| l.force.norm());
+    let largest = blocks.chain(loads).fold(0.0, f64::max);
+    let corners = scene.blocks.iter().flat_map(|b| b.body.polygon.outline());
+    let size = corners
+        .map(|p| p.x.abs().max(p.y.abs()))
+        .fold(0.0, f64::max);
+    let places = Places {
+        force: Rounding::to(digits, largest),
+        length: Rounding::to(digits, size),
+        torque: Rounding::to(digits, largest * size),
+    };
+    let gravity = Rounding::to(digits, scene.gravity.norm());
+    let gravity = quantity("gravity", &pair(scene.gravity), gravity, "m/s²");
+    let mut values = vec![gravity];
+    if scene.kernel > 0.0 {
+        values.push(plain("kernel", scene.kernel));
+    }
+    let blocks = scene.blocks.iter().map(|block| Fact {
+        kind: "block".into(),
+        names: vec![name(&block.id)],
+        values: vec![
+            quantity("weight", &[block.weight], places.force, "N"),
+            quantity(
+                "centroid",
+                &[block.centroid.x, block.centroid.y],
+                places.length,
+                "m",
+            ),
+        ],
+    });
+    let mut sections = vec![Section {
+        head: Fact {
+            kind: "scene".into(),
+            names: vec![name(&scene.title)],
+            values,
+        },
+        facts: blocks.collect(),
+    }];
+    for (number, (step, found)) in scene.frames.iter().zip(&analysis.frames).enumerate() {
+        let head = Fact {
+            kind: format!("frame {}", number + 1),
+            names: vec![name(&step.title)],
+            values: vec![word(verdict(found.verdict))],
+        };
+        let facts = frame(scene, step.placed.len(), found, &places);
+        sections.push(Section { head, facts });
+    }
+    Facts { sections }
+}
+
+fn verdict(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Stable => "stable",
+        Verdict::Unstable => "unstable",
+        Verdict::Undecided => "undecided",
+    }
+}
+
+fn frame(scene: &Scene, placed: usize, found: &FrameAnalysis, places: &Places) -> Vec<Fact> {
+    let newtons = |name: &str, value: f64| quantity(name, &[value], places.force, "N");
+    let mut sums = vec![
+        plain("blocks", placed as f64),
+        newtons("weight", found.weight),
+    ];
+    let proved = found.verdict != Verdict::Undecided;
+    if proved {
+        sums.push(newtons("total force", found.total_force));
+        sums.push(newtons("total sticking", found.total_sticking));
+    }
+    let mut facts = vec![Fact {
+        kind: "sums".into(),
+        names: Vec::new(),
+        values: sums,
+    }];
+    let contacts = found
+        .contacts
+        .iter()
+        .map(|c| contact(scene, c, proved, places));
+    facts.extend(contacts);
+    if proved {
+        facts.extend(found.robots.iter().map(|r| robot(scene, r, places)));
+        facts.extend(found.failures.iter().map(|f| failure(scene, f, places)));
+    }
+    let moves = found.mechanism.iter().filter(|m| {
+        let speed = m.velocity.norm().max(m.spin.abs() * found.length);
+        speed > STILL
+    });
+    let mut falling: Vec<BlockId> = moves.map(|m| m.block).collect();
+    falling.extend(&found.unsupported);
+    falling.sort();
+    falling.dedup();
+    facts.extend(falling.iter().map(|block| Fact {
+        kind: "block".into(),
+        names: vec![name(&scene.blocks[block.0].id)],
+        values: vec![word("falls")],
+    }));
+    facts
+}
+
+fn contact(scene: &Scene, contact: &Contact, proved: bool, places: &Places) -> Fact {
+    let [n1, n2] = contact.normal_forces;
+    let mut values = Vec::new();
+    if proved {
+        values.push(quantity("N", &[n1 + n2], places.force, "N"));
+        values.push(quantity("T", &[contact.friction_force], places.force, "N"));
+        let ends = in_order(contact.application_points, [n1, n2]);
+        values.push(quantity("N at its ends", &ends, places.force, "N"));
+    }
+    values.push(plain("μ", contact.interface.friction));
+    Fact {
+        kind: "interface".into(),
+        names: bodies(scene, contact.interface.bodies),
+        values,
+    }
+}
+
+/// The forces at two points in an order that does not depend on which of the points is told first. No edge of a usual
+/// structure has the slope at which the two would tie.
+fn in_order(at: [Point; 2], forces: [f64; 2]) -> [f64; 2] {
+    let along = |p: Point| p.x + 0.381_966_011_25 * p.y;
+    let [a, b] = forces;
+    if along(at[0]) <= along(at[1]) {
+        [a, b]
+    } else {
+        [b, a]
+    }
+}
+
+/// Names of two bodies, the ground last: which of them a result tells first is no fact about the structure.
+fn bodies(scene: &Scene, bodies: [BodyId; 2]) -> Vec<String> {
+    let mut names: Vec<(bool, String)> = bodies
+        .iter()
+        .map(|b| (matches!(b, BodyId::Ground(_)), name(scene.name(*b))))
+        .collect();
+    names.sort();
+    names.into_iter().map(|(_, name)| name).collect()
+}
+
+fn robot(scene: &Scene, robot: &RobotForce, places: &Places) -> Fact {
+    Fact {
+        kind: "robot".into(),
+        names: grip(scene, robot.robot, robot.block),
+        values: vec![
+            quantity("force", &pair(robot.force), places.force, "N"),
+            quantity("torque", &[robot.torque], places.torque, "N·m"),
+        ],
+    }
+}
+
+fn grip(scene: &Scene, robot: RobotId, block: BlockId) -> Vec<String> {
+    let (robot, block) = (&scene.robots[robot.0], &scene.blocks[block.0]);
+    vec![name(&robot.id), name(&block.id)]
+}
+
+fn failure(scene: &Scene, failure: &Failure, places: &Places) -> Fact {
+    let newtons = |amount: f64| vec![quantity("missing", &[amount], places.force, "N")];
+    let (kind, names, values) = match *failure {
+        Failure::Tension {
+            bodies: b, force, ..
+        } => ("failure tension", bodies(scene, b), newtons(force.norm())),
+        Failure::Friction {
+            bodies: b, force, ..
+        } => ("failure friction", bodies(scene, b), newtons(force.norm())),
+        Failure::RobotForce {
+            robot,
+            block,
+            force,
+            ..
+        } => (
+            "failure robot",
+            grip(scene, robot, block),
+            vec![quantity("missing", &pair(force), places.force, "N")],
+        ),
+        Failure::RobotTorque {
+            robot,
+            block,
+            torque,
+            ..
+        } => (
+            "failure robot",
+            grip(scene, robot, block),
+            vec![quantity("missing", &[torque], places.torque, "N·m")],
+        ),
+    };
+    Fact {
+        kind: kind.into(),
+        names,
+        values,
+    }
+}
+
+fn pair(v: Vector) -> [f64; 2] {
+    [v.x, v.y]
+}
+
+/// A name on one line, as short as a line can bear.
+fn name(foreign: &str) -> String {
+    text::heading(foreign, 200)
+}
+
+fn quantity(name: &str, values: &[f64], place: Rounding, unit: &str) -> Value {
+    Value {
+        name: name.into(),
+        numbers: values.iter().map(|v| place.write(*v)).collect(),
+        unit: unit.into(),
+    }
+}
+
+/// A number without a unit, to six decimals at most.
+fn plain(name: &str, value: f64) -> Value {
+    let written = format!("{value:.6}");
+    Value {
+        name: name.into(),
+        numbers: vec![
+            written
+                .trim_end_matches('0')
+                .trim_end_matches('.')
+                .to_owned(),
+        ],
+        unit: String::new(),
+    }
+}
+
+fn word(word: &str) -> Value {
+    Value {
+        name: String::new(),
+        numbers: Vec::new(),
+        unit: word.into(),
+    }
+}
+
+pub(super) fn text(facts: &Facts) -> String {
+    let mut out = format!("{HEAD}\n");
+    for (number, section) in facts.sections.iter().enumerate() {
+        if number > 0 {
+            out.push('\n');
+        }
+        line(&mut out, "", &section.head);
+        let indent = if number == 0 { "" } else { "  " };
+        for fact in &section.facts {
+            line(&mut out, indent, fact);
+        }
+    }
+    out
+}
+
+fn line(out: &mut String, indent: &str, fact: &Fact) {
+    out.push_str(indent);
+    out.push_str(&fact.kind);
+    for name in &fact.names {
+        let quoted = name.replace('\\', "\\\\").replace('"', "\\\"");
+        out.push_str(&format!(" \"{quoted}\""));
+    }
+    out.push_str(": ");
+    let values = fact.values.iter().map(|value| {
+        let parts = [&value.name]
+            .into_iter()
+            .chain(&value.numbers)
+            .chain([&value.unit]);
+        let parts: Vec<&str> = parts
+            .map(String::as_str)
+            .filter(|p| !p.is_empty())
+            .collect();
+        parts.join(" ")
+    });
+    out.push_str(&values.collect::<Vec<_>>().join(", "));
+    out.push('\n');
+}

@@ -1,0 +1,379 @@
+//! [`Settings`]: what `drystone-snapshots.toml` says. The only file here that names the toml crate.
+
+use std::path::{Path, PathBuf};
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::check::Layer;
+use super::fact::DIGITS;
+use super::picture::Tolerance;
+use crate::drawing::Theme;
+use crate::figure::Kind;
+use crate::output::png::MOST_ACROSS;
+
+/// What the file is called.
+pub const FILE: &str = "drystone-snapshots.toml";
+
+/// What is checked, and how precisely.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// What is compared: facts, SVG, pixels.
+    pub layers: Vec<Layer>,
+    /// What figures show; `name.svg` is of the first kind, `name.KIND.svg` of every other.
+    pub kinds: Vec<Kind>,
+    /// Names of themes; `name.png` is in the first, `name.THEME.png` in every other. An SVG is kept in the first alone.
+    pub themes: Vec<String>,
+    /// Widths of pictures in pixels; `name.png` is as wide as the first, `name.w320.png` 320 pixels. Empty for one pixel per unit of
+    /// the drawing.
+    pub widths: Vec<u32>,
+    /// Digits of a force of the size of the largest load.
+    pub digits: usize,
+    /// From when on pixels differ.
+    pub tolerance: Tolerance,
+    /// A reference picture may take so many kilobytes of 1000 bytes for each of its panels.
+    pub most_kilobytes: Option<u64>,
+    /// Scenes that are none of ours: paths from the file's folder, `*` for any characters.
+    pub ignore: Vec<String>,
+    /// Further scenes, or folders of them, whose references lie in the file's folder; from there.
+    pub scenes: Vec<PathBuf>,
+}
+
+impl Default for Settings {
+    fn default() -> Settings {
+        Settings {
+            layers: Layer::ALL.to_vec(),
+            kinds: vec![Kind::Forces],
+            themes: vec!["thesis".into()],
+            widths: Vec::new(),
+            digits: DIGITS,
+            tolerance: Tolerance::default(),
+            most_kilobytes: None,
+            ignore: Vec::new(),
+            scenes: Vec::new(),
+        }
+    }
+}
+
+/// All keys there are.
+const KEYS: [&str; 10] = [
+    "layers",
+    "kinds",
+    "themes",
+    "widths",
+    "digits",
+    "channel_tolerance",
+    "perceptual_threshold",
+    "most_kilobytes",
+    "ignore",
+    "scenes",
+];
+
+impl Settings {
+    /// Settings from the text of a file.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it, each with line and column.
+    ///
+    /// # Example
+    /// ```
+    /// use drystone::snapshot::Settings;
+    /// let settings = Settings::read("kinds = [\"forces\", \"thrust\"]\nwidths = [640]")?;
+    /// assert_eq!((settings.kinds.len(), settings.tolerance.channel), (2, 1));
+    /// let wrong = Settings::read("kinds = [\"force\"]\nwidth = 9").expect_err("two problems");
+    /// assert!(wrong[0].starts_with("1:10: kinds: there is no \"force\""));
+    /// assert!(wrong[1].starts_with("2:1: there is no key width"));
+    /// # Ok::<(), Vec<String>>(())
+    /// ```
+    pub fn read(text: &str) -> Result<Settings, Vec<String>> {
+        let (table, errors) = DeTable::parse_recoverable(text);
+        if !errors.is_empty() {
+            let told = errors.iter().map(|e| {
+                let place = e.span().map_or(0, |span| span.start);
+                format!("{}: no TOML: {}", place_in(text, place), e.message())
+            });
+            return Err(told.collect());
+        }
+        let mut reading = Reading {
+            text,
+            settings: Settings::default(),
+            problems: Vec::new(),
+        };
+        for (key, value) in table.get_ref() {
+            reading.key(key, value);
+        }
+        // In the order of the file, whatever order the table is in.
+        reading.problems.sort();
+        if reading.problems.is_empty() {
+            return Ok(reading.settings);
+        }
+        let told = reading.problems.into_iter();
+        Err(told
+            .map(|(at, words)| format!("{}: {words}", place_in(text, at)))
+            .collect())
+    }
+}
+
+/// Line and column of a byte, from 1.
+fn place_in(text: &str, at: usize) -> String {
+    let before = text.get(..at).unwrap_or(text);
+    let line = before.matches('\n').count() + 1;
+    let column = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
+    format!("{line}:{column}")
+}
+
+struct Reading<'t> {
+    text: &'t str,
+    settings: Settings,
+    problems: Vec<(usize, String)>,
+}
+
+type Found<'v> = Spanned<DeValue<'v>>;
+
+impl Reading<'_> {
+    fn wrong(&mut self, at: usize, words: String) {
+        self.problems.push((at, words));
+    }
+
+    fn key<'v>(&mut self, key: &Spanned<std::borrow::Cow<'v, str>>, value: &Found<'v>) {
+        let at = key.span().start;
+        match key.get_ref().as_ref() {
+            "layers" => {
+                self.settings.layers =
+                    self.named("layers", value, &Layer::ALL.map(Layer::name), Layer::named)
+            }
+            "kinds" => {
+                let names: Vec<&str> = Kind::ALL.iter().map(|k| k.name()).collect();
+                self.settings.kinds = self.named("kinds", value, &names, Kind::named);
+            }
+            "themes" => {
+                let known = |name: &str| Theme::named(name).map(|_| name.to_owned());
+                self.settings.themes = self.named("themes", value, &Theme::NAMES, known);
+            }
+            "widths" => {
+                let widths = self.list("widths", value);
+                let widths: Vec<u64> = widths
+                    .iter()
+                    .filter_map(|w| self.whole("widths", w, 16, u64::from(MOST_ACROSS)))
+                    .collect();
+                self.settings.widths = widths.into_iter().map(|w| w as u32).collect();
+                self.twice("widths", value, self.settings.widths.clone());
+            }
+            "digits" => {
+                if let Some(digits) = self.whole("digits", value, 2, 12) {
+                    self.settings.digits = digits as usize;
+                }
+            }
+            "channel_tolerance" => {
+                if let Some(channel) = self.whole("channel_tolerance", value, 0, 254) {
+                    self.settings.tolerance.channel = channel as u8;
+                }
+            }
+            "perceptual_threshold" => self.threshold(value),
+            "most_kilobytes" => {
+                self.settings.most_kilobytes = self.whole("most_kilobytes", value, 1, 1_000_000)
+            }
+            "ignore" => self.settings.ignore = self.texts("ignore", value),
+            "scenes" => {
+                let paths = self.texts("scenes", value);
+                self.settings.scenes = paths.into_iter().map(PathBuf::from).collect();
+            }
+            other => {
+                let other = crate::text::heading(other, 40);
+                self.wrong(
+                    at,
+                    format!("there is no key {other}; there are {}", KEYS.join(", ")),
+                );
+            }
+        }
+    }
+
+    fn list<'v, 'f>(&mut self, key: &str, value: &'f Found<'v>) -> Vec<&'f Found<'v>> {
+        match value.get_ref() {
+            DeValue::Array(list) => list.iter().collect(),
+            other => {
+                let found = other.type_str();
+                self.wrong(
+                    value.span().start,
+                    format!("{key} is a list in square brackets, not a value of type {found}"),
+                );
+                Vec::new()
+            }
+        }
+    }
+
+    fn texts(&mut self, key: &str, value: &Found<'_>) -> Vec<String> {
+        let mut texts = Vec::new();
+        for entry in self.list(key, value) {
+            match entry.get_ref() {
+                DeValue::String(text) => texts.push(text.to_string()),
+                other => {
+                    let found = other.type_str();
+                    self.wrong(
+                        entry.span().start,
+                        format!(
+                            "{key} holds texts in quotation marks, not a value of type {found}"
+                        ),
+                    );
+                }
+            }
+        }
+        texts
+    }
+
+    /// A list of names, none of them unknown, none twice, and at least one.
+    fn named<T: PartialEq + Clone>(
+        &mut self,
+        key: &str,
+        value: &Found<'_>,
+        names: &[&str],
+        known: impl Fn(&str) -> Option<T>,
+    ) -> Vec<T> {
+        let before = self.problems.len();
+        let mut found = Vec::new();
+        for entry in self.list(key, value) {
+            let name = entry.get_ref().as_str().unwrap_or_default();
+            match known(name) {
+                Some(one) => found.push(one),
+                None => {
+                    let said = self.text.get(entry.span()).unwrap_or_default();
+                    let said = crate::text::heading(said, 40);
+                    self.wrong(
+                        entry.span().start,
+                        format!("{key}: there is no {said}; there are {}", names.join(", ")),
+                    );
+                }
+            }
+        }
+        if found.is_empty() && self.problems.len() == before {
+            self.wrong(
+                value.span().start,
+                format!("{key} is empty; leave it out for the default"),
+            );
+        }
+        self.twice(key, value, found.clone());
+        found
+    }
+
+    fn twice<T: PartialEq>(&mut self, key: &str, value: &Found<'_>, list: Vec<T>) {
+        let again = |i: usize| list[..i].contains(&list[i]);
+        if (0..list.len()).any(again) {
+            self.wrong(
+                value.span().start,
+                format!("{key} says the same twice; its files would have one name"),
+            );
+        }
+    }
+
+    fn whole(&mut self, key: &str, value: &Found<'_>, least: u64, most: u64) -> Option<u64> {
+        let number = match value.get_ref() {
+            DeValue::Integer(number) => u64::from_str_radix(number.as_str(), number.radix()).ok(),
+            _ => None,
+        };
+        if number.is_none_or(|n| n < least || n > most) {
+            let said = self.text.get(value.span()).unwrap_or_default();
+            let said = crate::text::heading(said, 40);
+            self.wrong(
+                value.span().start,
+                format!("{key}: {said} is no whole number from {least} to {most}"),
+            );
+            return None;
+        }
+        number
+    }
+
+    fn threshold(&mut self, value: &Found<'_>) {
+        let said = self.text.get(value.span()).unwrap_or_default();
+        match said.parse::<f64>() {
+            Ok(threshold) if (0.0..=1.0).contains(&threshold) => {
+                self.settings.tolerance.perceptual = Some(threshold);
+            }
+            _ => {
+                let said = crate::text::heading(said, 40);
+                self.wrong(
+                    value.span().start,
+                    format!("perceptual_threshold: {said} is no number from 0 to 1; 0.1 is usual"),
+                );
+            }
+        }
+    }
+}
+
+/// The settings file that holds for a folder: the nearest at or above it. A folder that holds `.git` ends the search.
+pub fn nearest(folder: &Path) -> Option<PathBuf> {
+    let start = std::path::absolute(folder).ok()?;
+    for above in start.ancestors() {
+        let file = above.join(FILE);
+        if file.is_file() {
+            return Some(file);
+        }
+        if above.join(".git").exists() {
+            return None;
+        }
+    }
+    None
+}
+
+/// Whether a name fits a pattern in which `*` stands for any characters.
+pub fn fits(pattern: &str, name: &str) -> bool {
+    let mut parts = pattern.split('*');
+    let first = parts.next().unwrap_or_default();
+    let Some(mut rest) = name.strip_prefix(first) else {
+        return false;
+    };
+    let parts: Vec<&str> = parts.collect();
+    let Some((last, middle)) = parts.split_last() else {
+        return rest.is_empty();
+    };
+    for part in middle {
+        match rest.find(part) {
+            Some(at) => rest = &rest[at + part.len()..],
+            None => return false,
+        }
+    }
+    rest.len() >= last.len() && rest.ends_with(last)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_problem_is_told_in_its_place() {
+        let text = "layers = []\nwidths = [640, 640, -3, 1.5]\nthemes = \"dark\"\ndigits = 99\n\nperceptual_threshold = 7\nignore = [1]\ncolour = 1\n";
+        let told = Settings::read(text).expect_err("wrong");
+        let places: Vec<&str> = told.iter().filter_map(|t| t.split(": ").next()).collect();
+        assert_eq!(
+            places,
+            [
+                "1:10", "2:10", "2:21", "2:25", "3:10", "4:10", "6:24", "7:11", "8:1"
+            ],
+            "{told:#?}"
+        );
+        assert!(Settings::read("kinds = [\"forces\"").expect_err("cut")[0].contains("no TOML"));
+        assert_eq!(Settings::read(""), Ok(Settings::default()));
+    }
+
+    #[test]
+    fn stars_stand_for_anything() {
+        for (pattern, name) in [
+            ("*", ""),
+            ("a*", "abc"),
+            ("*c", "abc"),
+            ("a*c*e", "abcde"),
+            ("abc", "abc"),
+            ("a*a", "aa"),
+        ] {
+            assert!(fits(pattern, name), "{pattern} {name}");
+        }
+        for (pattern, name) in [
+            ("a", "ab"),
+            ("a*a", "a"),
+            ("b*", "ab"),
+            ("a*c", "acd"),
+            ("", "a"),
+        ] {
+            assert!(!fits(pattern, name), "{pattern} {name}");
+        }
+    }
+}

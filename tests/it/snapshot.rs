@@ -1,0 +1,138 @@
+//! Snapshots: what is caught and by which layer, what is let pass, and what happens to files.
+
+mod assertion;
+mod file;
+mod line;
+mod mutation;
+mod perception;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use tempfile::TempDir;
+
+/// Two posts and a lintel with a load that pushes to the right.
+pub(crate) fn lintel(title: &str, load: f64) -> String {
+    serde_json::json!({
+        "drystone": 1, "title": title, "friction": 0.6,
+        "ground": [{ "polygon": [[-1, -1], [7, -1], [7, 0], [-1, 0]] }],
+        "blocks": [
+            { "id": "left", "polygon": [[0, 0], [1, 0], [1, 3], [0, 3]], "weight": 60 },
+            { "id": "right", "polygon": [[5, 0], [6, 0], [6, 3], [5, 3]], "weight": 60 },
+            { "id": "lintel", "polygon": [[0, 3], [6, 3], [6, 4], [0, 4]], "weight": 110 } ],
+        "loads": [{ "block": "lintel", "force": [4.0 * load, -20.0 * load], "at": [2, 4] }]
+    })
+    .to_string()
+}
+
+/// How a run ended, and what it said.
+struct Ran {
+    code: i32,
+    out: String,
+    err: String,
+}
+
+/// A folder of scenes, gone with the test.
+struct Folder {
+    folder: TempDir,
+}
+
+impl Folder {
+    /// A folder with these scenes, whose references are as wide as a stamp.
+    fn with(scenes: &[(&str, String)]) -> Folder {
+        let folder = Folder {
+            folder: tempfile::tempdir().expect("a folder"),
+        };
+        folder.write("drystone-snapshots.toml", "widths = [160]\n");
+        for (name, text) in scenes {
+            folder.write(name, text);
+        }
+        folder
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn write(&self, name: &str, text: &str) {
+        let path = self.path(name);
+        fs::create_dir_all(path.parent().expect("a folder")).expect("made");
+        fs::write(path, text).expect("writable");
+    }
+
+    /// Every file, by its path from the folder.
+    fn files(&self) -> Vec<String> {
+        let mut files = Vec::new();
+        collect(self.folder.path(), self.folder.path(), &mut files);
+        files.sort();
+        files
+    }
+
+    fn command(&self, arguments: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_drystone"));
+        command.arg("snapshot").args(arguments);
+        command.current_dir(self.folder.path());
+        for name in ["CI", "UPDATE_SNAPSHOTS", "TERM_PROGRAM", "KITTY_WINDOW_ID"] {
+            command.env_remove(name);
+        }
+        command
+    }
+
+    fn run(&self, arguments: &[&str]) -> Ran {
+        ran(self.command(arguments))
+    }
+}
+
+fn ran(mut command: Command) -> Ran {
+    let output = command.output().expect("starts");
+    Ran {
+        code: output.status.code().expect("ends by itself"),
+        out: String::from_utf8(output.stdout).expect("UTF-8"),
+        err: String::from_utf8(output.stderr).expect("UTF-8"),
+    }
+}
+
+fn collect(root: &Path, folder: &Path, files: &mut Vec<String>) {
+    for entry in fs::read_dir(folder).expect("readable") {
+        let path = entry.expect("readable").path();
+        if path.is_dir() {
+            collect(root, &path, files);
+        } else {
+            let below = path.strip_prefix(root).expect("below");
+            files.push(below.to_string_lossy().replace('\\', "/"));
+        }
+    }
+}
+
+/// Our own gallery, checked by the same means as anybody's scenes: every scene in `tests/scenes` and every scene of the source's
+/// figures, their facts, drawings and pictures in each theme.
+#[test]
+fn the_gallery_is_as_its_references_say() {
+    drystone::snapshot::assert_scenes!("tests/scenes");
+}
+
+/// The plates of `drystone figures`, among them those that no scene file draws: the ring of colours and the sheet of shapes.
+#[test]
+fn the_plates_are_as_their_references_say() {
+    let plates = drystone::figure::gallery(&drystone::drawing::Theme::default());
+    for plate in &plates {
+        drystone::snapshot::assert_figure!(plate.name, &plate.drawing);
+    }
+    // A plate that is no more leaves no reference behind.
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/snapshots");
+    for entry in fs::read_dir(folder).expect("readable") {
+        let path = entry.expect("readable").path();
+        let stem = path
+            .file_stem()
+            .expect("named")
+            .to_string_lossy()
+            .into_owned();
+        let known = plates.iter().any(|p| p.name == stem);
+        assert!(
+            known || stem == "drystone-snapshots",
+            "{} has no plate",
+            path.display()
+        );
+    }
+}

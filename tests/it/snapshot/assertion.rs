@@ -1,0 +1,110 @@
+//! The macros as tests call them, in programs of their own, since they read the environment.
+
+use std::path::Path;
+use std::process::Command;
+
+use drystone::snapshot::assertion;
+use drystone::{Analysis, Scene, figure};
+
+use super::{Folder, lintel};
+
+/// Where the test below finds the crate it plays in.
+const FOLDER: &str = "DRYSTONE_TEST_FOLDER";
+
+/// Run by the others in programs of their own.
+#[test]
+#[ignore = "called by the other tests, with a folder"]
+fn a_scene_a_folder_and_a_figure() {
+    let folder = std::env::var_os(FOLDER).expect("a folder");
+    let folder = Path::new(&folder);
+    assertion::scene(folder, "scenes/arch.json".as_ref());
+    assertion::scenes(folder, "scenes".as_ref());
+    let text = std::fs::read_to_string(folder.join("scenes/arch.json")).expect("there");
+    let scene = Scene::from_json(&text).expect("sound");
+    let drawing = figure::draw(
+        &Analysis::of(&scene),
+        figure::Kind::Thrust,
+        &figure::Options::default(),
+    );
+    assertion::figure(folder, "deep/a thrust line".as_ref(), &drawing);
+}
+
+fn run(folder: &Folder, environment: &[(&str, &str)]) -> (bool, String) {
+    let mut command = Command::new(std::env::current_exe().expect("this program"));
+    command.args([
+        "--ignored",
+        "--exact",
+        "snapshot::assertion::a_scene_a_folder_and_a_figure",
+        "--nocapture",
+    ]);
+    command.env_remove("CI").env_remove("UPDATE_SNAPSHOTS");
+    command
+        .env(FOLDER, folder.path(""))
+        .envs(environment.iter().copied());
+    let output = command.output().expect("starts");
+    let said = String::from_utf8_lossy(&output.stdout).into_owned()
+        + &String::from_utf8_lossy(&output.stderr);
+    assert!(said.contains("running 1 test"), "{said}");
+    (output.status.success(), said)
+}
+
+#[test]
+fn a_test_fails_with_words_until_it_is_updated_and_never_writes_in_ci() {
+    let folder = Folder::with(&[("scenes/arch.json", lintel("A lintel", 1.0))]);
+    let before = folder.files();
+    for environment in [
+        &[("CI", "true")][..],
+        &[("CI", "true"), ("UPDATE_SNAPSHOTS", "1")],
+    ] {
+        let (passed, said) = run(&folder, environment);
+        assert!(
+            !passed && said.contains("CI is set: nothing was written"),
+            "{said}"
+        );
+        assert_eq!(folder.files(), before);
+    }
+    let (passed, said) = run(&folder, &[]);
+    assert!(
+        !passed && said.contains("scenes/arch.json is not as its references say"),
+        "{said}"
+    );
+    assert!(
+        said.contains("arch.new.txt") && said.contains("UPDATE_SNAPSHOTS=1"),
+        "{said}"
+    );
+    assert!(
+        folder.path("scenes/arch.new.png").exists() && !folder.path("scenes/arch.png").exists()
+    );
+    let (passed, said) = run(&folder, &[("UPDATE_SNAPSHOTS", "1")]);
+    assert!(passed, "{said}");
+    assert!(
+        folder
+            .path("tests/snapshots/deep/a thrust line.svg")
+            .exists()
+    );
+    assert!(!folder.path("scenes/arch.new.png").exists());
+    for environment in [&[][..], &[("CI", "true")], &[("UPDATE_SNAPSHOTS", "0")]] {
+        let (passed, said) = run(&folder, environment);
+        assert!(passed, "{said}");
+    }
+    folder.write("scenes/arch.json", &lintel("A lintel", 1.2));
+    let (passed, said) = run(&folder, &[]);
+    assert!(
+        !passed && said.contains("interface left–ground: N "),
+        "{said}"
+    );
+    assert!(said.contains("arch.diff.png"), "{said}");
+}
+
+#[test]
+#[should_panic(expected = "leads out of tests/snapshots")]
+fn a_figures_name_stays_in_its_folder() {
+    let drawing = figure::shapes(&drystone::drawing::Theme::default());
+    assertion::figure(Path::new("."), "../elsewhere".as_ref(), &drawing);
+}
+
+#[test]
+#[should_panic(expected = "there is no scene at src/text")]
+fn a_folder_without_scenes_is_no_success() {
+    assertion::scenes(Path::new(env!("CARGO_MANIFEST_DIR")), "src/text".as_ref());
+}

@@ -1,0 +1,525 @@
+//! `drystone snapshot` as a person runs it: exit codes, files, words, and what happens when things go wrong.
+
+use std::fs;
+use std::io::Write;
+use std::process::Stdio;
+use std::thread;
+use std::time::Duration;
+
+use drystone::snapshot::fact::Facts;
+use drystone::snapshot::picture::Picture;
+
+use super::{Folder, lintel, ran};
+
+/// A folder with one scene, accepted.
+fn accepted() -> Folder {
+    let folder = Folder::with(&[("a/arch.json", lintel("A lintel", 1.0))]);
+    let ran = folder.run(&["a", "--accept"]);
+    assert_eq!(ran.code, 0, "{}{}", ran.out, ran.err);
+    folder
+}
+
+#[test]
+fn what_is_new_lies_beside_until_it_is_accepted() {
+    let folder = Folder::with(&[("a/arch.json", lintel("A lintel", 1.0))]);
+    let ran = folder.run(&["a"]);
+    assert_eq!(ran.code, 1);
+    assert!(
+        ran.out
+            .contains("facts new, a/arch.txt: there is no reference"),
+        "{}",
+        ran.out
+    );
+    assert!(
+        ran.err.contains("1 snapshot: 0 hold, 0 changed, 1 new"),
+        "{}",
+        ran.err
+    );
+    let beside = [
+        "a/arch.json",
+        "a/arch.new.png",
+        "a/arch.new.svg",
+        "a/arch.new.txt",
+        "drystone-snapshots.toml",
+    ];
+    assert_eq!(folder.files(), beside);
+    assert_eq!(folder.run(&["a", "--accept"]).code, 0);
+    let there = [
+        "a/arch.json",
+        "a/arch.png",
+        "a/arch.svg",
+        "a/arch.txt",
+        "drystone-snapshots.toml",
+    ];
+    assert_eq!(folder.files(), there, "nothing is left beside");
+    let before = fs::metadata(folder.path("a/arch.png"))
+        .and_then(|m| m.modified())
+        .expect("there");
+    let ran = folder.run(&["a", "--accept"]);
+    assert_eq!((ran.code, ran.out.as_str()), (0, ""));
+    let after = fs::metadata(folder.path("a/arch.png"))
+        .and_then(|m| m.modified())
+        .expect("there");
+    assert_eq!(before, after, "what holds is not written again");
+}
+
+#[test]
+fn a_change_is_told_in_words_with_a_picture_and_goes_away_with_it() {
+    let folder = accepted();
+    folder.write("a/arch.json", &lintel("A lintel", 1.2));
+    let ran = folder.run(&["a"]);
+    assert_eq!(ran.code, 1);
+    for words in [
+        "a/arch\n",
+        "facts changed, a/arch.txt:\n",
+        "interface left–ground: N ",
+        "svg changed",
+        "pixels changed, a/arch.png: ",
+    ] {
+        assert!(ran.out.contains(words), "{words}: {}", ran.out);
+    }
+    assert!(
+        ran.err
+            .contains("to look: drystone snapshot a --review review.html"),
+        "{}",
+        ran.err
+    );
+    assert!(Picture::decode(&fs::read(folder.path("a/arch.diff.png")).expect("there")).is_ok());
+    folder.write("a/arch.json", &lintel("A lintel", 1.0));
+    assert_eq!(folder.run(&["a"]).code, 0);
+    assert_eq!(folder.files().len(), 5, "{:?}", folder.files());
+}
+
+#[test]
+fn orphans_and_lost_references_fail() {
+    let folder = accepted();
+    fs::remove_file(folder.path("a/arch.svg")).expect("there");
+    let ran = folder.run(&["a"]);
+    assert!(
+        ran.code == 1
+            && ran
+                .out
+                .contains("svg new, a/arch.svg: there is no reference"),
+        "{}",
+        ran.out
+    );
+    assert_eq!(folder.run(&["a", "--accept"]).code, 0);
+    folder.write("a/notes.txt", "The words of a person.\n");
+    folder.write("a/logo.svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"/>");
+    assert_eq!(folder.run(&["a"]).code, 0, "files of others are let be");
+    folder.write(
+        "a/arch.dark.svg",
+        "<svg xmlns=\"http://www.w3.org/2000/svg\"/>",
+    );
+    let ran = folder.run(&["a"]);
+    assert!(
+        ran.code == 1
+            && ran.out.contains(
+                "a/arch.dark.svg: a reference without a scene: its scene has no such reference"
+            ),
+        "{}",
+        ran.out
+    );
+    fs::remove_file(folder.path("a/arch.dark.svg")).expect("there");
+    fs::rename(folder.path("a/arch.json"), folder.path("a/bow.json")).expect("renamed");
+    let ran = folder.run(&["a"]);
+    for name in ["arch.txt", "arch.svg", "arch.png"] {
+        let words = format!("a/{name}: a reference without a scene: its scene is gone");
+        assert!(ran.code == 1 && ran.out.contains(&words), "{}", ran.out);
+    }
+}
+
+#[test]
+fn a_filter_leaves_the_others_alone() {
+    let folder = Folder::with(&[
+        ("one.json", lintel("One", 1.0)),
+        ("two.json", lintel("Two", 1.0)),
+    ]);
+    assert_eq!(folder.run(&[".", "--accept", "--only", "one"]).code, 0);
+    assert!(folder.path("one.txt").exists() && !folder.path("two.txt").exists());
+    assert_eq!(folder.run(&["--only", "o*e"]).code, 0);
+    assert_eq!(folder.run(&["--only", "two"]).code, 1);
+    let ran = folder.run(&["--only", "three"]);
+    assert!(
+        ran.code == 2
+            && ran
+                .err
+                .contains("no scene under . whose path contains \"three\""),
+        "{}",
+        ran.err
+    );
+}
+
+#[test]
+fn wrong_input_is_told_whole_and_nothing_is_written() {
+    let folder = Folder::with(&[
+        ("good.json", lintel("Good", 1.0)),
+        ("bad.json", r#"{ "drystone": 1, "blocks": 3 }"#.into()),
+    ]);
+    folder.write("worse.json", "{ \"drystone\": 1,");
+    folder.write("package.json", "{ \"name\": \"no scene\" }");
+    let before = folder.files();
+    let ran = folder.run(&["--accept"]);
+    assert_eq!((ran.code, folder.files()), (2, before));
+    assert!(
+        ran.err.contains("bad.json")
+            && ran.err.contains("worse.json")
+            && !ran.err.contains("package.json"),
+        "{}",
+        ran.err
+    );
+    folder.write("drystone-snapshots.toml", "widths = [1]\nkind = 3\n");
+    let ran = folder.run(&["--only", "good"]);
+    assert!(
+        ran.code == 2
+            && ran.err.contains("drystone-snapshots.toml:1:11: ")
+            && ran.err.contains("toml:2:1: there is no key kind"),
+        "{}",
+        ran.err
+    );
+    assert_eq!(folder.run(&["nowhere"]).code, 2);
+    assert_eq!(folder.run(&["--review", "page.txt"]).code, 2);
+}
+
+#[test]
+fn nothing_is_accepted_in_ci_unless_it_is_meant() {
+    let folder = Folder::with(&[("arch.json", lintel("A lintel", 1.0))]);
+    let in_ci = |arguments: &[&str]| {
+        let mut command = folder.command(arguments);
+        command.env("CI", "true");
+        ran(command)
+    };
+    for arguments in [&["--accept"][..], &["--review"]] {
+        let ran = in_ci(arguments);
+        assert!(
+            ran.code == 2 && ran.err.contains("CI is set"),
+            "{}",
+            ran.err
+        );
+    }
+    assert!(!folder.path("arch.txt").exists());
+    assert_eq!(in_ci(&[".", "--accept-in-ci"]).code, 0);
+    assert_eq!(in_ci(&["."]).code, 0);
+}
+
+#[test]
+fn names_with_spaces_and_of_any_script_are_names() {
+    let names = [
+        "a b/ein Bogen & 'mehr'.json",
+        "арка.json",
+        "石 橋.json",
+        "naïve.v2.json",
+    ];
+    let scenes: Vec<(&str, String)> = names.iter().map(|n| (*n, lintel(n, 1.0))).collect();
+    let folder = Folder::with(&scenes);
+    assert_eq!(folder.run(&["--accept"]).code, 0);
+    assert!(folder.path("石 橋.png").exists() && folder.path("naïve.v2.svg").exists());
+    assert_eq!(folder.run(&["."]).code, 0);
+    folder.write("a b/ein Bogen & 'mehr'.json", &lintel("changed", 1.0));
+    let ran = folder.run(&["--only", "Bogen"]);
+    assert!(
+        ran.code == 1
+            && ran
+                .out
+                .contains("facts changed, a b/ein Bogen & 'mehr'.txt: the scene: the title was"),
+        "{}",
+        ran.out
+    );
+}
+
+#[test]
+fn names_that_are_one_on_some_disks_are_refused() {
+    let folder = Folder::with(&[
+        ("Arch.json", lintel("One", 1.0)),
+        ("arch.json", lintel("Two", 1.0)),
+    ]);
+    if folder.files().len() < 3 {
+        // This disk is such a one itself.
+        return;
+    }
+    let ran = folder.run(&["--accept"]);
+    assert!(
+        ran.code == 2 && ran.err.contains("capitals and small letters are one"),
+        "{}",
+        ran.err
+    );
+    let folder = Folder::with(&[
+        ("a.json", lintel("One", 1.0)),
+        ("a.dark.json", lintel("Two", 1.0)),
+    ]);
+    folder.write(
+        "drystone-snapshots.toml",
+        "themes = [\"thesis\", \"dark\"]\nwidths = [160]\n",
+    );
+    let ran = folder.run(&["--accept"]);
+    assert!(
+        ran.code == 2 && ran.err.contains("a.dark.png"),
+        "{}",
+        ran.err
+    );
+}
+
+#[test]
+fn references_that_cannot_be_read_have_their_words() {
+    let folder = accepted();
+    let pointer = "version https://git-lfs.github.com/spec/v1\noid sha256:9f8e\nsize 18231\n";
+    for (name, text, words) in [
+        (
+            "arch.png",
+            pointer,
+            "pixels unreadable, a/arch.png: it is a Git LFS pointer",
+        ),
+        (
+            "arch.svg",
+            pointer,
+            "svg unreadable, a/arch.svg: it is a Git LFS pointer",
+        ),
+        (
+            "arch.txt",
+            pointer,
+            "facts unreadable, a/arch.txt: it is a Git LFS pointer",
+        ),
+        (
+            "arch.png",
+            "",
+            "pixels unreadable, a/arch.png: it is empty (0 bytes)",
+        ),
+        (
+            "arch.txt",
+            "<<<<<<< HEAD\n",
+            "line 1 is a mark of a merge conflict",
+        ),
+        (
+            "arch.svg",
+            "<svg",
+            "svg unreadable, a/arch.svg: it is no SVG",
+        ),
+    ] {
+        let kept = fs::read(folder.path(&format!("a/{name}"))).expect("there");
+        folder.write(&format!("a/{name}"), text);
+        let ran = folder.run(&["a"]);
+        assert!(
+            ran.code == 1 && ran.out.contains(words),
+            "{words}: {}",
+            ran.out
+        );
+        fs::write(folder.path(&format!("a/{name}")), kept).expect("writable");
+    }
+    assert_eq!(folder.run(&["a"]).code, 0);
+}
+
+#[test]
+fn a_place_that_cannot_be_written_changes_no_answer_and_refuses_acceptance() {
+    let folder = accepted();
+    folder.write("a/arch.json", &lintel("A lintel", 1.3));
+    // A folder where a file must go cannot be written by anybody, not even by the superuser.
+    fs::create_dir(folder.path("a/arch.new.txt")).expect("made");
+    let ran = folder.run(&["a"]);
+    assert!(
+        ran.code == 1
+            && ran
+                .err
+                .contains("could not write a/arch.new.txt: it is a folder"),
+        "{}{}",
+        ran.out,
+        ran.err
+    );
+    fs::remove_dir(folder.path("a/arch.new.txt")).expect("there");
+    let before = fs::read(folder.path("a/arch.txt")).expect("there");
+    fs::remove_file(folder.path("a/arch.svg")).expect("there");
+    fs::create_dir(folder.path("a/arch.svg")).expect("made");
+    let ran = folder.run(&["a", "--accept"]);
+    assert_eq!(ran.code, 4, "{}{}", ran.out, ran.err);
+    assert_eq!(
+        fs::read(folder.path("a/arch.txt")).expect("there"),
+        before,
+        "all of a snapshot or nothing"
+    );
+}
+
+fn twelve() -> Folder {
+    let names: Vec<String> = (0..12).map(|k| format!("s{k}.json")).collect();
+    let scenes: Vec<(&str, String)> = names
+        .iter()
+        .enumerate()
+        .map(|(k, n)| (n.as_str(), lintel("One of twelve", 1.0 + k as f64)))
+        .collect();
+    Folder::with(&scenes)
+}
+
+#[test]
+fn runs_at_once_take_turns() {
+    let folder = twelve();
+    let runs: Vec<_> = (0..4)
+        .map(|k| {
+            let mut command = folder.command(if k % 2 == 0 { &["--accept"] } else { &["."] });
+            command.stdout(Stdio::null()).stderr(Stdio::null());
+            command.spawn().expect("starts")
+        })
+        .collect();
+    for mut run in runs {
+        let code = run.wait().expect("ends").code();
+        assert!(matches!(code, Some(0 | 1)), "{code:?}");
+    }
+    let ran = folder.run(&["."]);
+    assert_eq!(ran.code, 0, "{}", ran.out);
+    assert_eq!(folder.files().len(), 12 * 4 + 1, "{:?}", folder.files());
+}
+
+#[test]
+fn an_interrupted_acceptance_leaves_whole_files() {
+    let mut seen = 0;
+    for wait in [15, 40, 80, 130, 200, 300] {
+        let folder = twelve();
+        let mut command = folder.command(&["--accept"]);
+        command.stdout(Stdio::null()).stderr(Stdio::null());
+        let mut run = command.spawn().expect("starts");
+        thread::sleep(Duration::from_millis(wait));
+        // As by the system, without a word to the program.
+        let _ = run.kill();
+        run.wait().expect("ends");
+        for name in folder.files() {
+            let bytes = fs::read(folder.path(&name)).expect("there");
+            let hidden = name.starts_with('.');
+            match name.rsplit_once('.').map(|(_, e)| e) {
+                _ if hidden => continue,
+                Some("png") => assert!(Picture::decode(&bytes).is_ok(), "{name}"),
+                Some("txt") => assert!(
+                    Facts::read(&String::from_utf8_lossy(&bytes)).is_ok(),
+                    "{name}"
+                ),
+                Some("svg") => assert!(bytes.ends_with(b"</svg>\n"), "{name}"),
+                _ => continue,
+            }
+            seen += 1;
+        }
+        assert_eq!(
+            folder.run(&["--accept"]).code,
+            0,
+            "the lock went with the run"
+        );
+    }
+    println!("{seen} files were whole");
+}
+
+#[test]
+fn a_page_a_report_and_annotations_are_written() {
+    let folder = accepted();
+    folder.write("b.json", &lintel("New", 1.0));
+    folder.write("a/arch.json", &lintel("A <b>lintel</b>", 1.2));
+    let ran = folder.run(&[
+        ".", "--review", "out.html", "--junit", "out.xml", "--github",
+    ]);
+    assert_eq!(ran.code, 1, "{}", ran.err);
+    let page = fs::read_to_string(folder.path("out.html")).expect("there");
+    assert_eq!(
+        page.matches("data:image/png;base64,").count(),
+        3 + 2 + 1,
+        "three, two in the stack, and the new one"
+    );
+    assert!(
+        page.contains("drystone snapshot . --accept --only a/arch")
+            && page.contains("type=\"range\"")
+    );
+    assert!(page.contains("A &lt;b&gt;lintel") && !page.contains("<b>lintel"));
+    assert!(
+        !page.contains("http://") && !page.contains("https://"),
+        "nothing comes from elsewhere"
+    );
+    let xml = fs::read_to_string(folder.path("out.xml")).expect("there");
+    let document = roxmltree::Document::parse(&xml).expect("XML");
+    let suite = document
+        .root_element()
+        .first_element_child()
+        .expect("a suite");
+    assert_eq!(
+        (suite.attribute("tests"), suite.attribute("failures")),
+        (Some("2"), Some("2"))
+    );
+    let lines: Vec<&str> = ran.out.lines().collect();
+    assert_eq!(lines.len(), 2, "{}", ran.out);
+    assert!(
+        lines[0].starts_with(
+            "::error file=a/arch.json,title=drystone snapshot a/arch::  facts changed"
+        ),
+        "{}",
+        lines[0]
+    );
+    assert!(lines[0].contains("%0A"));
+    assert_eq!(folder.run(&["--accept", "--junit", "out.xml"]).code, 0);
+    let xml = fs::read_to_string(folder.path("out.xml")).expect("there");
+    assert!(xml.contains("failures=\"0\""), "{xml}");
+}
+
+#[test]
+fn a_person_is_asked_one_by_one() {
+    let scenes = [
+        ("one.json", lintel("One", 1.0)),
+        ("three.json", lintel("Three", 1.0)),
+        ("two.json", lintel("Two", 1.0)),
+    ];
+    let folder = Folder::with(&scenes);
+    let mut command = folder.command(&[".", "--review"]);
+    command
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped());
+    let mut run = command.spawn().expect("starts");
+    let mut typed = run.stdin.take().expect("a pipe");
+    // What is no answer is asked again; the end of the input leaves the rest.
+    typed.write_all(b"perhaps\ny\nn\n").expect("read");
+    drop(typed);
+    let output = run.wait_with_output().expect("ends");
+    let out = String::from_utf8_lossy(&output.stdout);
+    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(out.matches("1 of 3, one: accept?").count(), 2, "{out}");
+    assert!(out.contains("3 of 3, two: accept?"), "{out}");
+    assert!(
+        folder.path("one.txt").exists()
+            && !folder.path("three.txt").exists()
+            && !folder.path("two.txt").exists()
+    );
+    assert!(!folder.path("one.new.txt").exists() && folder.path("three.new.txt").exists());
+}
+
+#[test]
+fn kinds_themes_and_widths_have_their_own_files() {
+    let folder = Folder::with(&[("a.json", lintel("A lintel", 1.0))]);
+    folder.write(
+        "drystone-snapshots.toml",
+        "kinds = [\"forces\", \"thrust\"]\nthemes = [\"paper\", \"dark\"]\nwidths = [200, 100]\nlayers = [\"svg\", \"pixels\"]\n",
+    );
+    assert_eq!(folder.run(&["--accept"]).code, 0);
+    let expected = [
+        "a.dark.png",
+        "a.dark.w100.png",
+        "a.json",
+        "a.png",
+        "a.svg",
+        "a.thrust.dark.png",
+        "a.thrust.dark.w100.png",
+        "a.thrust.png",
+        "a.thrust.svg",
+        "a.thrust.w100.png",
+        "a.w100.png",
+        "drystone-snapshots.toml",
+    ];
+    assert_eq!(folder.files(), expected);
+    let size = |name: &str| {
+        Picture::decode(&fs::read(folder.path(name)).expect("there"))
+            .expect("read")
+            .width
+    };
+    assert_eq!((size("a.png"), size("a.thrust.dark.w100.png")), (200, 100));
+    folder.write(
+        "drystone-snapshots.toml",
+        "widths = [200]\nthemes = [\"paper\"]\n",
+    );
+    let ran = folder.run(&["."]);
+    assert!(
+        ran.out
+            .contains("a.thrust.svg: a reference without a scene: its scene has no such reference"),
+        "{}",
+        ran.out
+    );
+}

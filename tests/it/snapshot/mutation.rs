@@ -1,0 +1,441 @@
+//! The table of mutations: each is caught, by the layers that can see it, in words that say what it is; and jitter is not.
+
+use drystone::analysis::{Analysis, Verdict};
+use drystone::drawing::{Colour, Drawing, Group, Item, Outline, PagePoint, Segment};
+use drystone::figure::{self, Options};
+use drystone::output::{png, svg};
+use drystone::snapshot::element;
+use drystone::snapshot::fact::{DIGITS, Facts};
+use drystone::snapshot::picture::{Difference, Picture, Subject, Tolerance};
+use drystone::{Scene, output};
+
+use super::lintel;
+
+/// What is compared of one scene.
+struct Take {
+    facts: Facts,
+    svg: String,
+    picture: Picture,
+}
+
+impl Take {
+    fn of(analysis: &Analysis<'_>, drawing: &Drawing) -> Take {
+        let svg = svg::write(drawing);
+        let raster = png::rgba(&svg, png::Size::Natural).expect("a picture");
+        Take {
+            facts: Facts::of(analysis, DIGITS),
+            picture: Picture::new(raster.width, raster.height, raster.rgba),
+            svg,
+        }
+    }
+
+    fn drawn(text: &str, change: impl FnOnce(&mut Drawing)) -> Take {
+        let scene = Scene::from_json(text).expect("sound");
+        let analysis = Analysis::of(&scene);
+        let mut drawing = figure::forces(&analysis, &Options::default());
+        change(&mut drawing);
+        Take::of(&analysis, &drawing)
+    }
+
+    fn scene(text: &str) -> Take {
+        Take::drawn(text, |_| {})
+    }
+}
+
+/// What each layer says of one take against the references of another, as they lie on disk: text, text and a packed picture.
+fn said(expected: &Take, found: &Take) -> [Vec<String>; 3] {
+    let kept = Facts::read(&expected.facts.text()).expect("what was written is read");
+    let facts = kept.changes(&found.facts).into_iter().map(|c| c.words);
+    let packed = expected
+        .picture
+        .encode(Some(Subject::Scene))
+        .expect("packed");
+    let packed = Picture::decode(&packed).expect("what was packed is read");
+    let difference = Difference::of(&packed, &found.picture, Tolerance::default());
+    let pixels = if difference.is_none() {
+        vec![]
+    } else {
+        vec![difference.words()]
+    };
+    let elements = element::changes(&expected.svg, &found.svg).expect("both are SVG");
+    [facts.collect(), elements, pixels]
+}
+
+fn groups(items: &mut [Item], visit: &mut dyn FnMut(&mut Group)) {
+    for item in items {
+        if let Item::Group(group) = item {
+            visit(group);
+            groups(&mut group.items, visit);
+        }
+    }
+}
+
+fn points(outline: &mut Outline, change: &dyn Fn(PagePoint) -> PagePoint) {
+    for segment in &mut outline.segments {
+        match segment {
+            Segment::Move(p) | Segment::Line(p) => *p = change(*p),
+            Segment::Curve(a, b, c) => [*a, *b, *c] = [*a, *b, *c].map(change),
+            Segment::Close => {}
+        }
+    }
+}
+
+/// Turns the arrow of a title about its tail, on the page anticlockwise.
+fn turn(drawing: &mut Drawing, title: &str, degrees: f64) {
+    let mut turned = 0;
+    groups(&mut drawing.items, &mut |group| {
+        if !group.title.starts_with(title) {
+            return;
+        }
+        for item in &mut group.items {
+            if let Item::Path(path) = item {
+                let Some(Segment::Move(tail)) = path.outline.segments.first().cloned() else {
+                    continue;
+                };
+                let (sin, cos) = libm::sincos(-degrees.to_radians());
+                points(&mut path.outline, &|p| {
+                    let (x, y) = (p.x - tail.x, p.y - tail.y);
+                    tail.moved(cos * x - sin * y, sin * x + cos * y)
+                });
+                turned += 1;
+            }
+        }
+    });
+    assert!(turned > 0, "there is no {title}");
+}
+
+fn words(drawing: &mut Drawing, change: &mut dyn FnMut(&mut Vec<Item>)) {
+    change(&mut drawing.items);
+    groups(&mut drawing.items, &mut |group| change(&mut group.items));
+}
+
+/// Takes the label of a block away; the key names the block too.
+fn lose(drawing: &mut Drawing, label: &str) {
+    let mut lost = 0;
+    groups(&mut drawing.items, &mut |group| {
+        if group.class != "name" {
+            return;
+        }
+        group.items.retain(|item| {
+            let is = matches!(item, Item::Text(text) if text.words == label);
+            lost += usize::from(is);
+            !is
+        });
+    });
+    assert_eq!(lost, 1, "{label}");
+}
+
+/// Moves the label with these words, pixels.
+fn shift(drawing: &mut Drawing, label: &str, x: f64, y: f64) {
+    words(drawing, &mut |items| {
+        for item in items {
+            if let Item::Text(text) = item
+                && text.words == label
+            {
+                text.at = text.at.moved(x, y);
+            }
+        }
+    });
+}
+
+/// Fills a block with another colour, by so much in red.
+fn recolour(drawing: &mut Drawing, title: &str, by: u8) {
+    groups(&mut drawing.items, &mut |group| {
+        if group.title != title {
+            return;
+        }
+        for item in &mut group.items {
+            if let Item::Path(path) = item
+                && let Some(Colour([r, g, b])) = path.fill
+            {
+                path.fill = Some(Colour([r.wrapping_add(by), g, b]));
+            }
+        }
+    });
+}
+
+/// A row: what was done, and what facts, drawing and pixels must say of it; nothing where the string is empty.
+struct Row {
+    what: &'static str,
+    found: Take,
+    facts: &'static str,
+    svg: &'static str,
+    pixels: &'static str,
+}
+
+#[test]
+fn every_mutation_is_caught_by_its_layers_in_words() {
+    let text = lintel("A lintel", 1.0);
+    let expected = Take::scene(&text);
+    let arrow = "Force on block lintel from block left";
+    let without_a_post = {
+        let mut file: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+        file["blocks"].as_array_mut().expect("blocks").remove(1);
+        file.to_string()
+    };
+    let mut one_pixel_right = Take::scene(&text);
+    one_pixel_right.picture = shifted(&expected.picture);
+    let rows = [
+        Row {
+            what: "the picture shifted by a pixel",
+            found: one_pixel_right,
+            facts: "",
+            svg: "",
+            pixels: "pixels differ, by up to",
+        },
+        Row {
+            what: "a label moved by a pixel",
+            found: Take::drawn(&text, |d| shift(d, "lintel", 1.0, 0.0)),
+            facts: "",
+            svg: "text \"lintel\": moved by 1 px to the right",
+            pixels: "pixels differ, by up to",
+        },
+        Row {
+            what: "an arrow turned by three degrees",
+            found: Take::drawn(&text, |d| turn(d, arrow, 3.0)),
+            facts: "",
+            svg: "path in force \"Force on block lintel from block left\": turned by 3° anticlockwise",
+            pixels: "pixels differ, by up to",
+        },
+        Row {
+            what: "a lost label",
+            found: Take::drawn(&text, |d| lose(d, "lintel")),
+            facts: "",
+            svg: "text \"lintel\": vanished",
+            pixels: "pixels differ, by up to",
+        },
+        Row {
+            what: "a block in another colour",
+            found: Take::drawn(&text, |d| recolour(d, "Block left", 90)),
+            facts: "",
+            svg: "path in block \"Block left\": fill #",
+            pixels: "pixels differ, by up to 90 of 255",
+        },
+        Row {
+            what: "a block in nearly the same colour",
+            found: Take::drawn(&text, |d| recolour(d, "Block left", 2)),
+            facts: "",
+            svg: "path in block \"Block left\": fill #",
+            pixels: "pixels differ, by up to 2 of 255",
+        },
+        Row {
+            what: "a load of 1 % more",
+            found: Take::scene(&lintel("A lintel", 1.01)),
+            facts: "interface left–lintel: N ",
+            svg: "description",
+            pixels: "pixels differ, by up to",
+        },
+        Row {
+            what: "a lost block",
+            found: Take::scene(&without_a_post),
+            facts: "frame 1: stable → unstable",
+            svg: "block \"Block right\": vanished",
+            pixels: "found",
+        },
+    ];
+    for row in rows {
+        let said = said(&expected, &row.found);
+        for ((layer, words), wanted) in ["facts", "svg", "pixels"]
+            .iter()
+            .zip(&said)
+            .zip([row.facts, row.svg, row.pixels])
+        {
+            println!(
+                "{} | {layer} | {}",
+                row.what,
+                words.first().map_or("", String::as_str)
+            );
+            if wanted.is_empty() {
+                assert!(words.is_empty(), "{}, {layer}: {words:#?}", row.what);
+            } else {
+                let told = words.iter().any(|w| w.contains(wanted));
+                assert!(
+                    told,
+                    "{}, {layer} must say {wanted:?}, says {words:#?}",
+                    row.what
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_lost_block_is_named_and_what_it_carried_falls() {
+    let text = lintel("A lintel", 1.0);
+    let mut file: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    file["blocks"].as_array_mut().expect("blocks").remove(1);
+    let [facts, ..] = said(&Take::scene(&text), &Take::scene(&file.to_string()));
+    assert_eq!(facts[0], "frame 1: stable → unstable");
+    assert!(
+        facts.contains(&"block lintel no longer stands".into()),
+        "{facts:#?}"
+    );
+    for gone in [
+        "block right is gone: weight 60 N",
+        "interface right–ground is gone",
+    ] {
+        assert!(facts.iter().any(|w| w.starts_with(gone)), "{facts:#?}");
+    }
+    let [back, ..] = said(&Take::scene(&file.to_string()), &Take::scene(&text));
+    assert!(
+        back.contains(&"block lintel falls no longer".into()),
+        "{back:#?}"
+    );
+    assert!(
+        back.iter()
+            .any(|w| w.starts_with("block right is new: weight 60 N")),
+        "{back:#?}"
+    );
+}
+
+fn shifted(picture: &Picture) -> Picture {
+    let wide = picture.width as usize;
+    let mut pixels = Vec::with_capacity(picture.pixels().len());
+    for row in picture.pixels().chunks(wide) {
+        pixels.push(row[0]);
+        pixels.extend_from_slice(&row[..wide - 1]);
+    }
+    Picture::new(picture.width, picture.height, pixels)
+}
+
+/// Numbers that look like chance and are the same every time.
+fn noise(state: &mut u64) -> u64 {
+    *state = state
+        .wrapping_mul(6_364_136_223_846_793_005)
+        .wrapping_add(1_442_695_040_888_963_407);
+    *state >> 33
+}
+
+/// Every force of an analysis off by up to a billionth part of it, as from another solver.
+fn jittered(analysis: &mut Analysis<'_>, state: &mut u64) {
+    let mut near = |value: &mut f64| {
+        let part = (noise(state) % 2001) as f64 / 1000.0 - 1.0;
+        *value += part * 1e-9 * value.abs().max(1e-3);
+    };
+    for frame in &mut analysis.frames {
+        near(&mut frame.total_force);
+        near(&mut frame.total_sticking);
+        for contact in &mut frame.contacts {
+            contact.normal_forces.iter_mut().for_each(&mut near);
+            near(&mut contact.friction_force);
+            let resultant = &mut contact.resultant;
+            near(&mut resultant.at.x);
+            near(&mut resultant.at.y);
+            near(&mut resultant.force.x);
+            near(&mut resultant.force.y);
+        }
+        for robot in &mut frame.robots {
+            near(&mut robot.force.x);
+            near(&mut robot.force.y);
+            near(&mut robot.torque);
+        }
+    }
+}
+
+/// Scenes of every sort: those of the gallery.
+fn gallery() -> Vec<(String, Scene)> {
+    let mut scenes = Vec::new();
+    for folder in ["tests/scenes", "assets/thesis"] {
+        let folder = format!("{}/{folder}", env!("CARGO_MANIFEST_DIR"));
+        for entry in std::fs::read_dir(folder).expect("readable") {
+            let path = entry.expect("readable").path();
+            if path.extension().is_some_and(|e| e == "json") {
+                let text = std::fs::read_to_string(&path).expect("readable");
+                scenes.push((
+                    path.display().to_string(),
+                    Scene::from_json(&text).expect("sound"),
+                ));
+            }
+        }
+    }
+    scenes.sort_by(|a, b| a.0.cmp(&b.0));
+    scenes
+}
+
+#[test]
+fn forces_off_by_a_billionth_are_no_change_in_facts_or_drawing() {
+    let mut state = 7;
+    let scenes = gallery();
+    assert!(scenes.len() >= 30, "{}", scenes.len());
+    for (name, scene) in &scenes {
+        let analysis = Analysis::of(scene);
+        let mut other = analysis.clone();
+        jittered(&mut other, &mut state);
+        let facts =
+            |a: &Analysis<'_>| Facts::read(&Facts::of(a, DIGITS).text()).expect("read back");
+        let changes = facts(&analysis).changes(&facts(&other));
+        assert!(changes.is_empty(), "{name}: {changes:#?}");
+        let drawn = |a: &Analysis<'_>| svg::write(&figure::forces(a, &Options::default()));
+        let changes = element::changes(&drawn(&analysis), &drawn(&other)).expect("SVG");
+        assert!(changes.is_empty(), "{name}: {changes:#?}");
+    }
+}
+
+#[test]
+fn pixels_off_by_one_are_no_change_and_by_two_are() {
+    let expected = Take::scene(&lintel("A lintel", 1.0));
+    let packed = expected.picture.encode(None).expect("packed");
+    let packed = Picture::decode(&packed).expect("read");
+    let mut state = 3;
+    let mut off = |most: u64| {
+        let pixels = expected.picture.pixels().iter().map(|p| {
+            let mut p = *p;
+            for channel in &mut p[..3] {
+                let by = (noise(&mut state) % (2 * most + 1)) as i16 - most as i16;
+                *channel = (i16::from(*channel) + by).clamp(0, 255) as u8;
+            }
+            p
+        });
+        Picture::new(
+            expected.picture.width,
+            expected.picture.height,
+            pixels.collect(),
+        )
+    };
+    let by_one = Difference::of(&packed, &off(1), Tolerance::default());
+    assert!(by_one.is_none(), "{}", by_one.words());
+    let by_two = Difference::of(&packed, &off(2), Tolerance::default());
+    assert!(by_two.changed > by_two.of / 2, "{}", by_two.words());
+}
+
+#[test]
+fn one_pixel_is_enough() {
+    let expected = Take::scene(&lintel("A lintel", 1.0)).picture;
+    let packed = Picture::decode(&expected.encode(None).expect("packed")).expect("read");
+    let mut pixels = expected.pixels().to_vec();
+    // A pixel of the white page, where no rounding is.
+    pixels[5 * expected.width as usize + 9] = [252, 255, 255, 255];
+    let found = Picture::new(expected.width, expected.height, pixels);
+    let difference = Difference::of(&packed, &found, Tolerance::default());
+    assert_eq!(
+        (difference.changed, difference.largest, difference.bounds),
+        (1, 3, Some([9, 5, 1, 1]))
+    );
+    let image = difference.image(&packed);
+    assert_eq!(image.pixel(9, 5), [0xd4, 0x00, 0x1a, 255], "marked in red");
+    assert_eq!(image.pixel(12, 8), [0xf0, 0x70, 0x80, 255], "framed");
+}
+
+/// The facts of every scene of the gallery are read back as they were written, whatever its names hold.
+#[test]
+fn facts_are_read_back_as_they_were_written() {
+    for (name, scene) in gallery() {
+        let analysis = Analysis::of(&scene);
+        let facts = Facts::of(&analysis, DIGITS);
+        let text = facts.text();
+        assert_eq!(Facts::read(&text).as_ref(), Ok(&facts), "{name}");
+        assert_eq!(
+            Facts::read(&text.replace('\n', "\r\n")),
+            Ok(facts),
+            "{name} with other line ends"
+        );
+    }
+    let nasty =
+        lintel("a \"b\" \\ c: d, e 5 N\n\u{1b}", 1.0).replace("\"left\"", r#""x\": 1 N, \"y\\""#);
+    let scene = Scene::from_json(&nasty).expect("sound");
+    let analysis = Analysis::of(&scene);
+    assert_eq!(analysis.verdict(), Verdict::Stable);
+    let facts = Facts::of(&analysis, DIGITS);
+    assert_eq!(Facts::read(&facts.text()), Ok(facts));
+    assert!(output::svg::write(&figure::forces(&analysis, &Options::default())).contains("y\\"));
+}

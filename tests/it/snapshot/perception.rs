@@ -1,0 +1,61 @@
+//! Perceptual comparison: the counts of pixelmatch, and smoothing that is let pass.
+
+use drystone::snapshot::picture::{Difference, Picture, Tolerance};
+
+/// Another disc, a threshold, and how many pixels differ and are smoothed.
+type Count = ([f64; 3], f64, u64, u64);
+
+const PIXELMATCH: &[Count] = &[
+    ([31.9, 30.2, 17.3], 0.1, 0, 41),
+    ([31.9, 30.2, 17.3], 0.02, 0, 105),
+    ([32.7, 30.2, 17.3], 0.1, 0, 136),
+    ([31.7, 30.2, 18.1], 0.1, 0, 167),
+    ([31.7, 30.2, 18.1], 0.3, 0, 99),
+    ([29.0, 33.0, 17.3], 0.1, 162, 169),
+    ([31.7, 30.2, 40.0], 0.1, 2953, 130),
+    ([5.0, 5.0, 9.0], 0.05, 1044, 124),
+];
+
+/// A smoothed disc, by arithmetic that is the same everywhere: row by row, 64 × 64 pixels.
+fn disc(x: f64, y: f64, radius: f64) -> Picture {
+    let pixel = |i: usize| {
+        let (px, py) = ((i % 64) as f64 + 0.5 - x, (i / 64) as f64 + 0.5 - y);
+        let inside = (radius + 0.5 - (px * px + py * py).sqrt()).clamp(0.0, 1.0);
+        let mix = |from: f64, to: f64| (from + (to - from) * inside).round() as u8;
+        [mix(250.0, 30.0), mix(240.0, 90.0), mix(230.0, 160.0), 255]
+    };
+    Picture::new(64, 64, (0..64 * 64).map(pixel).collect())
+}
+
+fn perceptual(threshold: f64) -> Tolerance {
+    Tolerance {
+        channel: 0,
+        perceptual: Some(threshold),
+    }
+}
+
+/// Differing and smoothed pixels of discs moved and grown, as pixelmatch 7 counts them at the same threshold.
+#[test]
+fn counts_are_those_of_pixelmatch() {
+    let base = disc(31.7, 30.2, 17.3);
+    for (other, threshold, changed, smoothed) in PIXELMATCH {
+        let [x, y, r] = *other;
+        let found = Difference::of(&base, &disc(x, y, r), perceptual(*threshold));
+        assert_eq!(
+            (found.changed, found.smoothed),
+            (*changed, *smoothed),
+            "{other:?} at {threshold}"
+        );
+    }
+}
+
+#[test]
+fn another_smoothing_of_the_same_edge_is_let_pass_only_on_request() {
+    let (one, other) = (disc(32.0, 32.0, 16.0), disc(32.2, 32.1, 16.0));
+    let strict = Difference::of(&one, &other, Tolerance::default());
+    assert!(strict.changed > 80, "{}", strict.words());
+    let seen = Difference::of(&one, &other, perceptual(0.1));
+    assert!(seen.is_none() && seen.smoothed > 0, "{}", seen.words());
+    let moved = Difference::of(&one, &disc(35.0, 32.0, 16.0), perceptual(0.1));
+    assert!(moved.changed > 50, "{}", moved.words());
+}
