@@ -11,6 +11,7 @@ mod margin;
 mod mechanism;
 mod near;
 mod option;
+mod pair;
 
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -33,7 +34,9 @@ pub use component::Method;
 use component::{Findings, solved};
 use frame::{settle, worst};
 pub use margin::{Margin, Margins, RobotMargins, Sides};
+pub use mechanism::Toward;
 pub use option::{Accuracy, Ask, Options};
+pub use pair::pair;
 
 /// Whether a frame stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
