@@ -11,8 +11,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::{Analysis, FrameAnalysis, Margin, Verdict};
-use crate::geometry::{Point, Vector, cross, sin_cos_degrees};
+use super::{Analysis, FrameAnalysis, Margin, Sides, Verdict};
+use crate::geometry::{Point, Vector, cross, quarter_turn, sin_cos_degrees};
 use crate::proof::Motion;
 use crate::scene::{BlockId, BodyId, Scene};
 use crate::solve::ray::{self, Row};
@@ -25,6 +25,18 @@ const BEYOND: f64 = 0.05;
 const CLOSED: f64 = 1e-5;
 /// A motion along the joints is drawn where it keeps at least this share of the lifting one.
 const KEPT: f64 = 0.5;
+
+/// In which direction a frame is followed until it falls.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Toward {
+    /// Gravity turns: degrees, positive where its tip moves to the right; loads do not turn.
+    #[default]
+    Tilt,
+    /// A share of each weight acts across gravity beside the weight itself, positive to the right.
+    HorizontalLoad,
+    /// The listed loads grow: the factor on them.
+    LoadFactor,
+}
 
 impl<'s> Analysis<'s> {
     /// The same analysis with one elementary mechanism in place of each falling part's motion, as it is drawn: where a
@@ -41,34 +53,59 @@ impl<'s> Analysis<'s> {
         analysis
     }
 
-    /// How far gravity may turn before a frame (from 0) falls, to the side on which that is less, and the elementary
-    /// mechanism by which it then falls; `None` where margins were not asked for or no turn makes it fall.
+    /// How far gravity may turn before a frame (from 0) falls, as [`Analysis::edge`] has it.
     ///
     /// Units: degrees. Signs: positive where gravity's tip moves to the right.
     pub fn tilted(&self, frame: usize) -> Option<(f64, Vec<Motion>)> {
+        self.edge(frame, Toward::Tilt)
+    }
+
+    /// How far a frame (from 0) is from falling, to the side on which that is less, and the elementary mechanism by which
+    /// it then falls; `None` where margins were not asked for or nothing in this direction makes it fall.
+    ///
+    /// Units and signs: see [`Toward`].
+    pub fn edge(&self, frame: usize, toward: Toward) -> Option<(f64, Vec<Motion>)> {
         let found = self.frames.get(frame)?;
-        let sides = &found.margins.as_ref()?.tilt;
+        let margins = found.margins.as_ref()?;
         let side = |margin: &Margin, sign: f64| match margin {
             Margin::Value { at, mechanism } if !mechanism.is_empty() => {
                 Some((sign * at, mechanism.clone()))
             }
             _ => None,
         };
-        let (degrees, motions) = [side(&sides.right, 1.0), side(&sides.left, -1.0)]
+        let sides = |sides: &Sides| [side(&sides.right, 1.0), side(&sides.left, -1.0)];
+        let edges = match toward {
+            Toward::Tilt => sides(&margins.tilt),
+            Toward::HorizontalLoad => sides(&margins.horizontal_load),
+            Toward::LoadFactor => [side(&margins.load_factor, 1.0), None],
+        };
+        let (at, motions) = edges
             .into_iter()
             .flatten()
             .min_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
         // Just at the edge the loads do no work along the mechanism: a hair beyond they do.
-        let (sin, cos) = sin_cos_degrees(degrees + BEYOND * degrees.signum());
-        let gravity = self.scene.gravity;
-        let scene = Scene {
-            gravity: Vector::new(
-                cos * gravity.x - sin * gravity.y,
-                sin * gravity.x + cos * gravity.y,
-            ),
-            ..self.scene.clone()
-        };
-        Some((degrees, self.mechanisms_of(&scene, found, &motions)))
+        let (gravity, mut scene) = (self.scene.gravity, self.scene.clone());
+        match toward {
+            Toward::Tilt => {
+                let (sin, cos) = sin_cos_degrees(at + BEYOND * at.signum());
+                scene.gravity = Vector::new(
+                    cos * gravity.x - sin * gravity.y,
+                    sin * gravity.x + cos * gravity.y,
+                );
+            }
+            Toward::HorizontalLoad => {
+                let share = at + BEYOND.to_radians() * at.signum();
+                scene.gravity = gravity + quarter_turn(gravity) * share;
+            }
+            Toward::LoadFactor => {
+                let factor = at * (1.0 + BEYOND.to_radians());
+                for load in &mut scene.loads {
+                    load.force *= factor;
+                    load.torque *= factor;
+                }
+            }
+        }
+        Some((at, self.mechanisms_of(&scene, found, &motions)))
     }
 
     fn mechanisms(&self, number: usize) -> Vec<Motion> {

@@ -12,6 +12,7 @@ mod margin;
 mod mechanism;
 mod near;
 mod option;
+mod pair;
 
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -36,7 +37,9 @@ use frame::{settle, worst};
 pub(crate) use judgement::{Guess, hinges_on_gaps};
 pub use judgement::{Source, verdicts};
 pub use margin::{Margin, Margins, RobotMargins, Sides};
+pub use mechanism::Toward;
 pub use option::{Accuracy, Ask, Options};
+pub use pair::pair;
 
 /// Whether a frame stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

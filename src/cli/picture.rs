@@ -205,6 +205,18 @@ impl Picture {
         self.width_mm.map(|mm| mm / 25.4 * 96.0 / IN_PRINT)
     }
 
+    /// How many times as high as wide a figure may be that fits on an A4 page: of a width in print within its margins,
+    /// else as the page itself.
+    pub(crate) fn page_ratio(&self) -> f64 {
+        let page = 297.0 / 210.0;
+        self.width_mm.map_or(page, |mm| (247.0 / mm).max(page))
+    }
+
+    /// Refuses a PNG of at least this width and height of its drawing.
+    pub(crate) fn check_png(&self, (width, height): (f64, f64)) -> Result<(), Complaint> {
+        png::check(width, height, self.size()).map_err(|error| not_drawn(&error))
+    }
+
     /// Our fonts and those asked for.
     pub(crate) fn fonts(&self) -> Result<Fonts, Complaint> {
         let mut files = Vec::new();

@@ -1,10 +1,15 @@
 //! `drystone render`: scenes in, figures out.
 
-use std::ffi::OsStr;
+mod choice;
+mod target;
+
 use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
+
+use choice::{ArrowScale, Arrows, Fill, Kind, Margin, Normalise};
+use target::{part_path, paths};
 
 use crate::analysis::{self, Analysis, Verdict};
 use crate::cli::complaint::Complaint;
@@ -80,7 +85,7 @@ pub(crate) struct Render {
     /// Show a bar of a round number of metres
     #[arg(long)]
     scale_bar: bool,
-    /// Measure the width and height of all blocks at the edges of each panel
+    /// Measure the width and height of all blocks, or of the block of --zoom, at the edges of each panel
     #[arg(long)]
     dimensions: bool,
     /// Show the neighbourhood of one block only, by its id
@@ -89,6 +94,12 @@ pub(crate) struct Render {
     /// Write every panel of a strip to a file of its own, its letter after the name
     #[arg(long, conflicts_with = "animate")]
     panels: bool,
+    /// Split a long strip over several A4 pages, each a file of its own, its number after the name
+    #[arg(long, conflicts_with_all = ["animate", "panels"])]
+    pages: bool,
+    /// Of --kind margin, in which direction [default: tilt]
+    #[arg(long, value_enum, value_name = "DIRECTION")]
+    margin: Option<Margin>,
     /// Panels per row of a strip
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     columns: Option<u16>,
@@ -105,61 +116,10 @@ pub(crate) struct Render {
     level: Level,
 }
 
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum Kind {
-    /// Every force as an arrow on the block it acts on, and what is missing
-    Forces,
-    /// Where it falls, how: blocks displaced along the collapse, hinges and slips
-    Mechanism,
-    /// The line of thrust through the blocks
-    Thrust,
-    /// The safe stretch of each interface, and where in it the resultant sits
-    Kernel,
-    /// Friction used of friction available, interface by interface
-    Utilisation,
-    /// The steps of a construction, arrows to one scale in all of them; --animate shows them one after the other
-    Build,
-    /// The forces on the structure from outside, and their polygon beside it
-    Polygon,
-    /// As it stands, and as a ghost how it falls once gravity is turned as far as its margin
-    Margin,
-    /// What changed from one frame to the next: blocks and forces
-    Compare,
-    /// One block cut free, with every force that may act on it by name
-    Freebody,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum Fill {
-    /// The larger of a block's weight and its largest normal force, N
-    Amplitude,
-    /// The largest mean pressure on one of its interfaces, N/m², for the scene's thickness
-    Stress,
-    /// The largest share of the friction available that one of its interfaces uses
-    Friction,
-    /// Nothing: plain blocks
-    None,
-    /// Shares of the robots' limits, by the rule and in the colours of the source
-    Source,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum Arrows {
-    Resultant,
-    Components,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum Normalise {
-    Drawn,
-    Source,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum ArrowScale {
-    Panel,
-    Strip,
-}
+/// A strip of more frames than this may be too large for a PNG.
+const MANY: usize = 50;
+/// A strip so many times as high as a page is too high for it.
+const TALL: f64 = 1.02;
 
 /// A figure and what it shows.
 struct Rendered {
@@ -167,24 +127,6 @@ struct Rendered {
     bytes: Vec<Vec<u8>>,
     ending: Ending,
     summary: String,
-}
-
-impl Kind {
-    /// What the panels of the figure show; `None` for a free-body diagram, which has none.
-    fn panels(self) -> Option<figure::Kind> {
-        match self {
-            Kind::Forces => Some(figure::Kind::Forces),
-            Kind::Mechanism => Some(figure::Kind::Mechanism),
-            Kind::Thrust => Some(figure::Kind::Thrust),
-            Kind::Kernel => Some(figure::Kind::Kernel),
-            Kind::Utilisation => Some(figure::Kind::Utilisation),
-            Kind::Build => Some(figure::Kind::Build),
-            Kind::Polygon => Some(figure::Kind::Polygon),
-            Kind::Margin => Some(figure::Kind::Margin),
-            Kind::Compare => Some(figure::Kind::Compare),
-            Kind::Freebody => None,
-        }
-    }
 }
 
 fn seconds(typed: &str) -> Result<f64, String> {
@@ -228,11 +170,15 @@ impl Render {
             return Err(vec![Complaint::CommandLine(why.into())]);
         }
         let scenes = source::files(&self.scenes).map_err(|c| vec![c])?;
-        check_count(&scenes, &destination, format, terminal).map_err(|c| vec![c])?;
-        if self.panels
-            && (self.kind.panels().is_none() || matches!(destination, Destination::Stdout))
-        {
-            let why = "--panels writes the panels of a figure to files; give a file or folder, and any kind but freebody";
+        self.check_count(&scenes, &destination, format, terminal)
+            .map_err(|c| vec![c])?;
+        if self.margin.is_some() && !matches!(self.kind, Kind::Margin) {
+            let why = "--margin is about the direction of a margin; add --kind margin";
+            return Err(vec![Complaint::CommandLine(why.into())]);
+        }
+        let parts = self.panels || self.pages;
+        if parts && (self.kind.panels().is_none() || matches!(destination, Destination::Stdout)) {
+            let why = "--panels and --pages write the parts of a figure to files; give a file or folder, and any kind but freebody";
             return Err(vec![Complaint::CommandLine(why.into())]);
         }
         let fonts = self.picture.fonts().map_err(|c| vec![c])?;
@@ -262,10 +208,15 @@ impl Render {
         if matches!(self.kind, Kind::Margin) {
             asked.margins = analysis::Ask::Yes;
         }
-        let rendered: Vec<Result<Rendered, Complaint>> = sources
-            .par_iter()
-            .map(|source| self.render(source, &asked, &options, format, &fonts, &progress))
-            .collect();
+        let rendered: Vec<Result<Rendered, Complaint>> = match &sources[..] {
+            [before, after] if self.joins(scenes.len(), &destination) => {
+                vec![self.compared([before, after], &asked, &options, format, &fonts)]
+            }
+            sources => sources
+                .par_iter()
+                .map(|source| self.render(source, &asked, &options, format, &fonts, &progress))
+                .collect(),
+        };
         drop(progress);
         let rendered = all(rendered)?;
 
@@ -289,12 +240,17 @@ impl Render {
             }
             let mut files: Vec<(PathBuf, Vec<u8>)> = Vec::new();
             for (path, pictures) in paths.iter().zip(bytes) {
-                if !self.panels {
+                if !parts {
                     files.extend(pictures.into_iter().map(|bytes| (path.clone(), bytes)));
                     continue;
                 }
                 for (number, bytes) in pictures.into_iter().enumerate() {
-                    files.push((panel_path(path, number), bytes));
+                    let part = if self.pages {
+                        (number + 1).to_string()
+                    } else {
+                        figure::letter(number)
+                    };
+                    files.push((part_path(path, &part), bytes));
                 }
             }
             destination::write(&files, Existing::Replace).map_err(|c| vec![c])?;
@@ -303,6 +259,93 @@ impl Render {
             }
         }
         Ok(if self.strict { ending } else { Ending::Done })
+    }
+
+    /// What can be refused before any scene is read.
+    fn check_count(
+        &self,
+        scenes: &[PathBuf],
+        destination: &Destination,
+        format: Format,
+        terminal: &Terminal,
+    ) -> Result<(), Complaint> {
+        if self.joins(scenes.len(), destination) {
+            return match (destination, format.unreadable()) {
+                (Destination::Stdout, Some(why)) if terminal.is_watched() => {
+                    Err(Complaint::CommandLine(why))
+                }
+                _ => Ok(()),
+            };
+        }
+        let why = match destination {
+            Destination::File(path) if scenes.len() > 1 => {
+                let (count, shown) = (scenes.len(), path.display());
+                format!(
+                    "{count} scenes do not go into the one file {shown}; give a folder, its name ending in a slash"
+                )
+            }
+            Destination::Stdout if scenes.len() > 1 => {
+                "only one picture at a time goes to standard output; give a folder".into()
+            }
+            Destination::Stdout if terminal.is_watched() => match format.unreadable() {
+                Some(why) => why,
+                None => return Ok(()),
+            },
+            _ => return Ok(()),
+        };
+        Err(Complaint::CommandLine(why))
+    }
+
+    /// Whether two scenes become one figure that compares them.
+    fn joins(&self, scenes: usize, destination: &Destination) -> bool {
+        matches!(self.kind, Kind::Compare)
+            && scenes == 2
+            && !matches!(destination, Destination::Folder(_))
+    }
+
+    /// The last frames of two scenes side by side, with what changed from the one to the other.
+    fn compared(
+        &self,
+        sources: [&Source; 2],
+        asked: &analysis::Options,
+        options: &figure::Options,
+        format: Format,
+        fonts: &Fonts,
+    ) -> Result<Rendered, Complaint> {
+        if self.zoom.is_some() || self.panels || self.pages || self.animate.is_some() {
+            let why = "a comparison of two scenes is one picture; leave out --zoom, --panels, --pages and --animate";
+            return Err(Complaint::CommandLine(why.into()));
+        }
+        let scenes = sources.map(|source| {
+            if self.picture.draws_words(format) {
+                script::legible(&source.scene, fonts)
+            } else {
+                source.scene.clone()
+            }
+        });
+        let [before, after] = [&scenes[0], &scenes[1]].map(|s| Analysis::with(s, asked));
+        let title = |number: usize| match scenes[number].title.as_str() {
+            title if title.is_empty() || scenes[0].title == scenes[1].title => {
+                sources[number].stem()
+            }
+            title => title.to_owned(),
+        };
+        let last = |analysis: &Analysis<'_>| analysis.frames.len() - 1;
+        let (a, b) = ((&before, last(&before)), (&after, last(&after)));
+        let (scene, frames) = analysis::pair(a, b, [title(0), title(1)]).map_err(|why| {
+            let names = sources.map(Source::name);
+            Complaint::CommandLine(format!("{} and {}: {why}", names[0], names[1]))
+        })?;
+        let joined = Analysis {
+            scene: &scene,
+            frames,
+        };
+        let drawing = figure::draw(&joined, figure::Kind::Compare, options);
+        Ok(Rendered {
+            bytes: vec![self.picture.bytes(drawing, format, fonts)?],
+            ending: Ending::of(&joined),
+            summary: summary(&joined),
+        })
     }
 
     fn render(
@@ -328,20 +371,37 @@ impl Render {
         };
         let analysis = Analysis::with(&scene, asked);
         progress.step();
-        let bytes = match self.animate {
-            None if self.panels => {
-                let kind = self.kind.panels().unwrap_or_default();
-                let pages = figure::panels(&analysis, kind, options);
+        let mut summary = summary(&analysis);
+        let kind = self.kind.panels();
+        if let (Some(kind), Format::Png) = (kind, format)
+            && !self.panels
+            && !self.pages
+            && analysis.frames.len() > MANY
+        {
+            // What no PNG could hold is refused before it is laid out.
+            self.picture
+                .check_png(figure::least_size(&analysis, kind, options))?;
+        }
+        let bytes = match (self.animate, kind) {
+            (None, Some(kind)) if self.panels || self.pages => {
+                let pages = if self.pages {
+                    figure::split(&analysis, kind, options, self.picture.page_ratio())
+                } else {
+                    figure::panels(&analysis, kind, options)
+                };
                 let page = |page| self.picture.bytes(page, format, fonts);
                 pages.into_iter().map(page).collect::<Result<_, _>>()?
             }
-            Some(seconds) => {
-                let kind = self.kind.panels().unwrap_or_default();
-                let pages = figure::pages(&analysis, kind, options);
+            (Some(seconds), kind) => {
+                let pages = figure::pages(&analysis, kind.unwrap_or_default(), options);
                 vec![self.picture.animated(pages, seconds, fonts)?]
             }
-            None => {
+            (None, kind) => {
                 let drawing = self.drawing(source, &analysis, options)?;
+                let high = self.picture.page_ratio() * drawing.width;
+                if kind.is_some() && analysis.frames.len() > 1 && drawing.height > TALL * high {
+                    summary.push_str("; taller than an A4 page, --pages splits it");
+                }
                 vec![self.picture.bytes(drawing, format, fonts)?]
             }
         };
@@ -349,7 +409,7 @@ impl Render {
         Ok(Rendered {
             bytes,
             ending: Ending::of(&analysis),
-            summary: summary(&analysis),
+            summary,
         })
     }
 
@@ -405,25 +465,11 @@ impl Render {
 
     fn options(&self, theme: Theme) -> figure::Options {
         figure::Options {
-            style: match self.arrows {
-                Arrows::Resultant => figure::ForceStyle::Resultant,
-                Arrows::Components => figure::ForceStyle::Components,
-            },
-            normalisation: match self.normalise {
-                Normalise::Drawn => figure::Normalisation::Drawn,
-                Normalise::Source => figure::Normalisation::Source,
-            },
-            scale: match self.arrow_scale {
-                ArrowScale::Panel => figure::ArrowScale::Panel,
-                ArrowScale::Strip => figure::ArrowScale::Strip,
-            },
-            fill: match self.fill {
-                Fill::Amplitude => figure::Fill::Amplitude,
-                Fill::Stress => figure::Fill::Stress,
-                Fill::Friction => figure::Fill::Friction,
-                Fill::None => figure::Fill::None,
-                Fill::Source => figure::Fill::Source,
-            },
+            style: self.arrows.figure(),
+            normalisation: self.normalise.figure(),
+            scale: self.arrow_scale.figure(),
+            fill: self.fill.figure(),
+            toward: self.margin.unwrap_or(Margin::Tilt).toward(),
             titles: !self.no_title,
             captions: !self.no_caption,
             verdicts: !self.no_verdict,
@@ -444,40 +490,6 @@ impl Render {
     }
 }
 
-/// What can be refused before any scene is read.
-fn check_count(
-    scenes: &[PathBuf],
-    destination: &Destination,
-    format: Format,
-    terminal: &Terminal,
-) -> Result<(), Complaint> {
-    let why = match destination {
-        Destination::File(path) if scenes.len() > 1 => {
-            let (count, shown) = (scenes.len(), path.display());
-            format!(
-                "{count} scenes do not go into the one file {shown}; give a folder, its name ending in a slash"
-            )
-        }
-        Destination::Stdout if scenes.len() > 1 => {
-            "only one picture at a time goes to standard output; give a folder".into()
-        }
-        Destination::Stdout if terminal.is_watched() => match format.unreadable() {
-            Some(why) => why,
-            None => return Ok(()),
-        },
-        _ => return Ok(()),
-    };
-    Err(Complaint::CommandLine(why))
-}
-
-/// Where a panel of a figure goes: `name-a.svg` beside `name.svg`.
-fn panel_path(path: &Path, number: usize) -> PathBuf {
-    let part = |part: Option<&OsStr>| part.map(|p| p.to_string_lossy().into_owned());
-    let stem = part(path.file_stem()).unwrap_or_default();
-    let ending = part(path.extension()).map_or_else(String::new, |e| format!(".{e}"));
-    path.with_file_name(format!("{stem}-{}{ending}", figure::letter(number)))
-}
-
 /// Every result, or every complaint.
 fn all<T>(results: Vec<Result<T, Complaint>>) -> Result<Vec<T>, Vec<Complaint>> {
     let mut good = Vec::with_capacity(results.len());
@@ -492,32 +504,6 @@ fn all<T>(results: Vec<Result<T, Complaint>>) -> Result<Vec<T>, Vec<Complaint>> 
         Ok(good)
     } else {
         Err(complaints)
-    }
-}
-
-/// Where each scene's figure goes, in the scenes' order.
-fn paths(
-    destination: &Destination,
-    sources: &[Source],
-    format: Format,
-) -> Result<Vec<PathBuf>, Complaint> {
-    match destination {
-        Destination::Stdout => Ok(Vec::new()),
-        Destination::File(path) => Ok(vec![path.clone()]),
-        Destination::Folder(folder) => {
-            let mut paths: Vec<PathBuf> = Vec::new();
-            for source in sources {
-                let path = folder.join(format!("{}.{}", source.stem(), format.ending()));
-                if let Some(first) = paths.iter().position(|p| *p == path) {
-                    let (a, b, shown) = (sources[first].name(), source.name(), path.display());
-                    return Err(Complaint::CommandLine(format!(
-                        "{a} and {b} would both become {shown}; rename one"
-                    )));
-                }
-                paths.push(path);
-            }
-            Ok(paths)
-        }
     }
 }
 

@@ -61,7 +61,7 @@ pub struct PageRect {
 }
 
 /// A picture: a page and what is on it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drawing {
     /// Width of the page in pixels.
     pub width: f64,

@@ -21,6 +21,9 @@ const NEAR: f64 = 6.0;
 /// A leader that crosses ink counts as so many pixels of distance.
 const CROSSING: f64 = 14.0;
 
+/// A place that is not liked counts as so many pixels of distance.
+const DISLIKED: f64 = 110.0;
+
 /// Ink that labels must keep clear of: convex pieces.
 #[derive(Clone, Debug, Default)]
 pub struct Ink {
@@ -31,6 +34,8 @@ pub struct Ink {
 
 #[derive(Clone, Debug)]
 struct Piece {
+    /// Whether no leader may cross it: a label would be struck out.
+    barred: bool,
     corners: Vec<PagePoint>,
     min: PagePoint,
     max: PagePoint,
@@ -39,7 +44,10 @@ struct Piece {
 impl Ink {
     /// A convex piece with these corners in order; two corners are a line without width.
     pub fn convex(&mut self, corners: impl IntoIterator<Item = PagePoint>) {
-        let corners: Vec<PagePoint> = corners.into_iter().collect();
+        self.piece(corners.into_iter().collect(), false);
+    }
+
+    fn piece(&mut self, corners: Vec<PagePoint>, barred: bool) {
         let least = |a: PagePoint, b: PagePoint| PagePoint::new(a.x.min(b.x), a.y.min(b.y));
         let most = |a: PagePoint, b: PagePoint| PagePoint::new(a.x.max(b.x), a.y.max(b.y));
         let ends =
@@ -51,7 +59,12 @@ impl Ink {
                     raster.entry(field).or_default().push(number);
                 }
             }
-            self.pieces.push(Piece { corners, min, max });
+            self.pieces.push(Piece {
+                barred,
+                corners,
+                min,
+                max,
+            });
         }
     }
 
@@ -134,14 +147,19 @@ impl Ink {
         self.convex(corners(rect));
     }
 
+    /// A label, which no leader may cross.
+    fn label(&mut self, rect: PageRect) {
+        self.piece(corners(rect).to_vec(), true);
+    }
+
     /// Whether an upright rectangle lies clear of all ink.
     pub fn clear(&self, rect: PageRect) -> bool {
         let (min, max) = (rect.at, rect.at.moved(rect.width, rect.height));
         !self.near(min, max).any(|piece| meets(&piece.corners, rect))
     }
 
-    /// How many pieces a line touches.
-    fn crossed(&self, from: PagePoint, to: PagePoint) -> usize {
+    /// How many pieces a line touches; `None` where one of them is barred.
+    fn crossed(&self, from: PagePoint, to: PagePoint) -> Option<usize> {
         let (min, max) = (
             PagePoint::new(from.x.min(to.x), from.y.min(to.y)),
             PagePoint::new(from.x.max(to.x), from.y.max(to.y)),
@@ -149,7 +167,14 @@ impl Ink {
         let crosses = |piece: &&Piece| {
             !parted(&piece.corners, &[from, to]) && !parted(&[from, to], &piece.corners)
         };
-        self.near(min, max).filter(crosses).count()
+        let mut count = 0;
+        for piece in self.near(min, max).filter(crosses) {
+            if piece.barred {
+                return None;
+            }
+            count += 1;
+        }
+        Some(count)
     }
 }
 
@@ -184,6 +209,8 @@ pub struct Wish {
 /// Where a label stands.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placed {
+    /// Whether it stands where it was not liked, for want of another place.
+    pub disliked: bool,
     /// The label.
     pub rect: PageRect,
     /// The line from the label to what it names, where it stands apart from it.
@@ -192,12 +219,24 @@ pub struct Placed {
 
 /// A place for each wish on the page, in the order of the wishes; `None` where there is none. Placed labels become ink.
 pub fn place(ink: &mut Ink, page: PageRect, wishes: &[Wish]) -> Vec<Option<Placed>> {
+    place_where(ink, page, wishes, &|_, _| false)
+}
+
+/// As [`place`]; where a label by the number of its wish is not liked, it stands only for want of another place nearby,
+/// and with a leader. Places that are preferred are always liked.
+pub fn place_where(
+    ink: &mut Ink,
+    page: PageRect,
+    wishes: &[Wish],
+    disliked: &dyn Fn(usize, PageRect) -> bool,
+) -> Vec<Option<Placed>> {
     wishes
         .iter()
-        .map(|wish| {
-            let placed = one(ink, page, wish);
+        .enumerate()
+        .map(|(number, wish)| {
+            let placed = one(ink, page, wish, &|rect| disliked(number, rect));
             if let Some(placed) = placed {
-                ink.rect(placed.rect);
+                ink.label(placed.rect);
                 if let Some([from, to]) = placed.leader {
                     ink.line(from, to, 1.0);
                 }
@@ -207,7 +246,12 @@ pub fn place(ink: &mut Ink, page: PageRect, wishes: &[Wish]) -> Vec<Option<Place
         .collect()
 }
 
-fn one(ink: &Ink, page: PageRect, wish: &Wish) -> Option<Placed> {
+fn one(
+    ink: &Ink,
+    page: PageRect,
+    wish: &Wish,
+    disliked: &dyn Fn(PageRect) -> bool,
+) -> Option<Placed> {
     let with_room = |middle: PagePoint, room: f64| {
         let rect = around(middle, wish.size);
         let kept = around(middle, (wish.size.0 + 2.0 * room, wish.size.1 + 2.0 * room));
@@ -216,7 +260,11 @@ fn one(ink: &Ink, page: PageRect, wish: &Wish) -> Option<Placed> {
     for room in [ROOM + wish.ease, ROOM + 0.4 * wish.ease, ROOM] {
         let place = |middle: &PagePoint| with_room(*middle, room);
         if let Some(rect) = wish.preferred.iter().find_map(place) {
-            return Some(Placed { rect, leader: None });
+            return Some(Placed {
+                disliked: false,
+                rect,
+                leader: None,
+            });
         }
     }
     let fits = |middle: PagePoint| with_room(middle, ROOM);
@@ -244,11 +292,20 @@ fn one(ink: &Ink, page: PageRect, wish: &Wish) -> Option<Placed> {
             };
             let end = nearest(rect, wish.anchor);
             let apart = libm::hypot(end.x - wish.anchor.x, end.y - wish.anchor.y);
-            let crossed = ink.crossed(wish.anchor, end).saturating_sub(1);
-            let leader = (apart > wish.from + NEAR).then_some([end, wish.anchor]);
-            let cost = radius + CROSSING * crossed as f64;
+            let Some(crossed) = ink.crossed(wish.anchor, end) else {
+                continue;
+            };
+            let disliked = disliked(rect);
+            let leader = (disliked || apart > wish.from + NEAR).then_some([end, wish.anchor]);
+            let penalty = if disliked { DISLIKED } else { 0.0 };
+            let cost = radius + penalty + CROSSING * crossed.saturating_sub(1) as f64;
             if best.is_none_or(|(least, _)| cost < least) {
-                best = Some((cost, Placed { rect, leader }));
+                let placed = Placed {
+                    disliked,
+                    rect,
+                    leader,
+                };
+                best = Some((cost, placed));
             }
         }
     }

@@ -4,7 +4,7 @@
 
 use super::words::quantity;
 use crate::drawing::Colour;
-use crate::drawing::arrow::HEAD_LENGTH;
+use crate::drawing::arrow::{HEAD_LENGTH, head_size};
 use crate::geometry::{Point, Vector};
 use crate::scene::{BodyId, RobotId};
 
@@ -174,4 +174,31 @@ pub(crate) fn round_above(amount: f64) -> f64 {
     let power = libm::pow(10.0, libm::floor(libm::log10(amount)));
     let digit = (amount / power * (1.0 - 1e-12)).ceil();
     digit * power
+}
+
+/// How far a point is from an arrow's ink, metres; below 0 inside it.
+pub(crate) fn from_arrow(arrow: &ForceArrow, p: Point) -> f64 {
+    let reach = arrow.reach();
+    let length = reach.norm();
+    if length <= 0.0 {
+        return f64::INFINITY;
+    }
+    let (long, wide) = head_size(length, arrow.width);
+    let tip = arrow.at + reach;
+    let neck = tip - reach * (long / length);
+    let shaft = from_segment(arrow.at, neck, p) - arrow.width / 2.0;
+    // The head is a wedge; two thirds of half its width around its axis cover it.
+    let head = from_segment(neck, tip, p) - wide / 3.0;
+    shaft.min(head)
+}
+
+fn from_segment(a: Point, b: Point, p: Point) -> f64 {
+    let along = b - a;
+    let length = along.norm_squared();
+    let share = if length > 0.0 {
+        ((p - a).dot(&along) / length).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
+    (p - (a + along * share)).norm()
 }

@@ -7,7 +7,8 @@ use std::collections::BTreeMap;
 
 use super::label;
 use super::legend::{self, Entry};
-use super::panel::Pen;
+use super::panel::composed;
+use super::pen::Pen;
 use super::stage::Stage;
 use super::told;
 use super::words::{counted, listed, quantity};
@@ -42,9 +43,15 @@ fn blocks(analysis: &Analysis<'_>, frame: usize) -> [Vec<BlockId>; 2] {
     [without(now, before), without(before, now)]
 }
 
-/// The force of a contact on its first body, N.
+/// The two bodies of a contact, in one order in all frames.
+fn between(contact: &Contact) -> [BodyId; 2] {
+    let [a, b] = contact.interface.bodies;
+    [a.min(b), a.max(b)]
+}
+
+/// The force of a contact on the first of its two bodies in that order, N.
 fn force(contact: &Contact) -> Vector {
-    if contact.resultant.on == contact.interface.bodies[0] {
+    if contact.resultant.on == between(contact)[0] {
         contact.resultant.force
     } else {
         -contact.resultant.force
@@ -58,8 +65,7 @@ fn changes<'a>(analysis: &'a Analysis<'_>, frame: usize) -> (Vec<Change<'a>>, us
     };
     let mut before: BTreeMap<[BodyId; 2], Vec<&Contact>> = BTreeMap::new();
     for contact in &analysis.frames[earlier].contacts {
-        let bodies = contact.interface.bodies;
-        before.entry(bodies).or_default().push(contact);
+        before.entry(between(contact)).or_default().push(contact);
     }
     let same = |now: &Contact, then: &Contact| {
         let (a, b) = (&now.interface, &then.interface);
@@ -69,8 +75,11 @@ fn changes<'a>(analysis: &'a Analysis<'_>, frame: usize) -> (Vec<Change<'a>>, us
         .contacts
         .iter()
         .filter_map(|now| {
-            let between = before.get(&now.interface.bodies)?;
-            let before = between.iter().copied().find(|then| same(now, then))?;
+            let before = before
+                .get(&between(now))?
+                .iter()
+                .copied()
+                .find(|then| same(now, then))?;
             Some(Change { now, before })
         })
         .collect();
@@ -131,7 +140,7 @@ pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Ca
         let ring = Path::stroked(Outline::circle(at, radius), stroke);
         let drawn = Group::of_class("change").titled(title);
         changed.items.push(drawn.with(ring).into());
-        for (body, sign) in change.now.interface.bodies.into_iter().zip([1.0, -1.0]) {
+        for (body, sign) in between(change.now).into_iter().zip([1.0, -1.0]) {
             let BodyId::Block(_) = body else { continue };
             let from = camera.place(change.before.resultant.at);
             let along = camera.turn(force(change.before) * (sign * metres));
@@ -141,7 +150,7 @@ pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Ca
         }
     }
     parts.extend([before, pen.arrows(false), pen.arrows(true), changed]);
-    pen.picture(view, pen.blocks(), parts, ink)
+    composed(&pen, view, pen.blocks(), parts, ink)
 }
 
 /// What the signs mean, those that occur.
@@ -186,11 +195,25 @@ pub(crate) fn reason(analysis: &Analysis<'_>, frame: usize) -> String {
             Verdict::Undecided => "undecided where the frame before was decided".to_owned(),
         });
     }
-    for (ids, how) in [(came, "new"), (went, "gone")] {
-        let names: Vec<String> = ids
+    let names = |ids: &[BlockId]| -> Vec<String> {
+        let names = ids.iter().map(|id| analysis.scene.blocks[id.0].id.clone());
+        names.collect()
+    };
+    let (came, went) = (names(&came), names(&went));
+    // A block of one name in both frames that differs in outline, weight or loads.
+    let both: Vec<String> = came.iter().filter(|n| went.contains(n)).cloned().collect();
+    let alone = |names: &[String]| -> Vec<String> {
+        names
             .iter()
-            .map(|id| analysis.scene.blocks[id.0].id.clone())
-            .collect();
+            .filter(|n| !both.contains(n))
+            .cloned()
+            .collect()
+    };
+    for (names, how) in [
+        (alone(&came), "new"),
+        (alone(&went), "gone"),
+        (both.clone(), "changed"),
+    ] {
         match names.len() {
             0 => {}
             n if n <= MOST_NAMED => said.push(format!("{how}: {}", listed(&names))),

@@ -1,9 +1,11 @@
-//! Dimension lines: how wide and how high the blocks of a frame are, at the edges of its picture.
+//! Dimension lines: how wide and how high the blocks of a frame are, at the edges of its picture; of a neighbourhood, the
+//! block in its middle.
 
 use super::stage::Stage;
 use super::words::quantity;
 use crate::drawing::{Anchor, Camera, Face, Group, Outline, PagePoint, Path, Stroke, Text, text};
 use crate::geometry::Bounds;
+use crate::scene::BlockId;
 
 /// Room below a picture for its width, pixels.
 pub(crate) const BELOW: f64 = 26.0;
@@ -16,7 +18,9 @@ const TICK: f64 = 4.0;
 pub(crate) fn lines(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Camera) -> Group {
     let group = Group::of_class("dimensions");
     let scene = stage.analysis.scene;
-    let blocks = scene.frames[frame].placed.iter();
+    // Of a neighbourhood it is the block in its middle that is measured.
+    let meant = |id: &&BlockId| stage.options.zoom.is_none_or(|zoomed| zoomed == **id);
+    let blocks = scene.frames[frame].placed.iter().filter(meant);
     let blocks = blocks.map(|id| scene.blocks[id.0].body.polygon.bounds());
     let Some(all) = blocks.reduce(Bounds::union) else {
         return group;

@@ -230,7 +230,7 @@ fn moving<'a>(analysis: &'a Analysis<'_>, frame: usize) -> impl Iterator<Item = 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::figure::stage::unit;
+    use crate::figure::unit::unit;
     use crate::scene::Scene;
 
     fn falling() -> Vec<Scene> {

@@ -3,15 +3,13 @@
 use super::caption::caption;
 use super::freebody::freebody;
 use super::option::{Corners, Fill, ForceStyle, Normalisation, Options};
+use super::plate::Panel;
 use super::ring::ring;
 use super::shapes::shapes;
 use super::{Kind, draw};
 use crate::analysis::Analysis;
-use crate::drawing::{Drawing, Theme, beside};
+use crate::drawing::{Drawing, Theme};
 use crate::scene::Scene;
-
-/// Room between two scenes on one page, pixels.
-const GAP: f64 = 20.0;
 
 /// A figure of the gallery.
 #[derive(Clone, Debug)]
@@ -32,8 +30,19 @@ enum Subject {
     Ring,
     /// The sheet of shapes.
     Shapes,
-    /// The forces of scenes beside each other.
-    Forces(&'static [&'static str]),
+    /// The forces of a scene.
+    Forces(&'static str),
+    /// The forces of several scenes, in lettered panels.
+    Plate {
+        title: &'static str,
+        columns: usize,
+        scenes: &'static [&'static str],
+        panels: &'static [Panel],
+    },
+}
+
+const fn panel(of: usize, frame: usize, caption: &'static str) -> Panel {
+    Panel { of, frame, caption }
 }
 
 macro_rules! scene {
@@ -43,41 +52,69 @@ macro_rules! scene {
 }
 
 /// Figures 1 to 9 of [Vallat23](crate::doc::references), by name.
-const PLATES: [(&str, Subject); 13] = [
+const PLATES: [(&str, Subject); 10] = [
     ("figure-1", Subject::Freebody(scene!("figure-1"), "a")),
     ("figure-2", Subject::Freebody(scene!("figure-2"), "k")),
     ("figure-3a", Subject::Ring),
-    ("figure-3b", Subject::Forces(&[scene!("figure-3b")])),
-    ("figure-4", Subject::Forces(&[scene!("figure-4")])),
-    ("figure-5", Subject::Forces(&[scene!("figure-5")])),
+    ("figure-3b", Subject::Forces(scene!("figure-3b"))),
+    ("figure-4", Subject::Forces(scene!("figure-4"))),
+    ("figure-5", Subject::Forces(scene!("figure-5"))),
     (
-        "figure-6-kernel-0",
-        Subject::Forces(&[scene!("figure-6-kernel-0")]),
-    ),
-    (
-        "figure-6-kernel-02",
-        Subject::Forces(&[scene!("figure-6-kernel-02")]),
-    ),
-    (
-        "figure-6-kernel-05",
-        Subject::Forces(&[scene!("figure-6-kernel-05")]),
+        "figure-6",
+        Subject::Plate {
+            title: "Figure 6: three kernels",
+            columns: 3,
+            scenes: &[
+                scene!("figure-6-kernel-0"),
+                scene!("figure-6-kernel-02"),
+                scene!("figure-6-kernel-05"),
+            ],
+            panels: &[
+                panel(0, 0, "(a) An upright link, no kernel"),
+                panel(1, 0, "(b) Kernel 0.2"),
+                panel(2, 0, "(c) Kernel 0.5"),
+                panel(0, 1, "(d) A leaning link, no kernel"),
+                panel(1, 1, "(e) Kernel 0.2"),
+                panel(2, 1, "(f) Kernel 0.5"),
+            ],
+        },
     ),
     ("figure-7", Subject::Shapes),
     (
         "figure-8",
-        Subject::Forces(&[
-            scene!("figure-8-left"),
-            scene!("figure-8-right"),
-            scene!("figure-8-right-corners"),
-        ]),
+        Subject::Plate {
+            title: "Figure 8: bridges of four and of five blocks",
+            columns: 3,
+            scenes: &[
+                scene!("figure-8-left"),
+                scene!("figure-8-right"),
+                scene!("figure-8-right-corners"),
+            ],
+            panels: &[
+                panel(0, 0, "(a) Four blocks"),
+                panel(1, 0, "(b) Five blocks"),
+                panel(2, 0, "(b′) The same with corner contacts"),
+            ],
+        },
     ),
     (
-        "figure-9a",
-        Subject::Forces(&[scene!("figure-9a"), scene!("figure-9a-corners")]),
-    ),
-    (
-        "figure-9b",
-        Subject::Forces(&[scene!("figure-9b"), scene!("figure-9b-torque")]),
+        "figure-9",
+        Subject::Plate {
+            title: "Figure 9: held by corners, held by a torque",
+            columns: 2,
+            scenes: &[
+                scene!("figure-9a"),
+                scene!("figure-9a-corners"),
+                scene!("figure-9b"),
+                scene!("figure-9b-torque"),
+            ],
+            panels: &[
+                panel(0, 0, "(a) Held by corners, which are left out"),
+                panel(1, 0, "(a′) The same with corner contacts"),
+                panel(2, 0, "(b) Held by a robot that gives no torque"),
+                panel(3, 0, "(b′) The same with a torque"),
+            ],
+        },
     ),
 ];
 
@@ -123,12 +160,22 @@ fn plate(name: &'static str, subject: &Subject, theme: &Theme) -> Plate {
             let caption = format!("{}. Block {block} cut free.", scene.title);
             (drawing, caption)
         }
-        Subject::Forces(texts) => {
-            let scenes: Vec<Scene> = texts.iter().map(|text| read(text)).collect();
+        Subject::Forces(text) => {
+            let scene = read(text);
+            let found = Analysis::of(&scene);
+            (draw(&found, Kind::Forces, &options), caption(&found))
+        }
+        Subject::Plate {
+            title,
+            columns,
+            scenes,
+            panels,
+        } => {
+            let scenes: Vec<Scene> = scenes.iter().map(|text| read(text)).collect();
             let found: Vec<Analysis> = scenes.iter().map(Analysis::of).collect();
-            let drawings = found.iter().map(|a| draw(a, Kind::Forces, &options));
             let captions: Vec<String> = found.iter().map(caption).collect();
-            (beside(drawings.collect(), GAP), captions.join(" "))
+            let drawing = super::plate::plate(&found, panels, title, *columns, &options);
+            (drawing, captions.join(" "))
         }
     };
     Plate {

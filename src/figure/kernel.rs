@@ -4,7 +4,8 @@ use super::bearing::{Bearing, bearings};
 use super::by_colour::ByColour;
 use super::label;
 use super::legend::{self, Entry};
-use super::panel::Pen;
+use super::panel::composed;
+use super::pen::Pen;
 use super::stage::Stage;
 use super::told;
 use super::verdict;
@@ -31,7 +32,7 @@ pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Ca
     }
     let stretches = stretches(&pen, found);
     let dots = dots(&pen, found, &mut |at| ink.disc(at, dot(pen.unit()) + 1.0));
-    pen.picture(view, pen.blocks(), vec![stretches, dots], ink)
+    composed(&pen, view, pen.blocks(), vec![stretches, dots], ink)
 }
 
 /// What is said below a frame's verdict.

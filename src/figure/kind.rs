@@ -12,17 +12,13 @@ use super::mechanism;
 use super::option::{ArrowScale, Options};
 use super::panel;
 use super::polygon;
-use super::stage::Stage;
-use super::strip::{self, strip};
+use super::stage::{Content, Stage};
 use super::thrust;
 use super::utilisation;
 use super::verdict;
-use crate::analysis::{Analysis, Verdict};
-use crate::drawing::{Camera, Drawing, Group};
+use crate::analysis::Analysis;
+use crate::drawing::{Camera, Group};
 use crate::geometry::Bounds;
-
-/// Pictures of a mechanism in motion beside the first.
-const WAY: u32 = 12;
 
 /// What the panels of a figure show.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -43,56 +39,11 @@ pub enum Kind {
     Build,
     /// The forces on the structure from outside, and beside it their polygon, tip to tail.
     Polygon,
-    /// The structure as it stands, and as a ghost how it falls once gravity has turned as far as its margin.
+    /// The structure as it stands, and as a ghost how it falls just beyond its margin: once gravity has turned, a
+    /// horizontal push has come, or its loads have grown so far.
     Margin,
     /// What changed from one frame to the next: blocks and forces, arrows to one scale in all of them.
     Compare,
-}
-
-/// A figure of this kind, one panel per frame.
-///
-/// Units: the page is in pixels at natural size.
-pub fn draw(analysis: &Analysis<'_>, kind: Kind, options: &Options) -> Drawing {
-    if kind == Kind::Mechanism {
-        return strip(&analysis.elementary(), kind, &kind.options(options));
-    }
-    strip(analysis, kind, &kind.options(options))
-}
-
-/// The panels of [`draw`] a page each, all alike in size and scale: the pictures of an animation. A frame that falls by a
-/// mechanism has several, along its way.
-pub fn pages(analysis: &Analysis<'_>, kind: Kind, options: &Options) -> Vec<Drawing> {
-    if kind == Kind::Mechanism {
-        return moving(&analysis.elementary(), &kind.options(options));
-    }
-    strip::pages(analysis, kind, &kind.options(options))
-}
-
-/// The panels of [`draw`] a page each, one per frame, all alike in size and scale.
-pub fn panels(analysis: &Analysis<'_>, kind: Kind, options: &Options) -> Vec<Drawing> {
-    if kind == Kind::Mechanism {
-        return strip::pages(&analysis.elementary(), kind, &kind.options(options));
-    }
-    strip::pages(analysis, kind, &kind.options(options))
-}
-
-/// The pages of a mechanism: each frame that falls in steps along its way, each other frame once.
-fn moving(analysis: &Analysis<'_>, options: &Options) -> Vec<Drawing> {
-    let at = |step: u32| {
-        let options = Options {
-            way: f64::from(step) / f64::from(WAY),
-            ..options.clone()
-        };
-        strip::pages(analysis, Kind::Mechanism, &options)
-    };
-    let steps: Vec<Vec<Drawing>> = (0..=WAY).map(at).collect();
-    let mut pages = Vec::new();
-    for (frame, found) in analysis.frames.iter().enumerate() {
-        let falls = found.verdict == Verdict::Unstable;
-        let shown = if falls { steps.len() } else { 1 };
-        pages.extend(steps[..shown].iter().filter_map(|s| s.get(frame).cloned()));
-    }
-    pages
 }
 
 impl Kind {
@@ -130,12 +81,27 @@ impl Kind {
     }
 
     /// The options with what the kind itself decides.
-    fn options(self, options: &Options) -> Options {
+    pub(crate) fn options(self, options: &Options) -> Options {
         let mut options = options.clone();
         if matches!(self, Kind::Build | Kind::Compare) {
             options.scale = ArrowScale::Strip;
         }
         options
+    }
+
+    /// What all panels of a figure of this kind share.
+    pub(crate) fn stage<'a>(self, analysis: &'a Analysis<'a>, options: &'a Options) -> Stage<'a> {
+        let content = Content {
+            tells_amplitudes: self.tells_amplitudes(),
+            largest: &|frame| self.largest(analysis, frame, options),
+            marks: &|frame, reference| self.marks(analysis, frame, options, reference),
+            reach: &|frame, unit, marks| self.reach(analysis, frame, unit, marks, options),
+            displaced: &|frame, unit| self.displacements(analysis, frame, unit, options.way),
+        };
+        let mut stage = Stage::of(analysis, options, &content);
+        let frames = 0..analysis.frames.len();
+        stage.said = frames.map(|frame| self.reason(&stage, frame)).collect();
+        stage
     }
 
     /// The title of a figure whose scene has none.
@@ -153,12 +119,12 @@ impl Kind {
     }
 
     /// Whether blocks tell amplitudes by their colour; otherwise they are plain.
-    pub(crate) fn tells_amplitudes(self) -> bool {
+    fn tells_amplitudes(self) -> bool {
         matches!(self, Kind::Forces | Kind::Build)
     }
 
     /// The amount that a frame's own scale takes as one unit edge, N; 0 where the kind draws no arrows.
-    pub(crate) fn largest(self, analysis: &Analysis<'_>, frame: usize, options: &Options) -> f64 {
+    fn largest(self, analysis: &Analysis<'_>, frame: usize, options: &Options) -> f64 {
         let scene = analysis.scene;
         let (placed, found) = (&scene.frames[frame], &analysis.frames[frame]);
         match self {
@@ -166,12 +132,13 @@ impl Kind {
                 mark::largest(scene, placed, found, options)
             }
             Kind::Thrust => thrust::largest_load(scene, placed),
+            Kind::Margin => margin::largest_load(scene, placed, options),
             _ => 0.0,
         }
     }
 
     /// The arrows of a frame, `newtons_per_unit` N being one unit edge long.
-    pub(crate) fn marks(
+    fn marks(
         self,
         analysis: &Analysis<'_>,
         frame: usize,
@@ -182,23 +149,27 @@ impl Kind {
             Kind::Forces | Kind::Build | Kind::Compare => {
                 mark::marks(analysis, frame, options, newtons_per_unit)
             }
-            Kind::Thrust => thrust::marks(analysis, frame, options, newtons_per_unit),
+            // Of a margin of the loads they are shown, as in a line of thrust.
+            Kind::Thrust | Kind::Margin => {
+                thrust::marks(analysis, frame, options, newtons_per_unit)
+            }
             Kind::Polygon => polygon::marks(analysis, frame, options, newtons_per_unit),
             _ => Marks::default(),
         }
     }
 
     /// A box around what a frame's picture shows beside blocks, ground, robots and arrows.
-    pub(crate) fn reach(
+    fn reach(
         self,
         analysis: &Analysis<'_>,
         frame: usize,
         unit: f64,
         marks: &Marks,
+        options: &Options,
     ) -> Option<Bounds> {
         match self {
             Kind::Polygon => polygon::reach(analysis, frame, marks),
-            Kind::Margin => margin::reach(analysis, frame, unit),
+            Kind::Margin => margin::reach(analysis, frame, unit, options),
             Kind::Compare => compare::reach(analysis, frame),
             _ => mechanism::reach(analysis, &self.displacements(analysis, frame, unit, 1.0)),
         }
@@ -206,7 +177,7 @@ impl Kind {
 
     /// How each block of a frame is displaced along this share of its way, by its number; empty where all are drawn in
     /// their places.
-    pub(crate) fn displacements(
+    fn displacements(
         self,
         analysis: &Analysis<'_>,
         frame: usize,
@@ -254,7 +225,7 @@ impl Kind {
     }
 
     /// What is said below a frame's verdict.
-    pub(crate) fn reason(self, stage: &Stage<'_>, frame: usize) -> String {
+    fn reason(self, stage: &Stage<'_>, frame: usize) -> String {
         let (scene, found) = (stage.analysis.scene, &stage.analysis.frames[frame]);
         match self {
             Kind::Forces | Kind::Build => verdict::reason(scene, found),
@@ -263,7 +234,7 @@ impl Kind {
             Kind::Kernel => kernel::reason(scene, found),
             Kind::Utilisation => utilisation::reason(scene, found),
             Kind::Polygon => polygon::reason(stage, frame),
-            Kind::Margin => margin::reason(stage.analysis, frame),
+            Kind::Margin => margin::reason(stage, frame),
             Kind::Compare => compare::reason(stage.analysis, frame),
         }
     }

@@ -5,12 +5,12 @@
 //! the words below a frame name comes first, and bears its name in a frame of any number of blocks.
 
 use super::arrow::{ArrowKind, ForceArrow, TurnArrow, TurnKind};
-use super::panel::{CENTROID, Pen};
+use super::pen::{CENTROID, DOT, Pen};
 use super::stage::Stage;
 use super::view;
 use super::words::{counted, listed, quantity};
-use crate::drawing::arrow::head_size;
-use crate::drawing::placement::{Ink, Placed, Wish, place};
+use crate::drawing::placement::{Ink, Placed, Wish, place_where};
+use crate::drawing::text::NO_BREAK;
 use crate::drawing::{
     Anchor, Colour, Face, Group, Outline, PagePoint, PageRect, Path, Stroke, Text, text,
 };
@@ -41,6 +41,8 @@ struct Label {
     colour: Option<Colour>,
     /// Whether the words below the frame name it: then it is there in any case.
     named: bool,
+    /// The block it stands for: in another it would seem to name that one.
+    of: Option<BlockId>,
 }
 
 /// The class of a frame's labels; the description of their group counts those without room.
@@ -56,9 +58,17 @@ pub(crate) fn labels(pen: &Pen<'_>, view: Bounds, mut ink: Ink) -> Group {
     ink.index();
     let page = pen.camera.rect(view);
     let wishes: Vec<Wish> = labels.iter().map(|l| l.wish.clone()).collect();
-    let places = place(&mut ink, page, &wishes);
+    let solids = Solids::of(pen);
+    let abroad = |number: usize, rect: PageRect| {
+        let own: Option<BlockId> = labels[number].of;
+        own.is_some_and(|own| solids.other(pen, own, rect))
+    };
+    let places = place_where(&mut ink, page, &wishes, &abroad);
     let mut missing: Vec<(&str, usize)> = Vec::new();
     for (label, placed) in labels.iter().zip(places) {
+        if placed.is_none_or(|p| p.disliked) {
+            pen.stage.cramped.set(pen.stage.cramped.get() + 1);
+        }
         if let Some(placed) = placed {
             group.items.push(drawn(pen, label, placed).into());
             continue;
@@ -84,6 +94,55 @@ pub(crate) fn labels(pen: &Pen<'_>, view: Bounds, mut ink: Ink) -> Group {
         group.description = format!("no room for {}", listed(&missing));
     }
     group
+}
+
+/// What a name may seem to belong to: the blocks of a frame where they are drawn, and ground, as boxes on the page.
+struct Solids {
+    blocks: Vec<(BlockId, PageRect)>,
+    ground: Vec<(usize, PageRect)>,
+}
+
+impl Solids {
+    fn of(pen: &Pen<'_>) -> Solids {
+        let scene = pen.stage.analysis.scene;
+        let drawn = |id: &BlockId| {
+            let corners = scene.blocks[id.0].body.polygon.rings().first();
+            let corners = corners.into_iter().flatten();
+            let bounds = Bounds::of(corners.map(|p| pen.moved(*id, *p)))?;
+            Some((*id, pen.camera.rect(bounds)))
+        };
+        let ground = scene.ground.iter().enumerate();
+        Solids {
+            blocks: scene.frames[pen.number]
+                .placed
+                .iter()
+                .filter_map(drawn)
+                .collect(),
+            ground: ground
+                .map(|(i, g)| (i, pen.camera.rect(g.body.polygon.bounds())))
+                .collect(),
+        }
+    }
+
+    /// Whether a label reaches into another block than its own, or into ground.
+    fn other(&self, pen: &Pen<'_>, own: BlockId, rect: PageRect) -> bool {
+        let scene = pen.stage.analysis.scene;
+        let met = |other: &PageRect| {
+            rect.at.x < other.at.x + other.width
+                && other.at.x < rect.at.x + rect.width
+                && rect.at.y < other.at.y + other.height
+                && other.at.y < rect.at.y + rect.height
+        };
+        // Labels lie on no outline: one that reaches into a body has its middle and its corners in it.
+        let at = pen.camera.back(middle(rect));
+        let inside = |id: BlockId| {
+            let at = pen.displacement(id).map_or(at, |d| d.back(at));
+            scene.blocks[id.0].body.polygon.contains(at)
+        };
+        let mut blocks = self.blocks.iter().filter(|b| b.0 != own && met(&b.1));
+        let mut ground = self.ground.iter().filter(|g| met(&g.1));
+        blocks.any(|b| inside(b.0)) || ground.any(|g| scene.ground[g.0].body.polygon.contains(at))
+    }
 }
 
 /// What a figure says of the labels that its frames are too full for; `None` where there are none.
@@ -143,25 +202,77 @@ fn wanted(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
 /// The blocks that the words below a frame name, in placing order.
 fn mentioned(stage: &Stage<'_>, frame: usize) -> Vec<BlockId> {
     let scene = stage.analysis.scene;
-    let said = stage.kind.reason(stage, frame);
+    let said = &stage.said[frame];
     let placed = scene.frames[frame].placed.iter().copied();
     placed
-        .filter(|id| names(&said, &scene.blocks[id.0].id))
+        .filter(|id| names(said, &scene.blocks[id.0].id))
         .collect()
 }
 
-/// Whether a text has a name as a word of its own.
+/// Whether a text has a name as a word of its own. A number before a unit or a noun is an amount or a count, and names
+/// nothing; so is one that goes on behind its point.
 fn names(text: &str, name: &str) -> bool {
     let apart = |c: Option<char>| c.is_none_or(|c| !c.is_alphanumeric());
+    let ends_in_digit = name.ends_with(|c: char| c.is_ascii_digit());
+    let begins_with_digit = name.starts_with(|c: char| c.is_ascii_digit());
+    let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
+    let counts = |before: &str, rest: &str| {
+        let mut after = rest.chars();
+        let goes_on = after.next() == Some('.') && digit(after.next());
+        let mut earlier = before.chars().rev();
+        let began = earlier.next() == Some('.') && digit(earlier.next());
+        let word = rest.trim_start_matches([' ', NO_BREAK]);
+        let word = word.split(|c: char| !c.is_alphabetic() && c != '%').next();
+        (ends_in_digit && goes_on)
+            || (begins_with_digit && began)
+            || (ends_in_digit && rest.starts_with('°'))
+            || (ends_in_digit && COUNTED.contains(&word.unwrap_or_default()))
+    };
     !name.is_empty()
         && text.match_indices(name).any(|(at, _)| {
-            apart(text[..at].chars().next_back()) && apart(text[at + name.len()..].chars().next())
+            let (before, rest) = (&text[..at], &text[at + name.len()..]);
+            apart(before.chars().next_back()) && apart(rest.chars().next()) && !counts(before, rest)
         })
 }
 
-/// Size of a block's name, pixels.
-fn name_size(pen: &Pen<'_>) -> f64 {
-    (0.25 * pen.unit())
+/// What follows a number in the words below a frame where it is no name.
+const COUNTED: [&str; 26] = [
+    "N",
+    "nN",
+    "µN",
+    "mN",
+    "kN",
+    "MN",
+    "GN",
+    "m",
+    "mm",
+    "km",
+    "%",
+    "more",
+    "of",
+    "block",
+    "blocks",
+    "bodies",
+    "hinge",
+    "hinges",
+    "sliding",
+    "shared",
+    "interfaces",
+    "resultants",
+    "robots",
+    "forces",
+    "frames",
+    "rigid",
+];
+
+/// Edge of a block of which so much is the root of its area.
+const EDGE: f64 = 0.6;
+/// A block whose edge is so many unit edges long is a boulder.
+const BOULDER: f64 = 3.0;
+
+/// Size of the name of a block whose edge is so many pixels long, pixels.
+fn name_size(pen: &Pen<'_>, edge: f64) -> f64 {
+    (0.25 * edge)
         .max(SMALLEST)
         .min(pen.stage.options.theme.sizes.name)
 }
@@ -179,6 +290,7 @@ fn label(words: String, face: Face, size: f64, class: &'static str, wish: Wish) 
         class,
         colour: None,
         named: false,
+        of: None,
     }
 }
 
@@ -189,7 +301,15 @@ fn name(pen: &Pen<'_>, id: BlockId, view: Bounds) -> Option<Label> {
     if zoomed && view::common(view, block.body.polygon.bounds()).is_none() {
         return None;
     }
-    let size = name_size(pen);
+    // A boulder among pebbles has a name that is read from as far off as the boulder is.
+    let own = pen
+        .camera
+        .length(EDGE * libm::sqrt(block.body.polygon.area()));
+    let size = if own > BOULDER * pen.unit() {
+        name_size(pen, own)
+    } else {
+        name_size(pen, pen.unit())
+    };
     let wish = Wish {
         anchor: pen.camera.place(pen.moved(id, block.centroid)),
         from: 0.4 * pen.unit(),
@@ -201,12 +321,16 @@ fn name(pen: &Pen<'_>, id: BlockId, view: Bounds) -> Option<Label> {
         ease: 0.5 * size,
         roams: !zoomed || view::holds(view, block.centroid),
     };
-    Some(label(block.id.clone(), Face::SansBold, size, "name", wish))
+    let label = label(block.id.clone(), Face::SansBold, size, "name", wish);
+    Some(Label {
+        of: Some(id),
+        ..label
+    })
 }
 
 fn robots(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
     let scene = pen.stage.analysis.scene;
-    let size = name_size(pen);
+    let size = name_size(pen, pen.unit());
     // Above the smallest letters names of robots stand back a little.
     let size = (0.9 * size).max(size.min(SMALLEST));
     let named = |hold: &crate::scene::Hold| {
@@ -219,7 +343,10 @@ fn robots(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
             roams: true,
         };
         let id = scene.robots[hold.robot.0].id.clone();
-        label(id, Face::Sans, size, "robot-name", wish)
+        Label {
+            of: Some(hold.block),
+            ..label(id, Face::Sans, size, "robot-name", wish)
+        }
     };
     let zoomed = pen.stage.options.zoom.is_some();
     let holds = scene.frames[pen.number].holds.iter();
@@ -239,7 +366,8 @@ fn amounts(pen: &Pen<'_>) -> Vec<Label> {
         (Some(BodyId::Block(partner)), BodyId::Block(on)) => on.0 < partner.0,
         _ => true,
     };
-    let seen = marks.arrows.iter().filter(|a| pen.seen(a));
+    let seen = |a: &&ForceArrow| pen.seen(a) || a.kind == ArrowKind::Load;
+    let seen = marks.arrows.iter().filter(seen);
     let wanted = |arrow: &&ForceArrow| asked(arrow.kind == ArrowKind::Load) && said(arrow);
     let straight = seen.filter(wanted).map(|arrow| {
         let words = quantity(arrow.force.norm(), "N");
@@ -247,7 +375,7 @@ fn amounts(pen: &Pen<'_>) -> Vec<Label> {
         let wide = text::width(&words, Face::Sans, size);
         let wish = Wish {
             anchor: from.moved(0.5 * along.0, 0.5 * along.1),
-            from: 0.5 * pen.width(arrow) + 3.0,
+            from: (0.5 * pen.width(arrow)).max(DOT) + 3.0,
             size: (0.0, 0.0),
             preferred: beside(from, along, pen.width(arrow), (wide, HIGH * size)),
             ease: 0.0,
@@ -347,6 +475,9 @@ pub(crate) fn ink(pen: &Pen<'_>) -> Ink {
             ink.disc(from, CENTROID * pen.width(arrow) + 1.0);
         }
     }
+    for arrow in pen.dots() {
+        ink.disc(pen.camera.place(arrow.at), DOT + 0.5);
+    }
     for turn in marks.turns.iter().filter(|t| pen.turn_seen(t)) {
         turning(&mut ink, pen, turn);
     }
@@ -393,31 +524,4 @@ fn over(pen: &Pen<'_>, label: &Label) -> Group {
 
 fn middle(rect: PageRect) -> PagePoint {
     rect.at.moved(rect.width / 2.0, rect.height / 2.0)
-}
-
-/// How far a point is from an arrow's ink, metres; below 0 inside it.
-pub(crate) fn from_arrow(arrow: &ForceArrow, p: Point) -> f64 {
-    let reach = arrow.reach();
-    let length = reach.norm();
-    if length <= 0.0 {
-        return f64::INFINITY;
-    }
-    let (long, wide) = head_size(length, arrow.width);
-    let tip = arrow.at + reach;
-    let neck = tip - reach * (long / length);
-    let shaft = from_segment(arrow.at, neck, p) - arrow.width / 2.0;
-    // The head is a wedge; two thirds of half its width around its axis cover it.
-    let head = from_segment(neck, tip, p) - wide / 3.0;
-    shaft.min(head)
-}
-
-fn from_segment(a: Point, b: Point, p: Point) -> f64 {
-    let along = b - a;
-    let length = along.norm_squared();
-    let share = if length > 0.0 {
-        ((p - a).dot(&along) / length).clamp(0.0, 1.0)
-    } else {
-        0.0
-    };
-    (p - (a + along * share)).norm()
 }

@@ -27,6 +27,15 @@ const LARGEST_UNIT: f64 = 72.0;
 /// A unit edge is drawn at least this long, if fewer columns can help it, pixels.
 const SMALLEST_UNIT: f64 = 30.0;
 
+/// What a figure has to fit.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Fit {
+    /// All of it on one page, if it can.
+    Page,
+    /// Each row on a page, and no more.
+    Rows,
+}
+
 /// Where panels go.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Layout {
@@ -45,8 +54,37 @@ pub(crate) struct Layout {
 }
 
 impl Layout {
-    /// For `count` panels.
+    /// For `count` panels, so that all fit on a page if they can.
     pub fn of(stage: &Stage<'_>, count: usize) -> Layout {
+        Layout::with(stage, count, Fit::Page)
+    }
+
+    /// For `count` panels whose rows go to as many pages as it takes.
+    pub fn roomy(stage: &Stage<'_>, count: usize) -> Layout {
+        Layout::with(stage, count, Fit::Rows)
+    }
+
+    /// The layout in which the panels of both have room, to the smaller of their scales.
+    pub fn both(self, other: Layout) -> Layout {
+        let panel = self.panel.max(other.panel);
+        let between = (self.columns - 1) as f64 * self.gap;
+        Layout {
+            panel,
+            content: self.columns as f64 * panel + between,
+            scale: self.scale.min(other.scale),
+            ..self
+        }
+    }
+
+    /// The page is at least so wide and so high, pixels.
+    pub fn least(&self, stage: &Stage<'_>) -> (f64, f64) {
+        let frames: Vec<usize> = (0..stage.marks.len()).collect();
+        let rows = frames.chunks(self.columns.max(1));
+        let high: f64 = rows.map(|row| stage.row(row).height() * self.scale).sum();
+        (self.content, high)
+    }
+
+    fn with(stage: &Stage<'_>, count: usize, fit: Fit) -> Layout {
         let margin = stage.options.width.map_or(MARGIN, margin);
         let across = stage
             .options
@@ -62,14 +100,15 @@ impl Layout {
         let columns = match stage.options.columns {
             Some(columns) => columns.clamp(1, count),
             None => {
+                // On as many pages as it takes panels may be small, but not narrow.
+                let fits = |columns: usize| {
+                    (fit == Fit::Rows || scale(columns) * stage.unit >= SMALLEST_UNIT)
+                        && room(columns) >= LEAST.min(across)
+                };
                 let most = match count {
                     1..=3 => count,
                     4 => 2,
                     _ => 3,
-                };
-                let fits = |columns: usize| {
-                    scale(columns) * stage.unit >= SMALLEST_UNIT
-                        && room(columns) >= LEAST.min(across)
                 };
                 let roomy = (1..=most).rev().find(|c| fits(*c)).unwrap_or(1);
                 let high = |columns: usize| {
@@ -81,7 +120,7 @@ impl Layout {
                 // More columns where the figure would not fit on a page; the fewest that help, or those that help most.
                 let narrow = roomy + 1..=count.min(MOST_COLUMNS);
                 let narrow = || narrow.clone().filter(|c| room(*c) >= NARROW);
-                if high(roomy) <= page * across {
+                if fit == Fit::Rows || high(roomy) <= page * across {
                     roomy
                 } else {
                     let enough = narrow().find(|c| high(*c) <= page * across);

@@ -1,9 +1,10 @@
 //! The key: what the colours and signs of a figure mean. It lists only what occurs.
 
-use super::arrow::{ArrowKind, TurnKind};
+use super::arrow::{ArrowKind, ForceArrow, LEAST_SEEN, TurnKind};
 use super::option::{ArrowScale, Options};
-use super::panel::{CENTROID, TEXTURE};
+use super::pen::{CENTROID, DOT, TEXTURE};
 use super::stage::Stage;
+use super::told;
 use super::words::{counted, quantity, round_below};
 use crate::drawing::arrow::{HEAD_LENGTH, straight};
 use crate::drawing::{
@@ -66,6 +67,27 @@ impl Entry {
             }
             Entry::Note(words) => below(None, &words),
             entry => vec![entry],
+        }
+    }
+
+    /// Whether another entry says the same.
+    fn same(&self, other: &Entry) -> bool {
+        match (self, other) {
+            (Entry::Blocks(a), Entry::Blocks(b)) => a == b,
+            (Entry::Colours(_), Entry::Colours(_))
+            | (Entry::Planned(_), Entry::Planned(_))
+            | (Entry::Missing, Entry::Missing) => true,
+            (Entry::Robot(a, name), Entry::Robot(b, other)) => (a, name) == (b, other),
+            (Entry::Amplitudes(a, what, _), Entry::Amplitudes(b, other, _)) => {
+                (a, what) == (b, other)
+            }
+            (Entry::Line(_, a, what), Entry::Line(_, b, other)) => (a, what) == (b, other),
+            (Entry::Scale(a, _, what), Entry::Scale(b, _, other)) => (a, what) == (b, other),
+            (Entry::Metres(a, what), Entry::Metres(b, other)) => (a, what) == (b, other),
+            (Entry::Note(a), Entry::Note(b)) | (Entry::Sign(_, _, a), Entry::Sign(_, _, b)) => {
+                a == b
+            }
+            _ => false,
         }
     }
 
@@ -210,6 +232,22 @@ impl Entry {
     }
 }
 
+/// The entries of several keys as one, each once; where they name different blocks, the colours alone.
+pub(crate) fn joined(keys: Vec<Vec<Entry>>, theme: &Theme) -> Vec<Entry> {
+    let mut all: Vec<Entry> = Vec::new();
+    for entry in keys.into_iter().flatten() {
+        if all.iter().any(|known| known.same(&entry)) {
+            continue;
+        }
+        let blocks = |e: &Entry| matches!(e, Entry::Blocks(_) | Entry::Colours(_));
+        match all.iter_mut().find(|known| blocks(known) && blocks(&entry)) {
+            Some(known) => *known = Entry::Colours(theme.arrows.clone()),
+            None => all.push(entry),
+        }
+    }
+    all
+}
+
 /// Above so many robots the key counts the rest.
 const MOST_ROBOTS: usize = 16;
 const COLOURS: &str = "the forces on a block share a colour";
@@ -277,14 +315,28 @@ pub(crate) fn entries(stage: &Stage<'_>, unit: f64) -> Vec<Entry> {
     }
     entries.extend(loads(stage));
     entries.extend(robots(stage));
+    let scale = unit / stage.unit;
+    let seen = |a: &ForceArrow| a.reach().norm() * scale >= LEAST_SEEN;
     let missing = stage.marks.iter().any(|m| {
-        m.arrows.iter().any(|a| a.kind.is_failure())
+        m.arrows.iter().any(|a| a.kind.is_failure() && seen(a))
             || m.turns
                 .iter()
                 .any(|t| matches!(t.kind, TurnKind::Missing(_)))
     });
     if missing {
         entries.push(Entry::Missing);
+    }
+    let small = |kind: fn(ArrowKind) -> bool| {
+        let mut arrows = stage.marks.iter().flat_map(|m| &m.arrows);
+        arrows.any(|a| kind(a.kind) && told::dotted(a, seen(a)))
+    };
+    if small(|kind| kind == ArrowKind::Load) {
+        let words = "load too small for an arrow".to_owned();
+        entries.push(Entry::Sign(load_dot, 2.0 * DOT, words));
+    }
+    if small(ArrowKind::is_failure) {
+        let words = "missing force too small for an arrow".to_owned();
+        entries.push(Entry::Sign(missing_dot, 2.0 * DOT, words));
     }
     let painted = scene.blocks.iter().any(|b| b.body.fill.is_none());
     if painted && stage.fills.vary() {
@@ -316,6 +368,16 @@ fn load_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
             .with_stroke(Stroke::new(theme.load, 1.2))
             .into(),
     ]
+}
+
+fn load_dot(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    let dot = Path::filled(Outline::circle(at.moved(DOT, 0.0), DOT), theme.page);
+    vec![dot.with_stroke(Stroke::new(theme.load, 1.2)).into()]
+}
+
+fn missing_dot(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    let dot = Outline::circle(at.moved(DOT, 0.0), DOT);
+    vec![Path::filled(dot, theme.failure).into()]
 }
 
 /// A bar of a round number of metres, at most a quarter of a picture `content` pixels wide, a metre being `scale` pixels.

@@ -1,53 +1,67 @@
-//! How far from the edge: the structure as it stands, and as a ghost how it would fall if gravity turned far enough.
+//! How far from the edge: the structure as it stands, and as a ghost how it would fall just beyond.
 //!
-//! Gravity turns to the side on which less is needed: a dashed line shows where it points now, an arrow where it would
-//! point. Nothing falls here; the blocks stand in their places.
+//! In the [direction](Toward) asked for, to the side on which less is needed. Where gravity turns or something pushes
+//! across it, a dashed line shows where it points now, an arrow where it would point, or the push beside it; where loads
+//! grow, they are shown as they are. Nothing falls here; the blocks stand in their places.
 
 use super::displacement::{self, Displacement};
 use super::label;
 use super::legend::{self, Entry};
 use super::mechanism;
-use super::panel::Pen;
+use super::option::Options;
+use super::panel::composed;
+use super::pen::Pen;
 use super::stage::Stage;
-use super::words::degrees;
-use crate::analysis::{Analysis, Verdict};
+use super::thrust;
+use super::words::{degrees, percent};
+use crate::analysis::{Analysis, Margin, Toward, Verdict};
 use crate::drawing::arrow::straight;
 use crate::drawing::{Camera, Group, Outline, PagePoint, PageRect, Path, Stroke, Theme};
-use crate::geometry::{Bounds, Point, Vector, sin_cos_degrees};
+use crate::geometry::{Bounds, Point, Vector, quarter_turn, sin_cos_degrees};
+use crate::scene::{Frame, Scene};
 
 /// Length of the arrow of gravity, as a share of the structure's diagonal.
 const LONG: f64 = 0.16;
 /// Its distance from the structure, as a share of the same.
 const APART: f64 = 0.12;
 
-/// The frame's analysis with the mechanism at the edge in place of its own, and how far gravity turns, degrees.
-fn ghost<'s>(analysis: &Analysis<'s>, frame: usize) -> Option<(Analysis<'s>, f64)> {
-    let (turn, motions) = analysis.tilted(frame)?;
+/// The amount that the loads of a frame are drawn to, N; 0 where it is not the loads that grow.
+pub(crate) fn largest_load(scene: &Scene, frame: &Frame, options: &Options) -> f64 {
+    match options.toward {
+        Toward::LoadFactor => thrust::largest_load(scene, frame),
+        _ => 0.0,
+    }
+}
+
+/// The frame's analysis with the mechanism at the edge in place of its own, and how far the edge is.
+fn ghost<'s>(analysis: &Analysis<'s>, frame: usize, toward: Toward) -> Option<(Analysis<'s>, f64)> {
+    let (edge, motions) = analysis.edge(frame, toward)?;
     let mut ghost = analysis.clone();
     let found = ghost.frames.get_mut(frame)?;
     found.mechanism = motions;
     found.verdict = Verdict::Unstable;
-    Some((ghost, turn))
+    Some((ghost, edge))
 }
 
-/// Where the blocks of a frame would go, by their numbers, and how far gravity turns.
+/// Where the blocks of a frame would go, by their numbers, and how far the edge is.
 fn gone(
     analysis: &Analysis<'_>,
     frame: usize,
     unit: f64,
+    toward: Toward,
 ) -> Option<(Vec<Option<Displacement>>, f64)> {
-    let (ghost, turn) = ghost(analysis, frame)?;
-    Some((displacement::displacements(&ghost, frame, unit, 1.0), turn))
+    let (ghost, edge) = ghost(analysis, frame, toward)?;
+    Some((displacement::displacements(&ghost, frame, unit, 1.0), edge))
 }
 
-/// Where gravity's arrow begins and ends, metres.
+/// Where gravity's arrow begins and ends, metres: as it is, and at the edge.
 struct Gravity {
     from: Point,
     now: Point,
-    turned: Point,
+    there: Point,
 }
 
-fn gravity(analysis: &Analysis<'_>, frame: usize, turn: f64) -> Option<Gravity> {
+fn gravity(analysis: &Analysis<'_>, frame: usize, edge: f64, toward: Toward) -> Option<Gravity> {
     let scene = analysis.scene;
     let blocks = scene.frames[frame].placed.iter();
     let structure = blocks
@@ -55,23 +69,44 @@ fn gravity(analysis: &Analysis<'_>, frame: usize, turn: f64) -> Option<Gravity> 
         .reduce(Bounds::union)?;
     let diagonal = structure.diagonal();
     let down = scene.down() * (LONG * diagonal);
-    let (sin, cos) = sin_cos_degrees(turn);
-    let turned = Vector::new(cos * down.x - sin * down.y, sin * down.x + cos * down.y);
-    let from = Point::new(structure.min.x - APART * diagonal, structure.max.y);
+    let there = match toward {
+        Toward::Tilt => {
+            let (sin, cos) = sin_cos_degrees(edge);
+            Vector::new(cos * down.x - sin * down.y, sin * down.x + cos * down.y)
+        }
+        // As long beside gravity's arrow as the push is beside the weight.
+        Toward::HorizontalLoad => quarter_turn(down) * edge,
+        Toward::LoadFactor => return None,
+    };
+    // An arrow to the right stays clear of the structure.
+    let beyond = (down.x.max(there.x)).max(0.0);
+    let left = structure.min.x
+        - APART * diagonal
+        - if beyond > 0.5 * LONG * diagonal {
+            beyond
+        } else {
+            0.0
+        };
+    let from = Point::new(left, structure.max.y);
     Some(Gravity {
         from,
         now: from + down,
-        turned: from + turned,
+        there: from + there,
     })
 }
 
 /// A box around ghosts and gravity.
-pub(crate) fn reach(analysis: &Analysis<'_>, frame: usize, unit: f64) -> Option<Bounds> {
-    let (displaced, turn) = gone(analysis, frame, unit)?;
-    let gravity = gravity(analysis, frame, turn)?;
-    let arrow = Bounds::of([gravity.from, gravity.now, gravity.turned])?.grown(0.1 * unit);
+pub(crate) fn reach(
+    analysis: &Analysis<'_>,
+    frame: usize,
+    unit: f64,
+    options: &Options,
+) -> Option<Bounds> {
+    let (displaced, edge) = gone(analysis, frame, unit, options.toward)?;
     let ghosts = mechanism::reach(analysis, &displaced);
-    Some(ghosts.map_or(arrow, |ghosts| ghosts.union(arrow)))
+    let gravity = gravity(analysis, frame, edge, options.toward)
+        .and_then(|g| Some(Bounds::of([g.from, g.now, g.there])?.grown(0.1 * unit)));
+    ghosts.into_iter().chain(gravity).reduce(Bounds::union)
 }
 
 /// What the camera sees of a frame, its ghost and gravity.
@@ -80,7 +115,8 @@ pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Ca
     let ink = label::ink(&pen);
     let (scene, theme) = (stage.analysis.scene, &stage.options.theme);
     let mut parts = Vec::new();
-    if let Some((displaced, turn)) = gone(stage.analysis, frame, stage.unit) {
+    let toward = stage.options.toward;
+    if let Some((displaced, edge)) = gone(stage.analysis, frame, stage.unit, toward) {
         let mut outline = Outline::default();
         for (block, displacement) in scene.blocks.iter().zip(&displaced) {
             let Some(displacement) = displacement else {
@@ -93,14 +129,19 @@ pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Ca
         }
         let ghosts = Group::of_class("ghosts").titled("How it would begin to fall");
         parts.push(ghosts.with(ghost_path(outline, pen.line, theme)));
-        if let Some(gravity) = gravity(stage.analysis, frame, turn) {
-            let [from, now, turned] =
-                [gravity.from, gravity.now, gravity.turned].map(|p| camera.place(p));
-            let along = (turned.x - from.x, turned.y - from.y);
-            let group = Group::of_class("gravity")
-                .titled(format!("Gravity turned by {}", degrees(turn.abs())));
+        if let Some(gravity) = gravity(stage.analysis, frame, edge, toward) {
+            let [from, now, there] =
+                [gravity.from, gravity.now, gravity.there].map(|p| camera.place(p));
+            let along = (there.x - from.x, there.y - from.y);
+            let group = Group::of_class("gravity").titled(match toward {
+                Toward::HorizontalLoad => {
+                    format!("Beside gravity {} of it across", percent_of(edge))
+                }
+                _ => format!("Gravity turned by {}", degrees(edge.abs())),
+            });
             let dashed = Stroke::new(theme.faint, 1.2).dashed([4.0, 3.0]);
-            let width = (0.04 * libm::hypot(along.0, along.1)).clamp(1.2, 3.0);
+            let long = libm::hypot(now.x - from.x, now.y - from.y);
+            let width = (0.04 * long).clamp(1.2, 3.0);
             let arrow = Path::filled(straight(from, along, width), theme.ink);
             parts.push(
                 group
@@ -109,7 +150,8 @@ pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Ca
             );
         }
     }
-    pen.picture(view, pen.blocks(), parts, ink)
+    parts.push(pen.arrows(false));
+    composed(&pen, view, pen.blocks(), parts, ink)
 }
 
 fn ghost_path(outline: Outline, line: f64, theme: &Theme) -> Path {
@@ -118,40 +160,100 @@ fn ghost_path(outline: Outline, line: f64, theme: &Theme) -> Path {
     Path::stroked(outline, stroke)
 }
 
+/// A share of gravity in percent, also beyond all of it.
+fn percent_of(share: f64) -> String {
+    if share.abs() < 1.0 {
+        percent(share.abs())
+    } else {
+        format!("{:.0}\u{a0}%", 100.0 * share.abs())
+    }
+}
+
 /// What the signs mean.
 pub(crate) fn entries(stage: &Stage<'_>) -> Vec<Entry> {
     let mut entries = Vec::new();
-    let frames = 0..stage.analysis.frames.len();
-    if frames
-        .into_iter()
-        .any(|f| stage.analysis.tilted(f).is_some())
-    {
+    let toward = stage.options.toward;
+    let mut frames = 0..stage.analysis.frames.len();
+    if frames.any(|f| stage.analysis.edge(f, toward).is_some()) {
         let ghost = "how it would begin to fall".to_owned();
         entries.push(Entry::Sign(ghost_sign, 20.0, ghost));
-        let gravity = "gravity turned as far as it may".to_owned();
-        entries.push(Entry::Sign(gravity_sign, 26.0, gravity));
+        match toward {
+            Toward::Tilt => {
+                let gravity = "gravity turned as far as it may".to_owned();
+                entries.push(Entry::Sign(gravity_sign, 26.0, gravity));
+            }
+            Toward::HorizontalLoad => {
+                let push = "largest push across gravity, beside gravity".to_owned();
+                entries.push(Entry::Sign(push_sign, 26.0, push));
+            }
+            Toward::LoadFactor => {}
+        }
+    }
+    if toward == Toward::LoadFactor {
+        entries.extend(legend::loads(stage));
     }
     entries.extend(legend::robots(stage));
     entries
 }
 
 /// What is said below a frame's verdict.
-pub(crate) fn reason(analysis: &Analysis<'_>, frame: usize) -> String {
+pub(crate) fn reason(stage: &Stage<'_>, frame: usize) -> String {
+    let (analysis, toward) = (stage.analysis, stage.options.toward);
     let found = &analysis.frames[frame];
     if found.verdict != Verdict::Stable {
         return "there is no margin: it does not stand as it is".to_owned();
     }
-    match analysis.tilted(frame) {
-        Some((turn, _)) => {
-            let side = if turn > 0.0 { "right" } else { "left" };
-            format!(
-                "falls once gravity is turned by {} to the {side}",
-                degrees(turn.abs())
-            )
-        }
-        None if found.margins.is_none() => "its margins were not asked for".to_owned(),
-        None => "no turn of gravity makes it fall".to_owned(),
+    let Some(margins) = &found.margins else {
+        return "its margins were not asked for".to_owned();
+    };
+    let side = |edge: f64| if edge > 0.0 { "right" } else { "left" };
+    if let Some((edge, _)) = analysis.edge(frame, toward) {
+        return match toward {
+            Toward::Tilt => format!(
+                "falls once gravity is turned by {} to the {}",
+                degrees(edge.abs()),
+                side(edge)
+            ),
+            Toward::HorizontalLoad => format!(
+                "falls once {} of each weight pushes to the {} as well",
+                percent_of(edge),
+                side(edge)
+            ),
+            Toward::LoadFactor => {
+                format!("falls once its loads are {} times as large", times(edge))
+            }
+        };
     }
+    let placed = &analysis.scene.frames[frame].placed;
+    let loaded = analysis
+        .scene
+        .loads
+        .iter()
+        .any(|l| placed.contains(&l.block));
+    match toward {
+        Toward::Tilt => "no turn of gravity makes it fall",
+        Toward::HorizontalLoad => "no horizontal push makes it fall",
+        Toward::LoadFactor if !loaded => "it has no loads that could grow",
+        Toward::LoadFactor if margins.load_factor == Margin::Unbounded => {
+            "its loads may grow without end"
+        }
+        Toward::LoadFactor => "how far its loads may grow was not found",
+    }
+    .to_owned()
+}
+
+/// A factor with three digits: `2.4`, `1.02`, `350`.
+fn times(factor: f64) -> String {
+    let decimals = match factor {
+        f if f < 10.0 => 2,
+        f if f < 100.0 => 1,
+        _ => 0,
+    };
+    let told = format!("{factor:.decimals$}");
+    if decimals == 0 {
+        return told;
+    }
+    told.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 fn ghost_sign(at: PagePoint, theme: &Theme) -> Vec<crate::drawing::Item> {
@@ -170,5 +272,15 @@ fn gravity_sign(at: PagePoint, theme: &Theme) -> Vec<crate::drawing::Item> {
     vec![
         Path::stroked(now, dashed).into(),
         Path::filled(straight(from, (9.0, 14.0), 1.6), theme.ink).into(),
+    ]
+}
+
+fn push_sign(at: PagePoint, theme: &Theme) -> Vec<crate::drawing::Item> {
+    let from = at.moved(4.0, -8.0);
+    let now = Outline::line([from, from.moved(0.0, 16.0)]);
+    let dashed = Stroke::new(theme.faint, 1.2).dashed([4.0, 3.0]);
+    vec![
+        Path::stroked(now, dashed).into(),
+        Path::filled(straight(from, (18.0, 0.0), 1.6), theme.ink).into(),
     ]
 }

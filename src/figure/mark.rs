@@ -7,7 +7,7 @@
 
 use super::arrow::{ArrowKind, ForceArrow, Head, Marks, TurnArrow, TurnKind};
 use super::option::{ForceStyle, Normalisation, Options};
-use super::stage::unit;
+use super::unit::unit;
 use super::view;
 use crate::analysis::{Analysis, Contact, Failure, FrameAnalysis};
 use crate::drawing::{Colour, Theme};
@@ -191,7 +191,12 @@ impl Pen<'_> {
         force: Vector,
         look: (Colour, f64),
     ) {
-        if force.norm() > NOISE * marks.newtons_per_unit {
+        // A load is given and no noise, however small it is.
+        let least = match kind {
+            ArrowKind::Load => 0.0,
+            _ => NOISE * marks.newtons_per_unit,
+        };
+        if force.norm() > least {
             let vector = force * self.metres_per_newton;
             marks.arrows.push(ForceArrow {
                 on,

@@ -12,7 +12,8 @@ use super::displacement::Displacement;
 use super::joint::{Joint, joints};
 use super::label;
 use super::legend::{self, Entry};
-use super::panel::{MOVED, Pen, TEXTURE};
+use super::panel::composed;
+use super::pen::{MOVED, Pen, TEXTURE};
 use super::stage::Stage;
 use super::told;
 use super::words::quantity;
@@ -68,7 +69,7 @@ pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Ca
     if pen.many() {
         (slips, hinges) = (joined(slips), joined(hinges));
     }
-    pen.picture(view, blocks, vec![slips, hinges], ink)
+    composed(&pen, view, blocks, vec![slips, hinges], ink)
 }
 
 /// All marks of a kind as few paths, for scenes of very many blocks: the n-th paths of all marks are one.

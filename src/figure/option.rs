@@ -1,5 +1,6 @@
 //! [`Options`]: the choices a reader has about a figure of forces.
 
+use crate::analysis::Toward;
 use crate::drawing::Theme;
 use crate::scene::BlockId;
 
@@ -78,6 +79,8 @@ pub struct Options {
     pub fill: Fill,
     /// Which forces of its interfaces a free-body diagram shows.
     pub corners: Corners,
+    /// In which direction [`Kind::Margin`](super::Kind::Margin) follows a frame until it falls.
+    pub toward: Toward,
     /// How much of the way a mechanism is drawn along, 0 … 1.
     pub way: f64,
     /// Panels beside each other; chosen by their shape where `None`.
@@ -114,6 +117,7 @@ impl Default for Options {
             scale: ArrowScale::default(),
             fill: Fill::default(),
             corners: Corners::default(),
+            toward: Toward::default(),
             way: 1.0,
             columns: None,
             theme: Theme::default(),

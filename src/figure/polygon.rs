@@ -9,14 +9,17 @@ use super::label;
 use super::legend::{self, Entry};
 use super::mark;
 use super::option::Options;
-use super::panel::Pen;
-use super::stage::{Stage, unit};
+use super::panel::composed;
+use super::pen::Pen;
+use super::stage::Stage;
 use super::told;
+use super::unit::unit;
 use super::verdict;
+use super::view;
 use super::words::round_below;
 use crate::analysis::Analysis;
 use crate::drawing::arrow::straight;
-use crate::drawing::{Camera, Group, Outline, Path, Stroke};
+use crate::drawing::{Camera, Group, Item, Outline, Path, Stroke};
 use crate::geometry::{Bounds, Point, Vector};
 use crate::scene::BodyId;
 
@@ -48,10 +51,49 @@ pub(crate) fn marks(
     Marks { arrows, ..marks }
 }
 
-/// A frame's polygon in the scene: its corners, and how many times as large as on the structure forces are.
+/// What gives back lies beside what acts, not on it, where it is nearer than this share of the polygon's size …
+const NEAR: f64 = 0.03;
+/// … and by so much of it.
+const BESIDE: f64 = 0.09;
+
+/// A frame's polygon in the scene: where each arrow begins and ends, and how many times as large as on the structure
+/// forces are.
 struct Chain {
-    corners: Vec<Point>,
+    sides: Vec<[Point; 2]>,
+    /// Between what acts and what gives back, where they are drawn apart: places that are one.
+    joins: Vec<[Point; 2]>,
     times: f64,
+}
+
+/// Whether what gives back would cover what acts: both run up and down the same line.
+fn covers(acting: &[Point], answering: &[Point], size: f64) -> bool {
+    let pair = |ends: &[Point]| [ends[0], ends[1]];
+    let (acting, answering): (Vec<_>, Vec<_>) = (
+        acting.windows(2).map(pair).collect(),
+        answering.windows(2).map(pair).collect(),
+    );
+    // Two sides run on each other where the middle of the shorter lies on the longer, and both ends nearly do.
+    let from = |[a, b]: [Point; 2], p: Point| {
+        let along = b - a;
+        let length = along.norm_squared();
+        let share = if length > 0.0 {
+            ((p - a).dot(&along) / length).clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
+        (p - (a + along * share)).norm()
+    };
+    let lies_on = |short: &[Point; 2], long: &[Point; 2]| {
+        let middle = nalgebra::center(&short[0], &short[1]);
+        let quarter = nalgebra::center(&short[0], &middle);
+        [middle, quarter]
+            .iter()
+            .all(|p| from(*long, *p) < NEAR * size)
+    };
+    acting.iter().any(|a| {
+        let mut others = answering.iter();
+        others.any(|b| lies_on(a, b) || lies_on(b, a))
+    })
 }
 
 /// The forces of `marks` tip to tail, to the right of the blocks of a frame.
@@ -76,17 +118,40 @@ fn chain(analysis: &Analysis<'_>, frame: usize, marks: &Marks) -> Option<Chain> 
     if times <= 0.0 {
         return None;
     }
+    let answers = |arrow: &ForceArrow| !matches!(arrow.kind, ArrowKind::Weight | ArrowKind::Load);
+    let acting = marks.arrows.iter().position(answers);
+    let acting = acting.unwrap_or(marks.arrows.len());
+    let aside = if covers(&corners[..=acting], &corners[acting..], size) {
+        BESIDE * size
+    } else {
+        0.0
+    };
     let (share, least) = APART;
     let apart = (share * structure.diagonal()).max(least * unit(scene, None));
-    // Its left edge beside the structure, its middle as high as the structure's.
+    // Its left edge beside the structure and the ground below it, its middle as high as the structure's.
+    let right = view::ground_shown(scene, unit(scene, None))
+        .map_or(structure.max.x, |g| structure.max.x.max(g.max.x));
     let middle = 0.5 * (structure.min.y + structure.max.y);
     let shift = Vector::new(
-        structure.max.x + apart - times * own.min.x,
+        right + apart - times * own.min.x,
         middle - 0.5 * times * (own.min.y + own.max.y),
     );
-    let place = |p: &Point| Point::from(p.coords * times + shift);
+    let place =
+        |p: Point, aside: f64| Point::from((p.coords + Vector::new(aside, 0.0)) * times + shift);
+    let side = |(number, ends): (usize, &[Point])| {
+        let aside = if number < acting { 0.0 } else { aside };
+        [place(ends[0], aside), place(ends[1], aside)]
+    };
+    let ends = [corners[acting], at];
+    let ends = ends.into_iter().zip([corners[acting], corners[0]]);
+    let joins = ends.map(|(answer, act)| [place(act, 0.0), place(answer, aside)]);
     Some(Chain {
-        corners: corners.iter().map(place).collect(),
+        sides: corners.windows(2).enumerate().map(side).collect(),
+        joins: if aside > 0.0 {
+            joins.collect()
+        } else {
+            Vec::new()
+        },
         times,
     })
 }
@@ -103,7 +168,7 @@ fn larger(times: f64) -> String {
 /// A box around the polygon of a frame, arrows of so many newtons per unit edge.
 pub(crate) fn reach(analysis: &Analysis<'_>, frame: usize, marks: &Marks) -> Option<Bounds> {
     let chain = chain(analysis, frame, marks)?;
-    let own = Bounds::of(chain.corners)?;
+    let own = Bounds::of(chain.sides.into_iter().flatten())?;
     Some(own.grown(0.3 * unit(analysis.scene, None)))
 }
 
@@ -115,7 +180,7 @@ pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Ca
     let mut polygon = Group::of_class("polygon").titled("Force polygon");
     if let Some(chain) = chain(stage.analysis, frame, marks) {
         let theme = &stage.options.theme;
-        for (arrow, ends) in marks.arrows.iter().zip(chain.corners.windows(2)) {
+        for (arrow, ends) in marks.arrows.iter().zip(&chain.sides) {
             let from = camera.place(ends[0]);
             let along = camera.turn(ends[1] - ends[0]);
             ink.arrow(from, along, pen.width(arrow));
@@ -124,9 +189,23 @@ pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Ca
             let drawn = Group::of_class("force").titled(title).with(path);
             polygon.items.push(drawn.into());
         }
-        let (first, last) = (chain.corners.first(), chain.corners.last());
-        if let (Some(first), Some(last), false) = (first, last, closed(marks)) {
-            let gap = Outline::line([*last, *first].map(|p| camera.place(p)));
+        let closed = closed(marks);
+        let ends = [
+            chain.sides.last().map(|s| s[1]),
+            chain.sides.first().map(|s| s[0]),
+        ];
+        // Drawn apart, the two ends are joined as if they were one place; the last join shows a gap as one.
+        let joins = chain.joins.iter().take(if closed { 2 } else { 1 });
+        for join in joins {
+            let line = Outline::line(join.map(|p| camera.place(p)));
+            let stroke = Stroke::new(theme.faint, 0.8).dashed([2.0, 2.0]);
+            let drawn = Group::of_class("join").titled("One place, drawn as two");
+            polygon
+                .items
+                .push(drawn.with(Path::stroked(line, stroke)).into());
+        }
+        if let ([Some(last), Some(first)], false) = (ends, closed) {
+            let gap = Outline::line([last, first].map(|p| camera.place(p)));
             let stroke = Stroke::new(theme.failure, 1.4).dashed([5.0, 4.0]);
             let drawn = Group::of_class("gap").titled("What is missing for a balance");
             polygon
@@ -135,7 +214,19 @@ pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Ca
         }
     }
     let parts = vec![pen.arrows(false), pen.arrows(true), polygon];
-    pen.picture(view, pen.blocks(), parts, ink)
+    let mut picture = composed(&pen, view, pen.blocks(), parts, ink);
+    // The polygon stands on nothing: ground ends beside it.
+    let shown = view::ground_shown(stage.analysis.scene, unit(stage.analysis.scene, None));
+    for item in &mut picture.items {
+        if let (Item::Group(group), Some(shown)) = (item, shown)
+            && group.class == "ground"
+            && let Some(clip) = &mut group.clip
+        {
+            let right = camera.place(Point::new(shown.max.x, shown.max.y)).x;
+            clip.width = clip.width.min(right - clip.at.x).max(0.0);
+        }
+    }
+    picture
 }
 
 /// Whether the forces add up to nothing.

@@ -1,7 +1,7 @@
 //! [`shapes`]: a sheet of shapes made of lattice cells, with their names, seams and origins.
 
 use super::layout::MARGIN;
-use super::panel::seams;
+use super::pen::seams;
 use crate::drawing::{
     Anchor, Camera, Drawing, Face, Group, Outline, PagePoint, Path, Stroke, Text, Theme,
 };

@@ -1,14 +1,16 @@
 //! [`Stage`]: what all panels of a figure share: the unit edge, the view, colours, and each frame's arrows.
 
+use core::cell::Cell;
+
 use super::apart::apart;
-use super::arrow::Marks;
+use super::arrow::{ArrowKind, ForceArrow, LEAST_SEEN, Marks};
+use super::displacement::Displacement;
 use super::fill::{FillScale, Fills};
-use super::kind::Kind;
 use super::option::{ArrowScale, Options};
+use super::unit::unit;
 use super::view;
 use crate::analysis::Analysis;
-use crate::geometry::{Bounds, Point};
-use crate::scene::{Block, BlockId, Scene};
+use crate::geometry::{Bounds, Point, Vector};
 
 /// Above so many blocks in a frame, blocks are drawn together by colour, without names.
 pub(crate) const MANY: usize = 1000;
@@ -18,10 +20,14 @@ const DUST: f64 = 8.4;
 /// Fewer blocks than this are no crowd: their arrows stay, and what is too short to be seen is counted.
 const CROWD: usize = 40;
 
+/// Where in a crowd less than this share of the arrows can be seen, colours tell the forces instead.
+const FEW_SEEN: f64 = 0.2;
+
 /// What all panels of a figure share.
 pub(crate) struct Stage<'a> {
     pub analysis: &'a Analysis<'a>,
-    pub kind: Kind,
+    /// Whether blocks tell amplitudes by their colour; otherwise they are plain.
+    pub tells_amplitudes: bool,
     pub options: &'a Options,
     /// The unit edge, metres.
     pub unit: f64,
@@ -32,14 +38,37 @@ pub(crate) struct Stage<'a> {
     pub fills: Fills,
     /// One entry per frame.
     pub marks: Vec<Marks>,
+    /// For each frame how each block is displaced, by its number; empty where all are drawn in their places.
+    pub displaced: Vec<Vec<Option<Displacement>>>,
+    /// What is said below each frame's verdict.
+    pub said: Vec<String>,
+    /// How many labels, so far, had no room, or none but in another block.
+    pub cramped: Cell<usize>,
+}
+
+/// What a kind of figure brings to its stage.
+pub(crate) struct Content<'c> {
+    /// Whether blocks tell amplitudes by their colour.
+    pub tells_amplitudes: bool,
+    /// The amount that a frame's own scale takes as one unit edge, N; 0 where there are no arrows.
+    pub largest: &'c dyn Fn(usize) -> f64,
+    /// The arrows of a frame, so many newtons being one unit edge long.
+    pub marks: &'c dyn Fn(usize, f64) -> Marks,
+    /// A box around what a frame shows beside blocks, ground, robots and arrows, for a unit edge in metres.
+    pub reach: &'c dyn Fn(usize, f64, &Marks) -> Option<Bounds>,
+    /// How each block of a frame is displaced, for a unit edge in metres.
+    pub displaced: &'c dyn Fn(usize, f64) -> Vec<Option<Displacement>>,
 }
 
 impl<'a> Stage<'a> {
-    pub fn of(analysis: &'a Analysis<'a>, kind: Kind, options: &'a Options) -> Stage<'a> {
+    pub fn of(
+        analysis: &'a Analysis<'a>,
+        options: &'a Options,
+        content: &Content<'_>,
+    ) -> Stage<'a> {
         let scene = analysis.scene;
-        let own: Vec<f64> = (0..analysis.frames.len())
-            .map(|frame| kind.largest(analysis, frame, options))
-            .collect();
+        let frames = 0..analysis.frames.len();
+        let own: Vec<f64> = frames.clone().map(content.largest).collect();
         let shared = own.iter().copied().fold(0.0, f64::max);
         let reference = |own: f64| match options.scale {
             ArrowScale::Panel => own,
@@ -49,20 +78,21 @@ impl<'a> Stage<'a> {
             .iter()
             .enumerate()
             .map(|(i, own)| {
-                let mut marks = kind.marks(analysis, i, options, reference(*own));
+                let mut marks = (content.marks)(i, reference(*own));
                 if let Some(near) = options.zoom.map(|block| view::around(scene, block)) {
                     marks.arrows.retain(|arrow| view::holds(near, arrow.at));
                     marks.turns.retain(|turn| view::holds(near, turn.at));
                 }
-                if kind.tells_amplitudes() && !options.printed() {
+                if content.tells_amplitudes && !options.printed() {
                     apart(&mut marks);
                 }
                 marks
             })
             .collect();
         let unit = unit(scene, options.zoom);
-        let reach: Vec<Option<Bounds>> = (0..marks.len())
-            .map(|frame| kind.reach(analysis, frame, unit, &marks[frame]))
+        let reach: Vec<Option<Bounds>> = frames
+            .clone()
+            .map(|frame| (content.reach)(frame, unit, &marks[frame]))
             .collect();
         let shown = view::shown(scene, &marks, &reach, options.theme.widths.disc, unit);
         let nothing = Bounds {
@@ -81,14 +111,36 @@ impl<'a> Stage<'a> {
             .unwrap_or(nothing);
         Stage {
             analysis,
-            kind,
+            tells_amplitudes: content.tells_amplitudes,
             options,
             unit,
             shown,
             view,
             fills: Fills::of(analysis, options.fill),
             marks,
+            displaced: frames
+                .map(|frame| (content.displaced)(frame, unit))
+                .collect(),
+            said: vec![String::new(); analysis.frames.len()],
+            cramped: Cell::new(0),
         }
+    }
+
+    /// With more room around what every frame shows, metres across and up.
+    pub fn with_room(mut self, across: f64, up: f64) -> Stage<'a> {
+        // Where ground is shown, it is the lower edge.
+        let down = match view::ground_shown(self.analysis.scene, self.unit) {
+            Some(ground) if ground.min.y <= self.view.min.y + self.unit => 0.0,
+            _ => up,
+        };
+        let grown = |b: Bounds| Bounds {
+            min: b.min - Vector::new(across, down),
+            max: b.max + Vector::new(across, up),
+        };
+        self.shown.iter_mut().for_each(|b| *b = grown(*b));
+        self.view = grown(self.view);
+        self.cramped.set(0);
+        self
     }
 
     /// Whether arrows would be dust where a metre is so many pixels long, and colours tell the forces instead.
@@ -102,15 +154,25 @@ impl<'a> Stage<'a> {
         let frames = self.analysis.scene.frames.iter();
         let most = frames.map(|f| f.placed.len()).max().unwrap_or(0);
         most >= CROWD
-            && self.unit * scale < DUST
+            && (self.unit * scale < DUST || self.faint(scale))
             && told
             && !self.plain()
             && !self.options.printed()
     }
 
+    /// Whether nearly all arrows are too short to be seen, so that those that are left would tell of a few joints and
+    /// hide what the others carry.
+    fn faint(&self, scale: f64) -> bool {
+        let arrows = || self.marks.iter().flat_map(|m| &m.arrows);
+        let carried = |a: &&ForceArrow| !a.kind.is_failure() && a.kind != ArrowKind::Load;
+        let seen = |a: &&ForceArrow| a.reach().norm() * scale >= LEAST_SEEN;
+        let count = arrows().filter(carried).count();
+        (arrows().filter(carried).filter(seen).count() as f64) < FEW_SEEN * count as f64
+    }
+
     /// Whether blocks have one plain colour.
     pub fn plain(&self) -> bool {
-        !self.kind.tells_amplitudes() || self.fills.scale == FillScale::Plain
+        !self.tells_amplitudes || self.fills.scale == FillScale::Plain
     }
 
     /// What the panels of a row show: as wide as all frames need, so that structures stand one below the other, and as
@@ -123,27 +185,5 @@ impl<'a> Stage<'a> {
             Point::new(self.view.max.x, row.max.y),
         );
         Bounds { min, max }
-    }
-}
-
-/// The unit edge in metres: the lattice's side, unless blocks are far larger than cells; off the lattice a typical size,
-/// 0.6·√area of the middle block, which is about the edge of a regular hexagon of that area.
-/// Of a neighbourhood it is the typical size of what lies in it.
-pub(crate) fn unit(scene: &Scene, zoom: Option<BlockId>) -> f64 {
-    let near = zoom.map(|block| view::around(scene, block));
-    let shown = |b: &&Block| near.is_none_or(|near| near.meets(b.body.polygon.bounds()));
-    let mut sizes: Vec<f64> = scene
-        .blocks
-        .iter()
-        .filter(shown)
-        .map(|b| b.body.polygon.area().sqrt())
-        .collect();
-    sizes.sort_by(f64::total_cmp);
-    // Around a block it is the block itself that has to be seen, however large its neighbours are.
-    let middle = if zoom.is_some() { 0 } else { sizes.len() / 2 };
-    let typical = 0.6 * sizes.get(middle).copied().unwrap_or(1.0);
-    match scene.lattice {
-        Some(lattice) if typical < 1.5 * lattice.side => lattice.side,
-        _ => typical,
     }
 }

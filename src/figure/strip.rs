@@ -1,6 +1,7 @@
 //! [`Strip`]: a page of panels, one per frame, each with its caption and verdict, and one key below them all. What a
 //! panel shows is its [`Kind`]'s affair.
 
+use super::arrow::{ArrowKind, ForceArrow};
 use super::dimension;
 use super::kind::Kind;
 use super::label;
@@ -10,40 +11,65 @@ use super::option::{ArrowScale, Options};
 use super::stage::Stage;
 use super::verdict;
 use super::words::{counted, letter, quantity};
-use crate::analysis::{Analysis, FrameAnalysis};
+use crate::analysis::Analysis;
 use crate::drawing::{
     Anchor, Camera, Drawing, Face, Group, Item, Outline, PagePoint, Path, Stroke, Text, text,
 };
-use crate::geometry::Bounds;
+use crate::geometry::{Bounds, Point};
 
 /// Height of a caption's line, in sizes of its letters.
 const CAPTION_LINE: f64 = 22.0 / 17.0;
 /// Height of a line of what is said below a verdict, in sizes of its letters.
 const REASON_LINE: f64 = 1.36;
+/// Room for names around what a panel shows, where they need it, across and up, pixels.
+const NAMES: (f64, f64) = (24.0, 30.0);
 const MOST_CAPTION_LINES: usize = 8;
 const MOST_REASON_LINES: usize = 12;
+/// The description tells so many frames.
+const MOST_TOLD: usize = 30;
 
 /// The figure of an analysis: a panel of this kind for each frame.
 pub(crate) fn strip(analysis: &Analysis<'_>, kind: Kind, options: &Options) -> Drawing {
-    let stage = Stage::of(analysis, kind, options);
-    let strip = Strip {
-        stage: &stage,
-        layout: Layout::of(&stage, analysis.frames.len()),
-        only: None,
+    let stage = kind.stage(analysis, options);
+    let count = analysis.frames.len();
+    let drawn = |stage: &Stage<'_>| {
+        let layout = Layout::of(stage, count);
+        let strip = Strip {
+            kind,
+            stage,
+            layout,
+            captions: None,
+            alike: false,
+        };
+        (strip.drawing(), stage.cramped.get(), layout.scale)
     };
-    strip.drawing()
+    let (drawing, cramped, scale) = drawn(&stage);
+    if cramped == 0 || options.zoom.is_some() || scale <= 0.0 {
+        return drawing;
+    }
+    // Names stand around a structure whose blocks are too small for them, where there is room.
+    let (across, up) = NAMES;
+    let roomy = stage.with_room(across / scale, up / scale);
+    let (roomier, still, _) = drawn(&roomy);
+    if 2 * still <= cramped {
+        roomier
+    } else {
+        drawing
+    }
 }
 
 /// The panels of [`strip`] a page each, all pages alike in size and scale, so that they can follow one another in place.
 pub(crate) fn pages(analysis: &Analysis<'_>, kind: Kind, options: &Options) -> Vec<Drawing> {
-    let stage = Stage::of(analysis, kind, options);
+    let stage = kind.stage(analysis, options);
     let page = |frame| {
         let strip = Strip {
+            kind,
             stage: &stage,
             layout: Layout::of(&stage, 1),
-            only: Some(frame),
+            captions: None,
+            alike: true,
         };
-        strip.drawing()
+        page(&[&strip], &[(0, frame)], &analysis.scene.title)
     };
     let mut pages: Vec<Drawing> = (0..analysis.frames.len()).map(page).collect();
     let highest = pages.iter().map(|p| p.height).fold(0.0, f64::max);
@@ -53,20 +79,178 @@ pub(crate) fn pages(analysis: &Analysis<'_>, kind: Kind, options: &Options) -> V
     pages
 }
 
-struct Strip<'a> {
-    stage: &'a Stage<'a>,
-    layout: Layout,
-    /// The one frame that is drawn, all of them where `None`.
-    only: Option<usize>,
+/// The panels of [`strip`] on pages no higher than `high` times their width, one below the other in as many rows as fit, at
+/// least one; all to one scale.
+pub(crate) fn split(
+    analysis: &Analysis<'_>,
+    kind: Kind,
+    options: &Options,
+    high: f64,
+) -> Vec<Drawing> {
+    let stage = kind.stage(analysis, options);
+    let count = analysis.frames.len();
+    let layout = Layout::roomy(&stage, count);
+    let strip = Strip {
+        kind,
+        stage: &stage,
+        layout,
+        captions: None,
+        alike: false,
+    };
+    let order: Vec<(usize, usize)> = (0..count).map(|frame| (0, frame)).collect();
+    let drawn = |order: &[(usize, usize)]| page(&[&strip], order, &analysis.scene.title);
+    let mut pages = Vec::new();
+    let mut rest = &order[..];
+    while !rest.is_empty() {
+        let mut taken = layout.columns.min(rest.len());
+        let mut page = drawn(&rest[..taken]);
+        while taken < rest.len() {
+            let more = (taken + layout.columns).min(rest.len());
+            let next = drawn(&rest[..more]);
+            if next.height > high * next.width {
+                break;
+            }
+            (taken, page) = (more, next);
+        }
+        pages.push(page);
+        rest = &rest[taken..];
+    }
+    pages
+}
+
+/// A strip of panels of one kind.
+pub(crate) struct Strip<'a> {
+    pub kind: Kind,
+    pub stage: &'a Stage<'a>,
+    pub layout: Layout,
+    /// What stands below each frame in place of its letter and title.
+    pub captions: Option<&'a [String]>,
+    /// Whether every panel shows as much of the scene as all need together, so that they can follow each other in place.
+    pub alike: bool,
+}
+
+/// Some panels of strips of one layout on a page, each given by its strip and its frame, and one key below them all. The
+/// structures of a row stand on one level.
+pub(crate) fn page(strips: &[&Strip<'_>], order: &[(usize, usize)], title: &str) -> Drawing {
+    let Some(first) = strips.first() else {
+        return Drawing::default();
+    };
+    let (options, layout) = (first.stage.options, first.layout);
+    let theme = &options.theme;
+    let entries = legend::joined(strips.iter().map(|strip| strip.entries()).collect(), theme);
+    let margin = layout.margin;
+    // A narrow picture gets a page wide enough for its words.
+    let inner = match options.width {
+        Some(width) => (width - 2.0 * margin).max(1.0),
+        None => layout
+            .content
+            .max(legend::widest(&entries, theme).min(640.0))
+            .max(300.0),
+    };
+    let fitted = |entry: legend::Entry| entry.fitted(inner, theme);
+    let entries: Vec<legend::Entry> = entries.into_iter().flat_map(fitted).collect();
+    let width = inner + 2.0 * margin;
+    let middle = width / 2.0;
+    let left = middle - layout.content / 2.0;
+    let mut items: Vec<Item> = Vec::new();
+    let mut y = margin;
+    if options.titles && !title.is_empty() {
+        let (face, size) = (Face::SerifBold, theme.sizes.title);
+        let lines = text::wrap(title, face, size, inner);
+        for line in text::cut(lines, 3, face, size, inner) {
+            let below = size * 5.0 / 22.0;
+            y += size;
+            let at = PagePoint::new(middle, y - below);
+            items.push(
+                Text::new(at, line, face, size, theme.ink)
+                    .anchored(Anchor::Middle)
+                    .into(),
+            );
+            y += below;
+        }
+        y += 18.0;
+    }
+    for (number, row) in order.chunks(layout.columns).enumerate() {
+        if number > 0 {
+            y += 30.0;
+        }
+        let views = row
+            .iter()
+            .map(|(strip, frame)| strips[*strip].shows(*frame));
+        let views: Vec<Bounds> = views.collect();
+        let low = views.iter().map(|v| v.min.y).fold(f64::INFINITY, f64::min);
+        let high = views
+            .iter()
+            .map(|v| v.max.y)
+            .fold(f64::NEG_INFINITY, f64::max);
+        let mut bottom = y;
+        // Verdicts of a row stand side by side, below its longest caption.
+        let captions = row
+            .iter()
+            .map(|(strip, frame)| strips[*strip].caption_lines(*frame).len())
+            .max()
+            .unwrap_or(0);
+        for (column, ((strip, frame), view)) in row.iter().zip(views).enumerate() {
+            let view = Bounds {
+                min: Point::new(view.min.x, low),
+                max: Point::new(view.max.x, high),
+            };
+            let x = left + column as f64 * (layout.panel + layout.gap);
+            let at = PagePoint::new(x, y);
+            let (mut panel, end) = strips[*strip].panel(*frame, (view, captions), at);
+            if strips.len() > 1 {
+                let id = panel.id.take();
+                panel.id = id.map(|id| format!("{}-{id}", strip + 1));
+            }
+            items.push(panel.into());
+            bottom = f64::max(bottom, end);
+        }
+        y = bottom;
+    }
+    if !entries.is_empty() {
+        y += 20.0;
+        let rule = Outline::line([
+            PagePoint::new(middle - inner / 2.0, y),
+            PagePoint::new(middle + inner / 2.0, y),
+        ]);
+        items.push(Path::stroked(rule, Stroke::new(theme.rule, 1.0)).into());
+        y += 8.0;
+        let (key, height) = legend::draw(&entries, middle, y, inner, theme);
+        items.push(key.into());
+        y += height - 10.0;
+    }
+    let told: Vec<String> = order
+        .iter()
+        .take(MOST_TOLD)
+        .map(|(strip, frame)| strips[*strip].told(*frame))
+        .collect();
+    Drawing {
+        width: width.ceil(),
+        height: (y + margin).ceil(),
+        title: if title.is_empty() {
+            first.kind.title().into()
+        } else {
+            title.to_owned()
+        },
+        description: told.join(" "),
+        background: Some(theme.page),
+        items,
+    }
 }
 
 impl Strip<'_> {
     fn drawing(&self) -> Drawing {
-        let (options, scene) = (self.stage.options, self.stage.analysis.scene);
-        let theme = &options.theme;
+        let frames = 0..self.stage.marks.len();
+        let order: Vec<(usize, usize)> = frames.map(|frame| (0, frame)).collect();
+        page(&[self], &order, &self.stage.analysis.scene.title)
+    }
+
+    /// What the key explains.
+    fn entries(&self) -> Vec<legend::Entry> {
+        let options = self.stage.options;
         let unit = self.layout.scale * self.stage.unit;
         let mut entries = if options.keys {
-            let mut entries = self.stage.kind.entries(self.stage, unit);
+            let mut entries = self.kind.entries(self.stage, unit);
             entries.extend(label::left_out(self.stage).map(legend::Entry::Note));
             entries
         } else {
@@ -74,97 +258,24 @@ impl Strip<'_> {
         };
         if self.stage.dusty(self.layout.scale) {
             let arrows = self.stage.marks.iter().flat_map(|m| &m.arrows);
-            let count = arrows.filter(|a| !a.kind.is_failure()).count();
+            let left_out = |a: &&ForceArrow| !a.kind.is_failure() && a.kind != ArrowKind::Load;
+            let count = arrows.filter(left_out).count();
             let left_out = format!("{} too small to read, left out", counted(count, "arrow"));
             entries.push(legend::Entry::Note(left_out));
         }
         if options.scale_bar {
             entries.extend(legend::metres(self.layout.scale, self.layout.content));
         }
-        let margin = self.layout.margin;
-        // A narrow picture gets a page wide enough for its words.
-        let inner = match options.width {
-            Some(width) => (width - 2.0 * margin).max(1.0),
-            None => self
-                .layout
-                .content
-                .max(legend::widest(&entries, theme).min(640.0))
-                .max(300.0),
-        };
-        let fitted = |entry: legend::Entry| entry.fitted(inner, theme);
-        let entries: Vec<legend::Entry> = entries.into_iter().flat_map(fitted).collect();
-        let width = inner + 2.0 * margin;
-        let middle = width / 2.0;
-        let left = middle - self.layout.content / 2.0;
-        let mut items: Vec<Item> = Vec::new();
-        let mut y = margin;
-        if options.titles && !scene.title.is_empty() {
-            let (face, size) = (Face::SerifBold, theme.sizes.title);
-            let lines = text::wrap(&scene.title, face, size, inner);
-            for line in text::cut(lines, 3, face, size, inner) {
-                let below = size * 5.0 / 22.0;
-                y += size;
-                let at = PagePoint::new(middle, y - below);
-                items.push(
-                    Text::new(at, line, face, size, theme.ink)
-                        .anchored(Anchor::Middle)
-                        .into(),
-                );
-                y += below;
-            }
-            y += 18.0;
-        }
-        let frames: Vec<usize> = match self.only {
-            Some(frame) => vec![frame],
-            None => (0..self.stage.marks.len()).collect(),
-        };
-        let rows: Vec<&[usize]> = frames.chunks(self.layout.columns).collect();
-        for (number, row) in rows.iter().enumerate() {
-            if number > 0 {
-                y += 30.0;
-            }
-            let view = match self.only {
-                Some(_) => self.stage.view,
-                None => self.stage.row(row),
-            };
-            let mut bottom = y;
-            // Verdicts of a row stand side by side, below its longest caption.
-            let captions = row
-                .iter()
-                .map(|f| self.caption_lines(*f).len())
-                .max()
-                .unwrap_or(0);
-            for (column, frame) in row.iter().enumerate() {
-                let x = left + column as f64 * (self.layout.panel + self.layout.gap);
-                let (panel, end) = self.panel(*frame, (view, captions), PagePoint::new(x, y));
-                items.push(panel.into());
-                bottom = f64::max(bottom, end);
-            }
-            y = bottom;
-        }
-        if !entries.is_empty() {
-            y += 20.0;
-            let rule = Outline::line([
-                PagePoint::new(middle - inner / 2.0, y),
-                PagePoint::new(middle + inner / 2.0, y),
-            ]);
-            items.push(Path::stroked(rule, Stroke::new(theme.rule, 1.0)).into());
-            y += 8.0;
-            let (key, height) = legend::draw(&entries, middle, y, inner, theme);
-            items.push(key.into());
-            y += height - 10.0;
-        }
-        Drawing {
-            width: width.ceil(),
-            height: (y + margin).ceil(),
-            title: if scene.title.is_empty() {
-                self.stage.kind.title().into()
-            } else {
-                scene.title.clone()
-            },
-            description: self.told(),
-            background: Some(theme.page),
-            items,
+        entries
+    }
+
+    /// The part of the scene that a frame's panel shows: as wide as all frames need, so that structures stand one below the
+    /// other.
+    fn shows(&self, frame: usize) -> Bounds {
+        if self.alike {
+            self.stage.view
+        } else {
+            self.stage.row(&[frame])
         }
     }
 
@@ -187,7 +298,7 @@ impl Strip<'_> {
             ..Group::of_class("frame")
         };
         group.title = self.said(frame, ": ", verdict::word(found.verdict));
-        let picture = stage.kind.picture(stage, frame, view, &camera);
+        let picture = self.kind.picture(stage, frame, view, &camera);
         let cramped = without_room(&picture);
         group = group.with(picture);
         let middle = at.x + layout.panel / 2.0;
@@ -212,7 +323,7 @@ impl Strip<'_> {
             group.items.extend(signs);
             y += 2.2 * half + below;
             let reason = if options.verdicts {
-                stage.kind.reason(stage, frame)
+                stage.said[frame].clone()
             } else {
                 String::new()
             };
@@ -320,6 +431,9 @@ impl Strip<'_> {
     /// and around which block where that is all that is shown.
     fn caption(&self, frame: usize, between: &str) -> String {
         let scene = self.stage.analysis.scene;
+        if let Some(caption) = self.captions.and_then(|all| all.get(frame)) {
+            return caption.clone();
+        }
         let title = &scene.frames[frame].title;
         let mut parts = Vec::new();
         if scene.frames.len() > 1 {
@@ -334,42 +448,25 @@ impl Strip<'_> {
         parts.join(between)
     }
 
-    /// The whole figure in sentences.
-    fn told(&self) -> String {
-        let scene = self.stage.analysis.scene;
-        let tell = |(frame, found): (usize, &FrameAnalysis)| {
-            let count = scene.frames[frame].placed.len();
-            let blocks = if count == 1 {
-                "1 block".to_owned()
-            } else {
-                format!("{count} blocks")
-            };
-            let weight = quantity(found.weight, "N");
-            let what = format!(
-                "{blocks}, {weight} in all, {}",
-                verdict::word(found.verdict)
-            );
-            let mut sentence = self.said(frame, " ", &what);
-            for more in [self.stage.kind.reason(self.stage, frame)]
-                .iter()
-                .chain(&found.notices)
-                .filter(|m| !m.is_empty())
-            {
-                sentence.push_str("; ");
-                sentence.push_str(&more.replace(text::NO_BREAK, " "));
-            }
-            sentence + "."
-        };
-        let frames: Vec<String> = self
-            .stage
-            .analysis
-            .frames
-            .iter()
-            .enumerate()
-            .take(30)
-            .map(tell)
-            .collect();
-        frames.join(" ")
+    /// A frame in a sentence.
+    fn told(&self, frame: usize) -> String {
+        let (scene, found) = (
+            self.stage.analysis.scene,
+            &self.stage.analysis.frames[frame],
+        );
+        let blocks = counted(scene.frames[frame].placed.len(), "block");
+        let weight = quantity(found.weight, "N");
+        let what = format!(
+            "{blocks}, {weight} in all, {}",
+            verdict::word(found.verdict)
+        );
+        let mut sentence = self.said(frame, " ", &what);
+        let more = [self.stage.said[frame].clone()];
+        for more in more.iter().chain(&found.notices).filter(|m| !m.is_empty()) {
+            sentence.push_str("; ");
+            sentence.push_str(&more.replace(text::NO_BREAK, " "));
+        }
+        sentence + "."
     }
 }
 

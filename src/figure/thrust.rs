@@ -11,7 +11,8 @@ use super::label;
 use super::legend::{self, Entry};
 use super::mark;
 use super::option::{ArrowScale, Options};
-use super::panel::Pen;
+use super::panel::composed;
+use super::pen::Pen;
 use super::stage::Stage;
 use super::told;
 use super::verdict;
@@ -45,7 +46,13 @@ pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Ca
     let dots = dots(&pen, found, &mut |at, radius| ink.disc(at, radius + 1.0));
     let lines = lines(&pen, scene, found, &stretches);
     let loads = pen.arrows(false);
-    pen.picture(view, pen.blocks(), vec![seams, lines, dots, loads], ink)
+    composed(
+        &pen,
+        view,
+        pen.blocks(),
+        vec![seams, lines, dots, loads],
+        ink,
+    )
 }
 
 /// The loads of a frame as arrows that end where they act; `newtons_per_unit` N are one unit edge long.

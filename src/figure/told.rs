@@ -10,7 +10,7 @@ pub(crate) use crate::wording::failure::{named, pair};
 /// A block's numbers in words.
 pub(crate) fn block(stage: &Stage<'_>, frame: usize, place: usize, block: &Block) -> String {
     let weight = quantity(block.weight, "N");
-    if !stage.kind.tells_amplitudes() {
+    if !stage.tells_amplitudes {
         return format!("weight {weight}");
     }
     let fill = stage.fills.description(stage.fills.shares[frame][place]);
@@ -18,6 +18,16 @@ pub(crate) fn block(stage: &Stage<'_>, frame: usize, place: usize, block: &Block
         return format!("weight {weight}");
     }
     format!("weight {weight}, {fill}")
+}
+
+/// Whether a force has a dot in place of an arrow: a load or a missing force that is not long enough to be seen, once for
+/// each pair of blocks.
+pub(crate) fn dotted(arrow: &ForceArrow, seen: bool) -> bool {
+    let twice = match (arrow.kind.partner(), arrow.on) {
+        (Some(BodyId::Block(partner)), BodyId::Block(on)) => partner.0 < on.0,
+        _ => false,
+    };
+    !seen && !twice && (arrow.kind == ArrowKind::Load || arrow.kind.is_failure())
 }
 
 /// An arrow's numbers in words.

@@ -6,7 +6,8 @@ use super::bearing::{Bearing, bearings};
 use super::by_colour::ByColour;
 use super::label;
 use super::legend::{self, Entry};
-use super::panel::Pen;
+use super::panel::composed;
+use super::pen::Pen;
 use super::stage::Stage;
 use super::told;
 use super::verdict;
@@ -37,7 +38,7 @@ pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Ca
     }
     let (idle, used) = interfaces(&pen, found);
     let robots = robots(&pen, found);
-    pen.picture(view, pen.blocks(), vec![idle, used, robots], ink)
+    composed(&pen, view, pen.blocks(), vec![idle, used, robots], ink)
 }
 
 /// What is said below a frame's verdict.

@@ -23,7 +23,7 @@ pub(crate) fn shown(
     disc: f64,
     unit: f64,
 ) -> Vec<Bounds> {
-    let ground = ground(scene, unit);
+    let ground = ground_shown(scene, unit);
     let frame = |((frame, marks), reach): ((&Frame, &Marks), &Option<Bounds>)| {
         let blocks = blocks(scene, frame).map(|id| scene.blocks[id.0].body.polygon.bounds());
         let arrows = marks.arrows.iter().filter_map(|arrow| {
@@ -62,8 +62,8 @@ fn blocks<'a>(scene: &'a Scene, frame: &'a Frame) -> impl Iterator<Item = BlockI
         .filter(|id| id.0 < scene.blocks.len())
 }
 
-/// A box around the ground that is shown, `None` for no ground near.
-fn ground(scene: &Scene, unit: f64) -> Option<Bounds> {
+/// A box around the ground that figures of a scene show, `unit` metres being a unit edge; `None` for no ground near.
+pub(crate) fn ground_shown(scene: &Scene, unit: f64) -> Option<Bounds> {
     let ground = || scene.ground.iter().map(|g| g.body.polygon.bounds());
     let seen = scene.frames.iter().flat_map(|frame| blocks(scene, frame));
     let structure = seen

@@ -8,7 +8,7 @@ use crate::drawing::{Anchor, Face, Group, PagePoint, Text, text};
 use crate::figure::arrow::{LEAST_SEEN, round_above};
 use crate::figure::legend;
 use crate::figure::option::Corners;
-use crate::figure::stage::unit;
+use crate::figure::unit::unit;
 use crate::figure::verdict;
 use crate::figure::words::{quantity, round_below};
 

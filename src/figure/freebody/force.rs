@@ -1,7 +1,7 @@
 //! [`Force`]: a force on the block as it is listed, with its name, and [`Arrow`]: how it is drawn.
 
 use super::super::option::{Corners, Options};
-use super::super::stage::unit;
+use super::super::unit::unit;
 use super::super::words::{force as amount, quantity};
 use super::around::{corners, distinct, inward, other};
 use crate::analysis::{Analysis, Contact, Failure};
@@ -84,6 +84,8 @@ pub(super) struct Arrow {
     pub width: f64,
     /// Its colour.
     pub colour: Colour,
+    /// Whether it is drawn hollow, as loads are.
+    pub hollow: bool,
 }
 
 impl Arrow {
@@ -183,7 +185,7 @@ pub(super) fn forces(
                 whose.clone(),
                 load.at,
                 (load.force, 0.0),
-                theme.ink,
+                theme.load,
             );
         }
         if load.torque != 0.0 {
@@ -195,7 +197,7 @@ pub(super) fn forces(
                 whose,
                 load.at,
                 torque,
-                theme.ink,
+                theme.load,
             );
         }
     }
@@ -404,6 +406,7 @@ pub(super) fn arrows(
             turn: None,
             width: WIDTH,
             colour: force.colour,
+            hollow: matches!(force.what, "Load" | "Torque of a load"),
         };
         if force.torque != 0.0 {
             let share = force.torque.abs() / (edge * largest.max(f64::MIN_POSITIVE));
@@ -461,6 +464,7 @@ pub(super) fn arrows(
                         turn: None,
                         width: WIDTH,
                         colour: options.theme.ink,
+                        hollow: false,
                     });
                 }
             }
@@ -481,6 +485,7 @@ pub(super) fn arrows(
                 turn: None,
                 width: THIN_WIDTH,
                 colour: options.theme.faint,
+                hollow: false,
             });
         }
     }

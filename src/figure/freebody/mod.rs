@@ -47,6 +47,8 @@ const LARGEST: f64 = 440.0;
 const ASIDE: f64 = 74.0;
 /// Room below the picture for the same, pixels.
 const BELOW: f64 = 58.0;
+/// Most names of forces, and of bodies, in a picture.
+const MOST_NAMES: usize = 150;
 /// Room around everything, pixels.
 const MARGIN: f64 = 24.0;
 /// Width of the page where none is asked for, pixels.
@@ -316,6 +318,7 @@ impl<'a> Sheet<'a> {
     }
 
     fn drawn(&self, ink: &mut Ink, wishes: &mut Vec<(Symbol, Wish)>) -> Group {
+        let theme = &self.options.theme;
         let mut group = Group::of_class("forces");
         for arrow in self.arrows.iter().filter(|a| Sheet::seen(a)) {
             let from = self.camera.place(arrow.at);
@@ -330,7 +333,12 @@ impl<'a> Sheet<'a> {
                     straight(from, arrow.along, arrow.width)
                 }
             };
-            let path = Path::filled(path, arrow.colour);
+            let path = if arrow.hollow {
+                let edge = Stroke::new(arrow.colour, 1.1).mitred();
+                Path::filled(path, theme.page).with_stroke(edge)
+            } else {
+                Path::filled(path, arrow.colour)
+            };
             let drawn = Group::of_class("force")
                 .titled(arrow.title.as_str())
                 .with(path);
@@ -393,7 +401,10 @@ impl<'a> Sheet<'a> {
             width: self.width - 8.0,
             height: self.picture.height + BELOW + 2.0,
         };
-        let mut nameless = 0;
+        // A picture has no room for more; they would only be tried in vain.
+        let (wishes, beyond) = wishes.split_at(wishes.len().min(MOST_NAMES));
+        let mut nameless = beyond.len();
+        ink.index();
         let mut group = Group::of_class("labels");
         let wanted: Vec<Wish> = wishes.iter().map(|w| w.1.clone()).collect();
         for ((symbol, _), placed) in wishes.iter().zip(place(ink, page, &wanted)) {
@@ -413,7 +424,10 @@ impl<'a> Sheet<'a> {
         let scene = self.analysis.scene;
         let others = neighbours(&self.contacts, self.block);
         let blocks = others.into_iter().filter(|b| matches!(b, BodyId::Block(_)));
-        for body in blocks.chain([BodyId::Block(self.block)]) {
+        let mut blocks: Vec<BodyId> = blocks.collect();
+        nameless += blocks.len().saturating_sub(MOST_NAMES);
+        blocks.truncate(MOST_NAMES);
+        for body in blocks.into_iter().chain([BodyId::Block(self.block)]) {
             let name = scene.name(body);
             let size = (text::width(name, Face::SerifItalic, NAME), 0.96 * NAME);
             // The block's own name may stand beside it, with a line to it; the others' only where they are.

@@ -1,0 +1,43 @@
+//! Where figures go: one file a scene, or one for each part of a figure.
+
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
+
+use crate::cli::complaint::Complaint;
+use crate::cli::destination::Destination;
+use crate::cli::picture::Format;
+use crate::cli::source::Source;
+
+/// Where a part of a figure goes: `name-a.svg` beside `name.svg`.
+pub(super) fn part_path(path: &Path, part: &str) -> PathBuf {
+    let text = |part: Option<&OsStr>| part.map(|p| p.to_string_lossy().into_owned());
+    let stem = text(path.file_stem()).unwrap_or_default();
+    let ending = text(path.extension()).map_or_else(String::new, |e| format!(".{e}"));
+    path.with_file_name(format!("{stem}-{part}{ending}"))
+}
+
+/// Where each scene's figure goes, in the scenes' order.
+pub(super) fn paths(
+    destination: &Destination,
+    sources: &[Source],
+    format: Format,
+) -> Result<Vec<PathBuf>, Complaint> {
+    match destination {
+        Destination::Stdout => Ok(Vec::new()),
+        Destination::File(path) => Ok(vec![path.clone()]),
+        Destination::Folder(folder) => {
+            let mut paths: Vec<PathBuf> = Vec::new();
+            for source in sources {
+                let path = folder.join(format!("{}.{}", source.stem(), format.ending()));
+                if let Some(first) = paths.iter().position(|p| *p == path) {
+                    let (a, b, shown) = (sources[first].name(), source.name(), path.display());
+                    return Err(Complaint::CommandLine(format!(
+                        "{a} and {b} would both become {shown}; rename one"
+                    )));
+                }
+                paths.push(path);
+            }
+            Ok(paths)
+        }
+    }
+}

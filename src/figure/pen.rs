@@ -1,0 +1,278 @@
+//! [`Pen`]: what draws the parts of a frame's picture: ground, blocks, plans and robots here, arrows in `pen/stroke`.
+
+mod stroke;
+
+use super::arrow::ForceArrow;
+use super::by_colour::ByColour;
+use super::displacement::Displacement;
+use super::stage::{MANY, Stage};
+use super::told;
+use crate::drawing::{Camera, Colour, Group, Outline, PagePoint, Path, Stroke};
+use crate::geometry::{Bounds, Lattice, Point};
+use crate::scene::{BlockId, Body, Rgb};
+
+/// Radius of the ring at the tail of a weight, in widths of its shaft.
+pub(crate) const CENTROID: f64 = 1.25;
+/// Radius of the sign of a load or a missing force that is too small for an arrow, pixels.
+pub(crate) const DOT: f64 = 2.8;
+
+/// Where a unit edge is shorter than this, pixels, arrows are texture rather than signs.
+pub(crate) const TEXTURE: f64 = 20.0;
+/// How strongly a displaced block is coloured, 0 … 1.
+pub(crate) const MOVED: f64 = 0.38;
+/// Where a unit edge is at least this long, pixels, outlines have their full width.
+const LARGE: f64 = 1.5 / 0.028;
+/// And seams around arrows theirs.
+const LARGER: f64 = 0.9 / 0.012;
+/// Least width of a shaft, pixels, where blocks are large enough to bear it.
+const LEAST_SHAFT: f64 = 2.5;
+
+/// A scene's colour on the page.
+pub(crate) fn colour(rgb: Rgb) -> Colour {
+    Colour(rgb.0)
+}
+
+/// The seams between a body's lattice cells: every edge of a cell that two of its cells share, once.
+pub(crate) fn seams(body: &Body, lattice: Option<Lattice>, camera: &Camera) -> Outline {
+    let mut outline = Outline::default();
+    let (Some(cells), Some(lattice)) = (&body.cells, lattice) else {
+        return outline;
+    };
+    let mut steps = std::collections::BTreeSet::new();
+    for cell in cells {
+        let corners = cell.corners();
+        for i in 0..corners.len() {
+            let (a, b) = (corners[i], corners[(i + 1) % corners.len()]);
+            if steps.contains(&(b, a)) {
+                let place = |c: (i64, i64)| camera.place(lattice.point(c.0 as f64, c.1 as f64));
+                outline.extend(Outline::line([place(a), place(b)]));
+            }
+            steps.insert((a, b));
+        }
+    }
+    outline
+}
+
+/// What draws the parts of a frame's picture.
+pub(crate) struct Pen<'a> {
+    pub stage: &'a Stage<'a>,
+    /// The frame, from 0.
+    pub number: usize,
+    pub camera: &'a Camera,
+    /// Place in the placing order of each block, by its number; `None` for a block that is not placed.
+    places: Vec<Option<usize>>,
+    /// Where each block is drawn, by its number, where that is not its place in the scene.
+    displaced: &'a [Option<Displacement>],
+    /// Width of an outline, pixels.
+    pub line: f64,
+    /// Width of the seam around arrows, pixels.
+    casing: f64,
+    /// How much wider than told arrows are drawn: at small scales, so that their colours can be told apart.
+    wider: f64,
+}
+
+impl<'a> Pen<'a> {
+    pub(crate) fn of(stage: &'a Stage<'a>, number: usize, camera: &'a Camera) -> Pen<'a> {
+        let unit = camera.length(stage.unit);
+        let (scene, widths) = (stage.analysis.scene, &stage.options.theme.widths);
+        let mut places = vec![None; scene.blocks.len()];
+        for (place, id) in scene.frames[number].placed.iter().enumerate() {
+            places[id.0] = Some(place);
+        }
+        Pen {
+            places,
+            displaced: &stage.displaced[number],
+            stage,
+            number,
+            camera,
+            line: (unit / LARGE).clamp(1.0 / 6.0, 1.0) * widths.outline,
+            casing: (unit / LARGER).clamp(1.0 / 9.0, 1.0) * widths.casing,
+            // Texture would turn to soup.
+            wider: if unit < TEXTURE {
+                1.0
+            } else {
+                (LEAST_SHAFT / (widths.force * unit)).clamp(1.0, 1.35)
+            },
+        }
+    }
+
+    pub(crate) fn unit(&self) -> f64 {
+        self.camera.length(self.stage.unit)
+    }
+
+    pub(crate) fn ground(&self, view: Bounds) -> Group {
+        let theme = &self.stage.options.theme;
+        let scene = self.stage.analysis.scene;
+        let mut group = Group::of_class("ground").titled("Ground");
+        if scene.ground.is_empty() {
+            return group;
+        }
+        group.clip = Some(self.camera.rect(view));
+        let mut colours = ByColour::default();
+        for ground in &scene.ground {
+            let fill = ground.body.fill.map_or(theme.ground, colour);
+            colours.add(fill, self.camera.polygon(&ground.body.polygon));
+        }
+        group
+            .items
+            .extend(colours.paths(Some(Stroke::new(theme.outline, self.line))));
+        group
+    }
+
+    /// How a block is displaced, `None` where it is drawn in its place.
+    pub(crate) fn displacement(&self, id: BlockId) -> Option<&Displacement> {
+        self.displaced.get(id.0)?.as_ref()
+    }
+
+    /// Where a point of a block is drawn, metres.
+    pub(crate) fn moved(&self, id: BlockId, point: Point) -> Point {
+        self.displacement(id).map_or(point, |d| d.moved(point))
+    }
+
+    /// Whether the frame has so many blocks that its parts are joined by colour, without names.
+    pub(crate) fn many(&self) -> bool {
+        self.stage.analysis.scene.frames[self.number].placed.len() > MANY
+    }
+
+    fn fill(&self, place: usize, id: BlockId) -> Colour {
+        let scene = self.stage.analysis.scene;
+        if self.displacement(id).is_some() {
+            let theme = &self.stage.options.theme;
+            return theme.page.mixed(theme.motion, MOVED);
+        }
+        match scene.blocks[id.0].body.fill {
+            Some(fill) => colour(fill),
+            None if self.stage.plain() => self.stage.options.theme.block,
+            None => {
+                let share = self.stage.fills.shares[self.number][place];
+                self.stage.fills.colour(&self.stage.options.theme, share)
+            }
+        }
+    }
+
+    /// The colour that a block, ground or the page has at a place.
+    pub(crate) fn below(&self, at: PagePoint) -> Colour {
+        let (scene, theme) = (self.stage.analysis.scene, &self.stage.options.theme);
+        let at = self.camera.back(at);
+        let placed = &scene.frames[self.number].placed;
+        let block = placed.iter().position(|id| {
+            let at = self.displacement(*id).map_or(at, |d| d.back(at));
+            scene.blocks[id.0].body.polygon.contains(at)
+        });
+        let ground = || scene.ground.iter().find(|g| g.body.polygon.contains(at));
+        match block {
+            Some(place) => self.fill(place, placed[place]),
+            None => ground().map_or(theme.page, |g| g.body.fill.map_or(theme.ground, colour)),
+        }
+    }
+
+    /// Radius of a robot's disc, pixels.
+    pub(crate) fn disc(&self) -> f64 {
+        self.stage.options.theme.widths.disc * self.unit()
+    }
+
+    /// Width of an arrow's shaft as it is drawn, pixels.
+    pub(crate) fn width(&self, arrow: &ForceArrow) -> f64 {
+        let wider = if arrow.kind.is_failure() {
+            1.0
+        } else {
+            self.wider
+        };
+        wider * self.camera.length(arrow.width)
+    }
+
+    fn seam(&self, fill: Colour) -> Stroke {
+        Stroke::new(
+            self.stage.options.theme.seam_on(fill, 0.22),
+            0.6 * self.line,
+        )
+    }
+
+    /// The blocks that are drawn in their places.
+    pub(crate) fn blocks(&self) -> Group {
+        if self.many() {
+            return self.blocks_by_colour();
+        }
+        let (scene, theme) = (self.stage.analysis.scene, &self.stage.options.theme);
+        let frame = &scene.frames[self.number];
+        let mut group = Group::of_class("blocks");
+        for (place, id) in frame.placed.iter().enumerate() {
+            if self.displacement(*id).is_some() {
+                continue;
+            }
+            let block = &scene.blocks[id.0];
+            let fill = self.fill(place, *id);
+            let outline = self.camera.polygon(&block.body.polygon);
+            let mut body = Group::of_class("block").titled(format!("Block {}", block.id));
+            body.description = told::block(self.stage, self.number, place, block);
+            body = body.with(Path::filled(outline.clone(), fill));
+            let seams = seams(&block.body, scene.lattice, self.camera);
+            body = body.with(Path::stroked(seams, self.seam(fill)));
+            group.items.push(
+                body.with(Path::stroked(
+                    outline,
+                    Stroke::new(theme.outline, self.line),
+                ))
+                .into(),
+            );
+        }
+        group
+    }
+
+    /// As [`Pen::blocks`] for scenes of very many blocks: one path for all blocks of a colour.
+    fn blocks_by_colour(&self) -> Group {
+        let (scene, theme) = (self.stage.analysis.scene, &self.stage.options.theme);
+        let frame = &scene.frames[self.number];
+        let mut group = Group::of_class("blocks").titled(format!("{} blocks", frame.placed.len()));
+        let mut colours = ByColour::default();
+        for (place, id) in frame.placed.iter().enumerate() {
+            if self.displacement(*id).is_some() {
+                continue;
+            }
+            let outline = self.camera.polygon(&scene.blocks[id.0].body.polygon);
+            colours.add(self.fill(place, *id), outline);
+        }
+        group
+            .items
+            .extend(colours.paths(Some(Stroke::new(theme.outline, self.line))));
+        group
+    }
+
+    pub(crate) fn plans(&self) -> Group {
+        let scene = self.stage.analysis.scene;
+        let mut group = Group::of_class("plans");
+        for plan in &scene.frames[self.number].plans {
+            let (block, robot) = (&scene.blocks[plan.block.0], &scene.robots[plan.robot.0]);
+            let ink = self.stage.options.theme.robot(plan.robot.0);
+            let title = format!("Block {}, planned by robot {}", block.id, robot.id);
+            let seams = seams(&block.body, scene.lattice, self.camera);
+            let outline = self.camera.polygon(&block.body.polygon);
+            let planned = Group::of_class("plan")
+                .titled(title)
+                .with(Path::stroked(seams, Stroke::new(ink, 0.9 * self.line)))
+                .with(Path::stroked(outline, Stroke::new(ink, 1.8 * self.line)));
+            group.items.push(planned.into());
+        }
+        group
+    }
+
+    pub(crate) fn discs(&self) -> Group {
+        let (scene, theme) = (self.stage.analysis.scene, &self.stage.options.theme);
+        let mut group = Group::of_class("robots");
+        for hold in &scene.frames[self.number].holds {
+            let at = self.moved(hold.block, hold.at);
+            let disc = Outline::circle(self.camera.place(at), self.disc());
+            let title = format!(
+                "Robot {} holds block {}",
+                scene.robots[hold.robot.0].id, scene.blocks[hold.block.0].id
+            );
+            let edge = theme.robot(hold.robot.0).mixed(theme.ink, 0.35);
+            let path = Path::filled(disc, theme.robot(hold.robot.0))
+                .with_stroke(Stroke::new(edge, 0.7 * self.line));
+            group
+                .items
+                .push(Group::of_class("robot").titled(title).with(path).into());
+        }
+        group
+    }
+}

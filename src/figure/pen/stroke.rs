@@ -1,0 +1,216 @@
+//! The arrows of a frame as a [`Pen`] draws them, and the signs of those that are too small.
+
+use core::f64::consts::FRAC_PI_2;
+
+use super::{CENTROID, DOT, Pen, TEXTURE};
+use crate::drawing::arrow::{head, straight, turning};
+use crate::drawing::{Colour, Group, Item, Outline, Path, Stroke};
+use crate::figure::arrow::{ArrowKind, ForceArrow, LEAST_SEEN, TurnArrow, TurnKind, from_arrow};
+use crate::figure::by_colour::ByColour;
+use crate::figure::told;
+use crate::geometry::Vector;
+use crate::scene::BodyId;
+
+/// Radius of a turning arrow in unit edges: around a robot's disc.
+const TURN: f64 = 0.46;
+
+impl Pen<'_> {
+    /// Whether an arrow is long enough to be seen.
+    pub(crate) fn seen(&self, arrow: &ForceArrow) -> bool {
+        self.camera.length(arrow.reach().norm()) >= LEAST_SEEN
+    }
+
+    /// Whether a turning arrow is long enough to be seen.
+    pub(crate) fn turn_seen(&self, turn: &TurnArrow) -> bool {
+        self.camera.length(turn.arc.abs()) >= LEAST_SEEN
+    }
+
+    /// The loads and missing forces that are too small for an arrow, each once: where they act is shown in any case.
+    pub(crate) fn dots(&self) -> impl Iterator<Item = &ForceArrow> {
+        let marks = &self.stage.marks[self.number];
+        marks
+            .arrows
+            .iter()
+            .filter(|a| told::dotted(a, self.seen(a)))
+    }
+
+    fn dot(&self, arrow: &ForceArrow) -> Group {
+        let outline = Outline::circle(self.camera.place(arrow.at), DOT);
+        let theme = &self.stage.options.theme;
+        let dot = if arrow.kind == ArrowKind::Load {
+            Path::filled(outline, theme.page).with_stroke(Stroke::new(arrow.colour, 1.2))
+        } else {
+            Path::filled(outline, arrow.colour).cased(theme.casing, 0.6)
+        };
+        Group::of_class("small")
+            .titled(told::arrow(self.stage, arrow))
+            .with(dot)
+    }
+
+    fn arrow(&self, arrow: &ForceArrow) -> Path {
+        let outline = straight(
+            self.camera.place(arrow.at),
+            self.camera.turn(arrow.reach()),
+            self.width(arrow),
+        );
+        if arrow.kind == ArrowKind::Load {
+            // Hollow: what acts from outside is told from what the structure answers, in a grey print too.
+            let edge = Stroke::new(arrow.colour, (0.3 * self.width(arrow)).clamp(0.7, 2.0));
+            return Path::filled(outline, self.stage.options.theme.page).with_stroke(edge.mitred());
+        }
+        Path::filled(outline, arrow.colour).cased(self.seam_around(arrow), self.casing)
+    }
+
+    /// The ring at the tail of a weight, by which it is told from other forces.
+    fn centroid(&self, arrow: &ForceArrow) -> Option<Path> {
+        let marked = arrow.kind == ArrowKind::Weight
+            && !self.stage.options.printed()
+            && self.unit() >= TEXTURE;
+        let width = self.width(arrow);
+        let ring = Outline::circle(self.camera.place(arrow.at), CENTROID * width);
+        let edge = Stroke::new(arrow.colour, (0.45 * width).clamp(0.8, 2.0));
+        marked.then(|| Path::filled(ring, self.stage.options.theme.page).with_stroke(edge))
+    }
+
+    /// The seam that sets an arrow off from the block it acts on.
+    fn seam_around(&self, arrow: &ForceArrow) -> Colour {
+        let theme = &self.stage.options.theme;
+        let frame = &self.stage.analysis.scene.frames[self.number];
+        let BodyId::Block(on) = arrow.on else {
+            return theme.casing;
+        };
+        match self.places.get(on.0).copied().flatten() {
+            Some(place) => theme.casing_on(self.fill(place, frame.placed[place]), arrow.colour),
+            None => theme.casing,
+        }
+    }
+
+    /// The heads of all arrows once more, above all shafts: along a line of thrust arrows lie on each other, and a shaft
+    /// must not hide which way another points.
+    pub(crate) fn heads(&self) -> Group {
+        let mut group = Group {
+            echo: true,
+            ..Group::of_class("heads")
+        };
+        let marks = &self.stage.marks[self.number];
+        let there = marks
+            .arrows
+            .iter()
+            .filter(|a| !a.kind.is_failure() && a.kind != ArrowKind::Load);
+        for arrow in there.filter(|a| self.seen(a)) {
+            let width = self.width(arrow);
+            let (from, along) = (self.camera.place(arrow.at), self.camera.turn(arrow.reach()));
+            let head = Path::filled(head(from, along, width), arrow.colour);
+            group
+                .items
+                .push(head.cased(self.seam_around(arrow), self.casing).into());
+            group.items.extend(self.centroid(arrow).map(Item::from));
+        }
+        group
+    }
+
+    pub(crate) fn turn(&self, turn: &TurnArrow) -> Path {
+        let radius = TURN * self.stage.unit;
+        let sweep = turn.arc / radius;
+        let outline = turning(
+            self.camera.place(turn.at),
+            self.camera.length(radius),
+            self.clearest(turn, radius, sweep) - sweep / 2.0,
+            sweep,
+            self.camera.length(turn.width),
+        );
+        Path::filled(outline, turn.colour).cased(self.stage.options.theme.casing, self.casing)
+    }
+
+    /// The direction from a turning arrow's centre to its middle in which it keeps farthest from straight arrows; the
+    /// top where that is as good as any.
+    fn clearest(&self, turn: &TurnArrow, radius: f64, sweep: f64) -> f64 {
+        let arrows = &self.stage.marks[self.number].arrows;
+        let ends = [-0.5 * sweep, 0.5 * sweep];
+        let clear = |middle: f64| {
+            let from_arrows = |share: f64| {
+                let angle = middle + ends[0] + (ends[1] - ends[0]) * share;
+                let p = turn.at + Vector::new(libm::cos(angle), libm::sin(angle)) * radius;
+                arrows
+                    .iter()
+                    .map(|a| from_arrow(a, p))
+                    .fold(f64::INFINITY, f64::min)
+            };
+            (0..9)
+                .map(|i| from_arrows(f64::from(i) / 8.0))
+                .fold(f64::INFINITY, f64::min)
+        };
+        let mut best = (clear(FRAC_PI_2), FRAC_PI_2);
+        for step in [1, -1, 2, -2, 3, -3, 4, -4, 5, -5, 6] {
+            let middle = FRAC_PI_2 + f64::from(step) * FRAC_PI_2 / 3.0;
+            let room = clear(middle);
+            if room > best.0 + 0.02 * self.stage.unit {
+                best = (room, middle);
+            }
+        }
+        best.1
+    }
+
+    /// The arrows of what is there, or of what is missing, each with its numbers.
+    pub(crate) fn arrows(&self, missing: bool) -> Group {
+        let marks = &self.stage.marks[self.number];
+        let mut group = Group::of_class(if missing { "failures" } else { "forces" });
+        for arrow in marks
+            .arrows
+            .iter()
+            .filter(|a| a.kind.is_failure() == missing && self.seen(a))
+        {
+            let title = told::arrow(self.stage, arrow);
+            let mut force = Group::of_class("force")
+                .titled(title)
+                .with(self.arrow(arrow));
+            force.items.extend(self.centroid(arrow).map(Item::from));
+            group.items.push(force.into());
+        }
+        let small = self.dots().filter(|a| a.kind.is_failure() == missing);
+        group.items.extend(small.map(|a| self.dot(a).into()));
+        for turn in marks
+            .turns
+            .iter()
+            .filter(|t| matches!(t.kind, TurnKind::Missing(_)) == missing && self.turn_seen(t))
+        {
+            let title = told::turn(self.stage, turn);
+            group.items.push(
+                Group::of_class("torque")
+                    .titled(title)
+                    .with(self.turn(turn))
+                    .into(),
+            );
+        }
+        group
+    }
+
+    /// The arrows of loads alone.
+    pub(crate) fn loads(&self) -> Group {
+        let mut group = Group::of_class("forces");
+        let loads = self.stage.marks[self.number].arrows.iter();
+        let loads = loads.filter(|a| a.kind == ArrowKind::Load);
+        for arrow in loads.filter(|a| self.seen(a)) {
+            let force = Group::of_class("force").titled(told::arrow(self.stage, arrow));
+            group.items.push(force.with(self.arrow(arrow)).into());
+        }
+        let small = self.dots().filter(|a| a.kind == ArrowKind::Load);
+        group.items.extend(small.map(|a| self.dot(a).into()));
+        group
+    }
+
+    /// As [`Pen::arrows`] for scenes of very many blocks: one path for all arrows of a colour.
+    pub(crate) fn arrows_by_colour(&self) -> Group {
+        let mut group = Group::of_class("forces");
+        let mut colours = ByColour::default();
+        for arrow in self.stage.marks[self.number]
+            .arrows
+            .iter()
+            .filter(|a| !a.kind.is_failure() && self.seen(a))
+        {
+            colours.add(arrow.colour, self.arrow(arrow).outline);
+        }
+        group.items.extend(colours.paths(None));
+        group
+    }
+}

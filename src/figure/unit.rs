@@ -1,0 +1,35 @@
+//! [`unit`]: the length in which a figure measures its arrows and letters, from the sizes of its blocks.
+
+use super::view;
+use crate::scene::{Block, BlockId, Scene};
+
+/// Where blocks are on average, by area, so many times as large as the middle one, they are uneven.
+const UNEVEN: f64 = 3.0;
+
+/// The unit edge in metres: the lattice's side, unless blocks are far larger than cells; off the lattice a typical size,
+/// 0.6·√area of the middle block, which is about the edge of a regular hexagon of that area, or of a block of the mean
+/// area where that is far larger.
+/// Of a neighbourhood it is the typical size of what lies in it.
+pub(crate) fn unit(scene: &Scene, zoom: Option<BlockId>) -> f64 {
+    let near = zoom.map(|block| view::around(scene, block));
+    let shown = |b: &&Block| near.is_none_or(|near| near.meets(b.body.polygon.bounds()));
+    let mut sizes: Vec<f64> = scene
+        .blocks
+        .iter()
+        .filter(shown)
+        .map(|b| b.body.polygon.area().sqrt())
+        .collect();
+    sizes.sort_by(f64::total_cmp);
+    let squares: f64 = sizes.iter().map(|s| s * s).sum();
+    let mean = libm::sqrt(squares / sizes.len().max(1) as f64);
+    // Around a block it is the block itself that has to be seen, however large its neighbours are.
+    let middle = if zoom.is_some() { 0 } else { sizes.len() / 2 };
+    let middle = sizes.get(middle).copied().unwrap_or(1.0);
+    // Pebbles beside a boulder: arrows as long as a pebble would all but vanish.
+    let uneven = zoom.is_none() && mean > UNEVEN * middle;
+    let typical = 0.6 * if uneven { mean } else { middle };
+    match scene.lattice {
+        Some(lattice) if typical < 1.5 * lattice.side => lattice.side,
+        _ => typical,
+    }
+}

@@ -1,0 +1,119 @@
+//! Keys, pages and switches: what is told beside the pictures, and what can be left out.
+
+use drystone::analysis::Analysis;
+use drystone::drawing::{Group, Text};
+use drystone::figure::{self, Options};
+
+use crate::labels::{COLUMN, classes, texts};
+use crate::pictures::scene;
+
+#[test]
+fn a_load_tells_its_amount_and_a_key_what_it_is() {
+    let scene = scene("tests/scenes/loaded.json");
+    let drawing = figure::forces(&Analysis::of(&scene), &Options::default());
+    let amounts: Vec<String> = classes(&drawing.items, &["amount"])
+        .into_iter()
+        .flat_map(texts)
+        .map(|t| t.words)
+        .collect();
+    assert_eq!(amounts.len(), scene.loads.len(), "{amounts:?}");
+    let key: Vec<Text> = classes(&drawing.items, &["key"])
+        .into_iter()
+        .flat_map(texts)
+        .collect();
+    assert!(
+        key.iter()
+            .any(|t| t.words.contains("2 loads of 800 N to 4 kN")),
+        "{key:?}"
+    );
+    assert!(key.iter().any(|t| t.words.contains("weight")), "{key:?}");
+}
+
+#[test]
+fn robots_beyond_the_key_are_counted_in_it() {
+    let scene = scene("tests/scenes/robots10.json");
+    let drawing = figure::forces(&Analysis::of(&scene), &Options::default());
+    let key: Vec<Text> = classes(&drawing.items, &["key"])
+        .into_iter()
+        .flat_map(texts)
+        .collect();
+    for robot in &scene.robots {
+        let words = format!("robot {}", robot.id);
+        assert!(key.iter().any(|t| t.words == words), "{words}");
+    }
+}
+
+#[test]
+fn thirty_steps_fit_on_a_page_and_figure_4_in_a_column() {
+    let drawn = |path: &str, width| {
+        let scene = scene(path);
+        let options = Options {
+            width,
+            ..Options::default()
+        };
+        figure::forces(&Analysis::of(&scene), &options)
+    };
+    let steps = drawn("tests/scenes/steps30.json", None);
+    assert!(
+        steps.height / steps.width < 297.0 / 210.0,
+        "{} × {}",
+        steps.width,
+        steps.height
+    );
+    let figure = drawn("assets/thesis/figure-4.json", Some(COLUMN));
+    let high = figure.height / figure.width * 84.0;
+    assert!(high < 220.0, "{high} mm");
+}
+
+#[test]
+fn switches_leave_out_what_they_name_and_nothing_else() {
+    let scene = scene("tests/scenes/lintel.json");
+    let analysis = Analysis::of(&scene);
+    let said = |options: &Options| {
+        let drawing = figure::forces(&analysis, options);
+        let page = Group {
+            items: drawing.items,
+            ..Group::default()
+        };
+        texts(&page)
+            .into_iter()
+            .map(|t| t.words)
+            .collect::<Vec<String>>()
+    };
+    let full = said(&Options::default());
+    let has = |said: &[String], words: &str| said.iter().any(|s| s.contains(words));
+    let signs = ["A lintel, and", "(b) The crane", "stands", "robot crane"];
+    assert!(signs.iter().all(|words| has(&full, words)), "{full:?}");
+    let less = [
+        Options {
+            titles: false,
+            ..Options::default()
+        },
+        Options {
+            captions: false,
+            ..Options::default()
+        },
+        Options {
+            verdicts: false,
+            ..Options::default()
+        },
+        Options {
+            keys: false,
+            ..Options::default()
+        },
+    ];
+    for (number, options) in less.iter().enumerate() {
+        let left = said(options);
+        for (other, words) in signs.iter().enumerate() {
+            assert_eq!(has(&left, words), other != number, "{words}: {left:?}");
+        }
+    }
+    let more = Options {
+        scale_bar: true,
+        dimensions: true,
+        ..Options::default()
+    };
+    let more = said(&more);
+    let metres = |said: &[String]| said.iter().filter(|s| s.ends_with(" m")).count();
+    assert_eq!((metres(&full), metres(&more)), (0, 7), "{more:?}");
+}

@@ -1,0 +1,283 @@
+//! Figures of structures as strangers bring them, of every kind: nothing is cut, no words lie on others, and every label
+//! is legible on what it lies on.
+
+use drystone::Analysis;
+use drystone::analysis::{Ask, Options as Asked, Toward, Verdict};
+use drystone::drawing::difference::contrast;
+use drystone::drawing::{Colour, Drawing, Group, Item, Outline, PagePoint, PageRect, Text, Theme};
+use drystone::figure::{self, Kind, Options};
+use drystone::scene::Scene;
+
+use crate::labels::{COLUMN, classes, ink, texts};
+
+/// Structures of all sorts: measured coordinates, holes, loads, materials, many robots, a pebble on a boulder, names in
+/// other scripts, a wall that falls.
+fn strangers() -> Vec<(String, Scene)> {
+    let folder = format!("{}/tests/it/stranger", env!("CARGO_MANIFEST_DIR"));
+    let mut names: Vec<String> = std::fs::read_dir(&folder)
+        .expect("structures")
+        .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
+        .collect();
+    names.sort();
+    assert_eq!(names.len(), 9);
+    let read = |name: String| {
+        let text = std::fs::read_to_string(format!("{folder}/{name}")).expect("readable");
+        let scene = Scene::from_json(&text).unwrap_or_else(|p| panic!("{name}:\n{p}"));
+        (name, scene)
+    };
+    names.into_iter().map(read).collect()
+}
+
+fn analysed(scene: &Scene) -> Analysis<'_> {
+    let asked = Asked {
+        margins: Ask::Yes,
+        ..Asked::default()
+    };
+    Analysis::with(scene, &asked)
+}
+
+/// Whether a point lies in an outline, curves as their control polygons.
+fn holds(outline: &Outline, at: PagePoint) -> bool {
+    let points: Vec<PagePoint> = outline.points().collect();
+    let mut inside = false;
+    for i in 0..points.len() {
+        let (a, b) = (points[i], points[(i + 1) % points.len()]);
+        if (a.y > at.y) != (b.y > at.y) && at.x < (b.x - a.x) * (at.y - a.y) / (b.y - a.y) + a.x {
+            inside = !inside;
+        }
+    }
+    inside
+}
+
+/// The colour below a place: of the last filled path drawn over it before any label.
+fn below(items: &[Item], at: PagePoint, clip: Option<PageRect>, found: &mut Colour) {
+    let seen = clip.is_none_or(|c| {
+        (c.at.x..=c.at.x + c.width).contains(&at.x) && (c.at.y..=c.at.y + c.height).contains(&at.y)
+    });
+    for item in items {
+        match item {
+            Item::Path(path) if seen && path.opacity > 0.99 && holds(&path.outline, at) => {
+                *found = path.fill.unwrap_or(*found);
+            }
+            Item::Group(group) if group.class != "labels" => {
+                below(&group.items, at, group.clip.or(clip), found);
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Everything that is wrong with the words of a drawing, and how many labels were looked at.
+fn faults(drawing: &Drawing) -> (usize, Vec<String>) {
+    let page = Group {
+        items: drawing.items.clone(),
+        ..Group::default()
+    };
+    let all: Vec<Text> = texts(&page);
+    let mut faults = Vec::new();
+    for (i, text) in all.iter().enumerate() {
+        let [left, top, right, bottom] = ink(text);
+        if left < 0.0 || top < 0.0 || right > drawing.width || bottom > drawing.height {
+            faults.push(format!("{} is cut", text.words));
+        }
+        // What the text names is there in any case, over whatever lies there, with a seam around its letters.
+        for other in all[..i]
+            .iter()
+            .filter(|o| o.halo.is_none() && text.halo.is_none())
+        {
+            let b = ink(other);
+            if left < b[2] && b[0] < right && top < b[3] && b[1] < bottom {
+                faults.push(format!("{} lies on {}", text.words, other.words));
+            }
+        }
+    }
+    let mut labels = 0;
+    for picture in classes(&drawing.items, &["picture"]) {
+        for text in classes(&picture.items, &["labels"])
+            .into_iter()
+            .flat_map(texts)
+        {
+            labels += 1;
+            let [left, top, right, bottom] = ink(&text);
+            let middle = PagePoint::new((left + right) / 2.0, (top + bottom) / 2.0);
+            let mut ground = drawing.background.unwrap_or(Colour::WHITE);
+            match &text.halo {
+                Some(halo) => ground = halo.0,
+                None => below(&picture.items, middle, None, &mut ground),
+            }
+            let contrast = contrast(text.fill, ground);
+            if contrast < 4.5 {
+                faults.push(format!("{}: contrast {contrast:.2}", text.words));
+            }
+        }
+    }
+    (labels, faults)
+}
+
+#[test]
+fn words_of_every_kind_are_whole_apart_and_legible() {
+    let mut labels = 0;
+    let mut wrong = Vec::new();
+    for (name, scene) in strangers() {
+        let analysis = analysed(&scene);
+        for (theme, width) in [
+            (Theme::thesis(), None),
+            (Theme::dark(), None),
+            (Theme::paper(), Some(COLUMN)),
+        ] {
+            let options = Options {
+                theme,
+                width,
+                ..Options::default()
+            };
+            for kind in Kind::ALL {
+                let drawing = figure::draw(&analysis, kind, &options);
+                let (count, faults) = faults(&drawing);
+                labels += count;
+                let what = format!("{name}, {}, {width:?}", kind.name());
+                wrong.extend(faults.into_iter().map(|fault| format!("{what}: {fault}")));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}:\n{}", wrong.len(), wrong.join("\n"));
+    assert!(labels > 1500, "only {labels} labels were looked at");
+}
+
+#[test]
+fn words_on_words_and_faint_words_are_found() {
+    let (_, scene) = strangers().remove(0);
+    let mut drawing = figure::forces(&Analysis::of(&scene), &Options::default());
+    assert_eq!(faults(&drawing).1, Vec::<String>::new());
+    let key = classes(&drawing.items, &["key"])[0];
+    let mut twice = texts(key)[0].clone();
+    twice.at = twice.at.moved(3.0, 1.0);
+    drawing.items.push(twice.into());
+    let faint = Group::of_class("labels").with(Text::new(
+        PagePoint::new(40.0, 70.0),
+        "faint",
+        drystone::drawing::Face::Sans,
+        12.0,
+        Colour::hex(0xcccccc),
+    ));
+    drawing
+        .items
+        .push(Group::of_class("picture").with(faint).into());
+    let said = faults(&drawing).1;
+    assert!(said.iter().any(|f| f.contains("lies on")), "{said:?}");
+    assert!(
+        said.iter().any(|f| f.starts_with("faint: contrast")),
+        "{said:?}"
+    );
+}
+
+fn said(drawing: &Drawing) -> String {
+    let page = Group {
+        items: drawing.items.clone(),
+        ..Group::default()
+    };
+    let words: Vec<String> = texts(&page).into_iter().map(|t| t.words).collect();
+    words.join(" ")
+}
+
+#[test]
+fn what_is_missing_and_what_loads_are_shown_however_small_they_are() {
+    for (name, scene) in strangers() {
+        let analysis = Analysis::of(&scene);
+        let drawing = figure::forces(&analysis, &Options::default());
+        for (found, frame) in analysis
+            .frames
+            .iter()
+            .zip(classes(&drawing.items, &["frame"]))
+        {
+            let drawn: Vec<String> = classes(&frame.items, &["force", "torque", "small"])
+                .into_iter()
+                .map(|g| g.title.clone())
+                .collect();
+            let missing = drawn.iter().filter(|t| t.starts_with("Missing")).count();
+            assert!(missing >= found.failures.len(), "{name}: {missing}");
+            assert_eq!(found.verdict == Verdict::Unstable, missing > 0, "{name}");
+            let loads = drawn.iter().filter(|t| t.starts_with("Load on")).count();
+            let pushes = scene.loads.iter().filter(|l| l.force.norm() > 0.0).count();
+            assert_eq!(loads, pushes, "{name}");
+        }
+    }
+}
+
+#[test]
+fn a_number_of_newtons_names_no_block() {
+    let (_, scene) = strangers()
+        .into_iter()
+        .find(|s| s.0 == "falls.json")
+        .expect("it is there");
+    let analysis = Analysis::of(&scene);
+    for kind in Kind::ALL {
+        let drawing = figure::draw(&analysis, kind, &Options::default());
+        let words = said(&drawing);
+        for label in classes(&drawing.items, &["name"])
+            .into_iter()
+            .flat_map(texts)
+        {
+            let name = label.words.as_str();
+            let said = words.match_indices(name).any(|(at, _)| {
+                let rest = words[at + name.len()..].trim_start_matches([' ', '\u{a0}']);
+                let amount = ["N", "kN", "m ", "%"]
+                    .iter()
+                    .any(|unit| rest.starts_with(unit));
+                !amount && words[..at].ends_with([' ', '\u{a0}'])
+            });
+            assert!(
+                said,
+                "{}: {name} is labelled, and not said: {words}",
+                kind.name()
+            );
+        }
+    }
+}
+
+#[test]
+fn each_margin_is_drawn_as_it_was_found() {
+    let (_, scene) = strangers()
+        .into_iter()
+        .find(|s| s.0 == "rubble.json")
+        .expect("it is there");
+    let analysis = analysed(&scene);
+    let margins = analysis.frames[0].margins.as_ref().expect("asked for");
+    let drawn = |toward: Toward| {
+        let options = Options {
+            toward,
+            ..Options::default()
+        };
+        figure::draw(&analysis, Kind::Margin, &options)
+    };
+    let (left, right) = (
+        &margins.horizontal_load.left,
+        &margins.horizontal_load.right,
+    );
+    let least = [left.at(), right.at()]
+        .into_iter()
+        .flatten()
+        .fold(f64::INFINITY, f64::min);
+    let push = drawn(Toward::HorizontalLoad);
+    let words = said(&push).replace('\u{a0}', " ");
+    let share = format!("{:.0} % of each weight pushes to the right", 100.0 * least);
+    assert!(words.contains(&share), "{share}: {words}");
+    assert_eq!(classes(&push.items, &["gravity"]).len(), 1);
+    let factor = margins.load_factor.at().expect("a load can be too large");
+    let grown = drawn(Toward::LoadFactor);
+    let words = said(&grown);
+    let times = words
+        .split("its loads are ")
+        .nth(1)
+        .and_then(|rest| rest.split(' ').next()?.parse::<f64>().ok());
+    let times = times.unwrap_or_else(|| panic!("no factor in {words}"));
+    assert!((times / factor - 1.0).abs() < 0.01, "{times}, {factor}");
+    assert!(classes(&grown.items, &["gravity"]).is_empty());
+    for drawing in [&push, &grown] {
+        assert_eq!(classes(&drawing.items, &["ghosts"]).len(), 1);
+    }
+    let loads = classes(&grown.items, &["force"]).len();
+    assert_eq!(
+        loads,
+        scene.loads.iter().filter(|l| l.force.norm() > 0.0).count()
+    );
+}
