@@ -25,7 +25,7 @@ use crate::figure;
 use crate::output::file::Existing;
 use crate::output::fonts::Fonts;
 use crate::report::result::{Fields, Picture as Told, Place, line_of, problem_line, verdict_line};
-use crate::scene::{Problem, Scene};
+use crate::scene::{Code, Problem, Scene};
 use output::Output;
 use pace::Pace;
 
@@ -204,7 +204,7 @@ impl Work {
                 "the program failed on this scene; that is its own fault and no fault of the scene";
             Ok(refused(
                 &place,
-                &[problem(fault, "please report it with the scene")],
+                &[problem(Code::InternalFault, fault, "please report it with the scene")],
             ))
         })
     }
@@ -212,7 +212,7 @@ impl Work {
     fn examined(&self, place: &Place, name: &str, record: &Record) -> Result<Answer, Complaint> {
         let bytes = match &record.bytes {
             Ok(bytes) => bytes,
-            Err(why) => return Ok(refused(place, &[problem(why, "")])),
+            Err(why) => return Ok(refused(place, &[problem(Code::NotReadable, why, "")])),
         };
         let scene = match Scene::from_slice_within(bytes, self.level.contact_tolerance) {
             Ok(scene) => scene,
@@ -263,6 +263,7 @@ impl Drawn {
         let shown = Analysis {
             scene: &legible,
             frames: analysis.frames.clone(),
+            notes: Vec::new(),
         };
         let drawing = figure::forces(&shown, &self.options);
         match self.picture.bytes(drawing, self.format, &self.fonts) {
@@ -279,8 +280,9 @@ impl Drawn {
     }
 }
 
-fn problem(message: &str, help: &str) -> Problem {
+fn problem(code: Code, message: &str, help: &str) -> Problem {
     Problem {
+        code,
         path: String::new(),
         line: 0,
         column: 0,

@@ -339,6 +339,7 @@ impl Render {
         let joined = Analysis {
             scene: &scene,
             frames,
+            notes: Vec::new(),
         };
         let drawing = figure::draw(&joined, figure::Kind::Compare, options);
         Ok(Rendered {

@@ -21,7 +21,6 @@ use crate::output::fonts::Fonts;
 use crate::report::entry::{Entry, File, Side, Wanted, compared};
 use crate::report::page::{Form, Piece, Refused, Report as Page};
 use crate::report::result::Timing;
-use crate::scene::Problem;
 use crate::study::{TOLERANCES, study};
 use crate::wording::number::counted;
 
@@ -397,21 +396,9 @@ fn undone(error: &dyn std::error::Error) -> Complaint {
 }
 
 fn refused(path: &Path, complaint: &Complaint) -> Refused {
-    let problems = match complaint {
-        Complaint::Scene { problems, .. } => problems.list.clone(),
-        Complaint::NotRead { why, .. } => vec![Problem {
-            path: String::new(),
-            line: 0,
-            column: 0,
-            span: None,
-            message: format!("cannot be read: {why}"),
-            help: String::new(),
-        }],
-        _ => Vec::new(),
-    };
     Refused {
         name: path.display().to_string(),
-        problems,
+        problems: complaint.problems(),
     }
 }
 

@@ -5,7 +5,7 @@
 //! scenes can be made in any order and by many threads.
 
 use super::entry::{Entry, Row};
-use super::result::{Counts, problems_json, report_json};
+use super::result::{Counts, Layout, refusal, report_json};
 use super::{html, markdown, print};
 use crate::analysis::Verdict;
 use crate::output::pdf::PdfError;
@@ -212,7 +212,7 @@ impl Report {
                 let mut objects: Vec<String> =
                     self.pieces.iter().map(|p| p.text().to_owned()).collect();
                 let refused = self.refused.iter();
-                objects.extend(refused.map(|r| problems_json(&r.name, &r.problems)));
+                objects.extend(refused.map(|r| refusal(&r.name, &r.problems, Layout::OneLine)));
                 let list = if self.compares {
                     "comparisons"
                 } else {

@@ -23,10 +23,10 @@ use serde::{Serialize, Serializer};
 pub use accuracy::accuracy_json;
 pub use import::import_json;
 pub use key::schema;
-pub use line::{Fields, Picture, Place, UnknownField, line_of, problem_line, verdict_line};
+pub use line::{Fields, Picture, Place, UnknownField, line_of, verdict_line};
 use margin::Margins;
-pub use refusal::refusal;
-pub use page::{Counts, problems_json, quoted, report_json};
+pub use refusal::{problem_line, refusal};
+pub use page::{Counts, quoted, report_json};
 
 use crate::analysis::{
     Analysis, Contact, Failure, FrameAnalysis, Motion as Moved, Proof, RobotForce,

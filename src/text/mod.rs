@@ -160,16 +160,6 @@ pub fn is_conflict_mark(line: &str) -> bool {
     marks('<') || marks('=') || marks('>')
 }
 
-/// Text as one word of a shell, to be copied into it.
-pub fn shell(text: &str) -> String {
-    let line = line(text);
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./+:@".contains(c);
-    if !line.is_empty() && line.chars().all(plain) {
-        return line;
-    }
-    format!("'{}'", line.replace('\'', "'\\''"))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -87,10 +87,11 @@ fn every_code_of_a_problem_occurs() {
         let found = refused(&case.scene);
         missing.retain(|code| !found.list.iter().any(|p| p.code == *code));
     }
-    // What no text can show: a number that only code can hold, bytes, and what the command line finds
+    // What no text can show: a number that only code can hold, bytes, a mistake of our own, and what the command line finds
     // (tests/it/program/check.rs); and lists too long for a case.
     let elsewhere = [
         Code::NotReadable,
+        Code::InternalFault,
         Code::NoSuchFrame,
         Code::NotUtf8,
         Code::NotFinite,

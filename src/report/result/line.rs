@@ -2,11 +2,10 @@
 
 mod name;
 
-use serde_json::{Map, Value};
+use serde_json::Value;
 
 use super::{Layout, Result, Timing, to_json, word};
 use crate::analysis::{Analysis, Verdict};
-use crate::scene::Problem;
 use crate::text;
 use name::{NAMES, Name};
 
@@ -179,41 +178,6 @@ fn put_few(out: &mut String, title: &str, verdict: Verdict, fields: &Fields) {
             put(out, name, &Value::from(value));
         }
     }
-}
-
-/// The line for a scene that is wrong. Ends with a line feed.
-///
-/// Lines and columns are those of the input, so that an editor finds them: of a scene that is a line of its own, that line.
-pub fn problem_line(place: &Place, problems: &[Problem]) -> String {
-    let mut out = begun(place);
-    let list = problems.iter().map(|problem| {
-        let mut entry = Map::new();
-        let line = match (place.line, problem.line) {
-            (Some(line), 1..) => line - 1 + problem.line,
-            (_, line) => line,
-        };
-        entry.insert("path".into(), problem.path.clone().into());
-        entry.insert("line".into(), line.into());
-        entry.insert("column".into(), problem.column.into());
-        entry.insert("message".into(), problem.message.clone().into());
-        entry.insert("hint".into(), problem.help.clone().into());
-        entry
-    });
-    key(&mut out, "problems");
-    out.push('[');
-    for (number, entry) in list.enumerate() {
-        if number > 0 {
-            out.push(',');
-        }
-        let mut one = String::from("{");
-        for name in ["path", "line", "column", "message", "hint"] {
-            put(&mut one, name, &entry[name]);
-        }
-        out += &one;
-        out.push('}');
-    }
-    out.push(']');
-    ended(out)
 }
 
 fn begun(place: &Place) -> String {

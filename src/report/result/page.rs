@@ -2,7 +2,6 @@
 
 use serde::Serialize;
 
-use crate::scene::Problem;
 use crate::text;
 
 /// How the scenes of a report came out.
@@ -18,43 +17,10 @@ pub struct Counts {
     pub refused: usize,
 }
 
-#[derive(Serialize)]
-struct Refused<'a> {
-    file: &'a str,
-    problems: Vec<Told<'a>>,
-}
-
-#[derive(Serialize)]
-struct Told<'a> {
-    path: &'a str,
-    line: usize,
-    column: usize,
-    message: &'a str,
-    hint: &'a str,
-}
-
 /// Words as a JSON string.
 pub fn quoted(words: &str) -> String {
     let string = serde_json::to_string(words).expect("a string always serialises into memory");
     text::json(&string)
-}
-
-/// What stands in the place of a result for a file that is no scene, on one line.
-pub fn problems_json(file: &str, problems: &[Problem]) -> String {
-    let told = problems.iter().map(|problem| Told {
-        path: &problem.path,
-        line: problem.line,
-        column: problem.column,
-        message: &problem.message,
-        hint: &problem.help,
-    });
-    let refused = Refused {
-        file,
-        problems: told.collect(),
-    };
-    let object =
-        serde_json::to_string(&refused).expect("plain structures always serialise into memory");
-    text::json(&object)
 }
 
 /// A report as one JSON object: counts, and a list of objects that are JSON already, one line each. Ends with a line feed.

@@ -2,14 +2,17 @@
 
 use serde::Serialize;
 
-use super::Layout;
+use super::{Layout, Place};
 use crate::scene::Problem;
 use crate::scene::format::Lines;
 use crate::text;
 
 #[derive(Serialize)]
 struct Refusal<'a> {
-    file: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    file: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    line: Option<usize>,
     problems: Vec<Entry<'a>>,
 }
 
@@ -37,27 +40,55 @@ struct Entry<'a> {
 /// assert!(json.starts_with(r#"{"file":"empty.json","problems":[{"code":"missing_key","path":"blocks","line":1,"#));
 /// ```
 pub fn refusal(file: &str, problems: &[Problem], layout: Layout) -> String {
+    written(
+        &Refusal {
+            file: Some(file),
+            line: None,
+            problems: entries(problems, 0),
+        },
+        layout,
+    )
+}
+
+/// The same on one line, for a scene that may be a line among many; ends with a line feed.
+///
+/// Lines and columns are those of the input, so that an editor finds them: of a scene that is a line of its own, that line.
+pub fn problem_line(place: &Place, problems: &[Problem]) -> String {
+    let before = place.line.map_or(0, |line| line - 1);
+    written(
+        &Refusal {
+            file: place.file.as_deref(),
+            line: place.line,
+            problems: entries(problems, before),
+        },
+        Layout::OneLine,
+    )
+}
+
+/// Problems of a text before which there are so many lines.
+fn entries(problems: &[Problem], before: usize) -> Vec<Entry<'_>> {
     let place = |number: usize| (number > 0).then_some(number);
-    let refusal = Refusal {
-        file,
-        problems: (problems.iter())
-            .map(|problem| Entry {
-                code: problem.code.word(),
-                path: &problem.path,
-                line: place(problem.line),
-                column: place(problem.column),
-                message: &problem.message,
-                hint: &problem.help,
-            })
-            .collect(),
-    };
+    problems
+        .iter()
+        .map(|problem| Entry {
+            code: problem.code.word(),
+            path: &problem.path,
+            line: place(problem.line).map(|line| before + line),
+            column: place(problem.column),
+            message: &problem.message,
+            hint: &problem.help,
+        })
+        .collect()
+}
+
+fn written(refusal: &Refusal<'_>, layout: Layout) -> String {
     let mut bytes = Vec::new();
     let written = match layout {
         Layout::Lines => refusal.serialize(&mut serde_json::Serializer::with_formatter(
             &mut bytes,
             Lines::new(1),
         )),
-        Layout::OneLine => serde_json::to_writer(&mut bytes, &refusal),
+        Layout::OneLine => serde_json::to_writer(&mut bytes, refusal),
     };
     written.expect("plain structures with text keys always serialise into memory");
     bytes.push(b'\n');
