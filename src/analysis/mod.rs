@@ -11,6 +11,7 @@ mod margin;
 mod mechanism;
 mod near;
 mod option;
+mod wedged;
 
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -34,6 +35,7 @@ use component::{Findings, solved};
 use frame::{settle, worst};
 pub use margin::{Margin, Margins, RobotMargins, Sides};
 pub use option::{Accuracy, Ask, Options};
+pub use wedged::Wedged;
 
 /// Whether a frame stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -92,6 +94,8 @@ pub struct FrameAnalysis {
     /// Whether it stands only by a self-stress that its loads do not build up from rest, where that was asked for, it
     /// stands, and an answer was found.
     pub only_by_wedging: Option<bool>,
+    /// What shows that it stands only by a self-stress, where it does.
+    pub wedged: Option<Wedged>,
     /// Every effect, simulated or skipped.
     pub effects: Vec<EffectReport>,
     /// How well the verdict is proved.
@@ -325,8 +329,8 @@ fn examined(situation: &Situation, options: Options, known: &mut Known) -> Frame
         (Ask::No, _) => Wedging::NotAsked,
         (Ask::Yes, Verdict::Stable) => {
             let components = found.iter().copied();
-            let (only, shown) = component::only_by_wedging(situation.scene, components);
-            analysis.only_by_wedging = only;
+            let (only, shown, wedged) = component::only_by_wedging(situation.scene, components);
+            (analysis.only_by_wedging, analysis.wedged) = (only, wedged);
             shown
         }
         (Ask::Yes, _) => Wedging::Falls,
@@ -409,6 +413,7 @@ fn gathered(
         mechanism: Vec::new(),
         margins: None,
         only_by_wedging: None,
+        wedged: None,
         effects,
         proof: Proof::Forces {
             worst_imbalance: 0.0,

@@ -12,12 +12,14 @@
 mod accuracy;
 mod import;
 mod margin;
+mod wedging;
 
 use serde::{Serialize, Serializer};
 
 pub use accuracy::accuracy_json;
 pub use import::import_json;
 use margin::Margins;
+use wedging::Wedging;
 
 use crate::analysis::{
     Analysis, Contact, Failure, FrameAnalysis, Motion as Moved, Proof, RobotForce, Verdict,
@@ -131,6 +133,8 @@ struct Frame<'a> {
     /// `null` where it was asked for and stays open.
     #[serde(skip_serializing_if = "Option::is_none")]
     only_by_wedging: Option<Option<bool>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    wedging: Option<Wedging<'a>>,
     effects: Vec<Effect<'a>>,
     proof: ProofNumbers,
     solve: Solve,
@@ -327,6 +331,7 @@ impl<'a> Frame<'a> {
                 .collect(),
             margins: frame.margins.as_ref().map(|m| Margins::of(scene, m)),
             only_by_wedging: looked_at(frame, "wedging").then_some(frame.only_by_wedging),
+            wedging: (frame.wedged.as_ref()).map(|w| Wedging::of(scene, frame, w)),
             effects: frame
                 .effects
                 .iter()

@@ -130,6 +130,7 @@ fn frame() -> FrameAnalysis {
         }],
         margins: None,
         only_by_wedging: None,
+        wedged: None,
         effects: vec![EffectReport {
             effect: "friction",
             simulated: true,
