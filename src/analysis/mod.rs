@@ -13,6 +13,7 @@ mod mechanism;
 mod near;
 mod option;
 mod pair;
+mod wedged;
 
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -40,6 +41,7 @@ pub use margin::{Margin, Margins, RobotMargins, Sides};
 pub use mechanism::Toward;
 pub use option::{Accuracy, Ask, Options};
 pub use pair::pair;
+pub use wedged::Wedged;
 
 /// Whether a frame stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -100,6 +102,8 @@ pub struct FrameAnalysis {
     /// Whether it stands only by a self-stress that its loads do not build up from rest, where that was asked for, it
     /// stands, and an answer was found.
     pub only_by_wedging: Option<bool>,
+    /// What shows that it stands only by a self-stress, where it does.
+    pub wedged: Option<Wedged>,
     /// Every effect, simulated or skipped.
     pub effects: Vec<EffectReport>,
     /// How well the verdict is proved.
@@ -338,8 +342,8 @@ fn examined(situation: &Situation, options: Options, known: &mut Known) -> Frame
         (Ask::No, _) => Wedging::NotAsked,
         (Ask::Yes, Verdict::Stable) => {
             let components = found.iter().copied();
-            let (only, shown) = component::only_by_wedging(situation.scene, components);
-            analysis.only_by_wedging = only;
+            let (only, shown, wedged) = component::only_by_wedging(situation.scene, components);
+            (analysis.only_by_wedging, analysis.wedged) = (only, wedged);
             shown
         }
         (Ask::Yes, _) => Wedging::Falls,
@@ -422,6 +426,7 @@ fn gathered(
         mechanism: Vec::new(),
         margins: None,
         only_by_wedging: None,
+        wedged: None,
         effects,
         proof: Proof::Forces {
             worst_imbalance: 0.0,

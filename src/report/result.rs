@@ -17,6 +17,7 @@ mod margin;
 mod note;
 mod refusal;
 mod page;
+mod wedging;
 
 use serde::{Serialize, Serializer};
 
@@ -27,6 +28,7 @@ pub use line::{Fields, Picture, Place, UnknownField, line_of, verdict_line};
 use margin::Margins;
 pub use refusal::{problem_line, refusal};
 pub use page::{Counts, quoted, report_json};
+use wedging::Wedging;
 
 use crate::analysis::{
     Analysis, Contact, Failure, FrameAnalysis, Motion as Moved, Proof, RobotForce,
@@ -155,6 +157,8 @@ struct Frame<'a> {
     /// `null` where it was asked for and stays open.
     #[serde(skip_serializing_if = "Option::is_none")]
     only_by_wedging: Option<Option<bool>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    wedging: Option<Wedging<'a>>,
     effects: Vec<Effect<'a>>,
     proof: ProofNumbers,
     solve: Solve,
@@ -353,6 +357,7 @@ impl<'a> Frame<'a> {
                 .collect(),
             margins: frame.margins.as_ref().map(|m| Margins::of(scene, m)),
             only_by_wedging: looked_at(frame, "wedging").then_some(frame.only_by_wedging),
+            wedging: (frame.wedged.as_ref()).map(|w| Wedging::of(scene, frame, w)),
             effects: frame
                 .effects
                 .iter()

@@ -1,7 +1,7 @@
 //! Questions about a component beside what [`solved`](super::solved) finds out.
 
 use super::{Case, Findings};
-use crate::analysis::{Options, Verdict};
+use crate::analysis::{Options, Verdict, Wedged};
 use crate::assembly::Assembly;
 use crate::effect::wedging::Wedging;
 use crate::program::Program;
@@ -36,8 +36,8 @@ pub(in crate::analysis) fn judged(assembly: &Assembly) -> (Verdict, Vec<Motion>)
 pub(in crate::analysis) fn only_by_wedging<'a>(
     scene: &Scene,
     components: impl Iterator<Item = (&'a Assembly, &'a Findings)>,
-) -> (Option<bool>, Wedging) {
-    let mut answer = (Some(false), Wedging::FromRest);
+) -> (Option<bool>, Wedging, Option<Wedged>) {
+    let mut answer = (Some(false), Wedging::FromRest, None);
     for (assembly, found) in components {
         let case = Case::of(assembly, Options::default());
         let program = Program::of(assembly, case.scale);
@@ -59,9 +59,10 @@ pub(in crate::analysis) fn only_by_wedging<'a>(
             Reach::FromRest => {}
             Reach::OnlyWedged(squeeze) => {
                 let shown = shown(&squeeze, case.scale.force, body, face);
-                return (Some(true), Wedging::Only(shown));
+                let wedged = Wedged::of(assembly, case.scale, &squeeze);
+                return (Some(true), Wedging::Only(shown), Some(wedged));
             }
-            Reach::Unclear(doubt) => answer = (None, Wedging::Open(doubt.to_string())),
+            Reach::Unclear(doubt) => answer = (None, Wedging::Open(doubt.to_string()), None),
         }
     }
     answer

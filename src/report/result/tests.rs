@@ -133,6 +133,7 @@ fn frame() -> FrameAnalysis {
         }],
         margins: None,
         only_by_wedging: None,
+        wedged: None,
         effects: vec![EffectReport {
             effect: "friction",
             simulated: true,

@@ -36,6 +36,8 @@ pub struct Squeeze {
     pub presses_nothing: bool,
     /// The least sum of normal forces at those contacts with which forces balance, pure number.
     pub least: Option<f64>,
+    /// The motion that shows it: no other contact takes work along it, these at most 1 for each unit of normal force.
+    pub bound: Vec<f64>,
     /// Cases ruled out by the proof.
     pub cases: usize,
 }
@@ -147,6 +149,7 @@ fn squeeze(program: &Program, motion: Vec<f64>, cases: usize) -> Squeeze {
         contacts,
         presses_nothing,
         least: (pressed.status == Status::Solved).then_some(pressed.aim),
+        bound: pressed.y.iter().map(|v| -v).collect(),
         cases,
     }
 }

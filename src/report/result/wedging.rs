@@ -1,0 +1,72 @@
+//! What shows that a frame stands only by wedging, as JSON.
+//!
+//! Each motion tells the place about which a block's spin counts, so that it can be checked against the interfaces and
+//! their forces in the same result, without the scene.
+
+use serde::Serialize;
+
+use super::{Number, Pair, arrow, place};
+use crate::analysis::{FrameAnalysis, Motion, Wedged};
+use crate::scene::Scene;
+
+#[derive(Serialize)]
+pub(super) struct Wedging<'a> {
+    /// The faces that have to press.
+    must_press: Vec<Face<'a>>,
+    /// With so many newtons in all.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    normal_force_at_least: Option<Number>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    bound: Vec<Moving<'a>>,
+    gives_way: Vec<Moving<'a>>,
+    presses_nothing: bool,
+    cases: usize,
+}
+
+#[derive(Serialize)]
+struct Face<'a> {
+    /// Its number in `interfaces`, from 0.
+    interface: usize,
+    bodies: [&'a str; 2],
+}
+
+#[derive(Serialize)]
+struct Moving<'a> {
+    block: &'a str,
+    at: Pair,
+    velocity: Pair,
+    spin: Number,
+}
+
+impl<'a> Wedging<'a> {
+    pub(super) fn of(scene: &'a Scene, frame: &FrameAnalysis, wedged: &Wedged) -> Wedging<'a> {
+        let motion = |motions: &[Motion]| {
+            let moving = motions.iter().map(|motion| {
+                let block = &scene.blocks[motion.block.0];
+                Moving {
+                    block: &block.id,
+                    at: place(block.centroid),
+                    velocity: arrow(motion.velocity),
+                    spin: Number(motion.spin),
+                }
+            });
+            moving.collect::<Vec<_>>()
+        };
+        let faces = wedged.interfaces.iter().map(|number| Face {
+            interface: *number,
+            bodies: frame.contacts[*number]
+                .interface
+                .bodies
+                .map(|b| scene.name(b)),
+        });
+        let least = wedged.at_least.as_ref();
+        Wedging {
+            must_press: faces.collect(),
+            normal_force_at_least: least.map(|(force, _)| Number(*force)),
+            bound: least.map_or_else(Vec::new, |(_, bound)| motion(bound)),
+            gives_way: motion(&wedged.gives_way),
+            presses_nothing: wedged.presses_nothing,
+            cases: wedged.cases,
+        }
+    }
+}
