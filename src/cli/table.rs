@@ -231,34 +231,43 @@ fn remarks(scene: &Scene, frame: &FrameAnalysis) -> Vec<String> {
     remarks
 }
 
-/// How far a frame is from the edge, a line per margin.
+/// How far a frame is from the edge, a line per margin that was asked for.
 fn edges(scene: &Scene, margins: &Margins) -> Vec<String> {
     let or = |margin: &Margin, unit: &str, none: &str| match margin {
         Margin::Value { at, .. } => format!("{}{unit}", digits(*at)),
         Margin::None => none.into(),
         Margin::Unbounded => "any".into(),
+        Margin::Unconfirmed { .. } => "withheld".into(),
+        Margin::NotAsked => "not asked for".into(),
     };
     let edge = |margin: &Margin, unit: &str| or(margin, unit, "none (it falls at any)");
-    let sides = |sides: &Sides, unit: &str, none: &str| {
-        let (left, right) = (or(&sides.left, unit, none), or(&sides.right, unit, none));
-        format!("left {left}, right {right}")
+    let one = |name: &str, margin: &Margin| {
+        (*margin != Margin::NotAsked).then(|| format!("{name}: {}", edge(margin, "")))
     };
-    let mut lines = vec![
-        format!("least friction: {}", edge(&margins.friction, "")),
-        format!(
-            "largest tilt: {}",
-            sides(&margins.tilt, "°", "none (it falls unturned)")
+    let two = |name: &str, sides: &Sides, unit: &str, none: &str| {
+        let (left, right) = (or(&sides.left, unit, none), or(&sides.right, unit, none));
+        let asked = sides.left != Margin::NotAsked;
+        asked.then(|| format!("{name}: left {left}, right {right}"))
+    };
+    let share = "largest horizontal share of the weights";
+    let lines = [
+        one("least friction", &margins.friction),
+        two(
+            "largest tilt",
+            &margins.tilt,
+            "°",
+            "none (it falls unturned)",
         ),
-        format!(
-            "largest horizontal share of the weights: {}",
-            sides(&margins.horizontal_load, "", "none (it falls at any)")
+        two(
+            share,
+            &margins.horizontal_load,
+            "",
+            "none (it falls at any)",
         ),
-        format!("largest kernel: {}", edge(&margins.kernel, "")),
-        format!(
-            "largest factor on the loads: {}",
-            edge(&margins.load_factor, "")
-        ),
+        one("largest kernel", &margins.kernel),
+        one("largest factor on the loads", &margins.load_factor),
     ];
+    let mut lines: Vec<String> = lines.into_iter().flatten().collect();
     lines.extend(margins.robots.iter().map(|robot| {
         format!(
             "least limits of robot {}, each alone: fx {}, fy {}, torque {}",
