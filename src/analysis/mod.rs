@@ -37,7 +37,8 @@ use component::{Findings, solved};
 use frame::{settle, worst};
 pub(crate) use judgement::{Guess, hinges_on_gaps};
 pub use judgement::{Source, verdicts};
-pub use margin::{Margin, Margins, RobotMargins, Sides};
+use margin::Part;
+pub use margin::{Margin, MarginKind, MarginKinds, Margins, RobotMargins, Sides, trials};
 pub use mechanism::Toward;
 pub use option::{Accuracy, Ask, Options};
 pub use pair::pair;
@@ -350,9 +351,18 @@ fn examined(situation: &Situation, options: Options, known: &mut Known) -> Frame
     };
     let mut judged = None;
     if options.margins == Ask::Yes {
-        let verdicts: Vec<Verdict> = found.iter().map(|f| f.1.verdict).collect();
-        let parts = components.iter().zip(&keys).zip(verdicts);
-        let (margins, tries) = margin::of(&parts.collect::<Vec<_>>(), &mut known.margins);
+        let parts = found
+            .iter()
+            .zip(&keys)
+            .map(|((component, found), key)| Part {
+                component,
+                key,
+                found,
+            });
+        let parts: Vec<Part> = parts.collect();
+        let (margins, tries) = margin::of(&parts, options.margin_kinds, &mut known.margins);
+        let name = |robot: RobotId| situation.scene.robots[robot.0].id.clone();
+        analysis.notices.extend(margins.withheld(name));
         analysis.margins = Some(margins);
         judged = Some(tries);
     }

@@ -4,6 +4,7 @@
 
 use std::time::Instant;
 
+use super::margin::MarginKinds;
 use crate::proof::Demand;
 use crate::solve::{Care, Choice, Manner, TOLERANCE};
 
@@ -16,6 +17,8 @@ pub struct Options {
     pub tolerance: Option<f64>,
     /// How far each frame is from the edge of standing.
     pub margins: Ask,
+    /// Which margins, where they are asked for; by default all.
+    pub margin_kinds: MarginKinds,
     /// Whether each standing frame stands only by wedging.
     pub wedging: Ask,
     /// The verdict with its proof, and no program beyond what decides: where a frame falls, what fails is not sought; where it
@@ -63,6 +66,17 @@ impl Accuracy {
 }
 
 impl Options {
+    /// Nothing but the verdict, its proof and what belongs to it.
+    pub(super) const PLAIN: Options = Options {
+        accuracy: Accuracy::Standard,
+        tolerance: None,
+        margins: Ask::No,
+        margin_kinds: MarginKinds::ALL,
+        wedging: Ask::No,
+        verdict_only: Ask::No,
+        deadline: None,
+    };
+
     /// Whether the time is up.
     pub(super) fn is_late(self) -> bool {
         self.deadline.is_some_and(|end| Instant::now() >= end)

@@ -1,11 +1,12 @@
 //! `drystone check`: does it stand, in a table for a person or as JSON for a program.
 
-use std::path::PathBuf;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 
-use crate::analysis::{Analysis, Ask, Options};
+use crate::analysis::{Analysis, Ask, MarginKind, MarginKinds, Options};
 use crate::cli::complaint::Complaint;
 use crate::cli::ending::Ending;
 use crate::cli::level::Level;
@@ -30,9 +31,16 @@ pub(crate) struct Check {
     #[arg(long)]
     no_timing: bool,
     /// Tell how far each frame is from the edge: least friction, largest tilt, horizontal load, kernel and factor on the
-    /// loads, robots' least limits
-    #[arg(long)]
-    margins: bool,
+    /// loads, robots' least limits; or some of these, such as friction,tilt
+    #[arg(
+        long,
+        value_enum,
+        value_name = "LIST",
+        value_delimiter = ',',
+        num_args = 0..,
+        require_equals = true
+    )]
+    margins: Option<Vec<Name>>,
     /// Tell the verdict with its proof and leave out the rest: what fails, and which of several balances is the one to draw
     #[arg(long)]
     verdict_only: bool,
@@ -44,6 +52,60 @@ pub(crate) struct Check {
     frame: Option<FrameChoice>,
     #[command(flatten)]
     level: Level,
+}
+
+/// A margin by the name it has in results.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Name {
+    Friction,
+    Tilt,
+    #[value(alias = "horizontal_load")]
+    HorizontalLoad,
+    Kernel,
+    #[value(alias = "load_factor")]
+    LoadFactor,
+    Robots,
+}
+
+/// All margins, or those named.
+fn kinds(names: &[Name]) -> MarginKinds {
+    if names.is_empty() {
+        return MarginKinds::ALL;
+    }
+    let kinds = names.iter().map(|name| match name {
+        Name::Friction => MarginKind::Friction,
+        Name::Tilt => MarginKind::Tilt,
+        Name::HorizontalLoad => MarginKind::HorizontalLoad,
+        Name::Kernel => MarginKind::Kernel,
+        Name::LoadFactor => MarginKind::LoadFactor,
+        Name::Robots => MarginKind::Robots,
+    });
+    MarginKinds::of(&kinds.collect::<Vec<_>>())
+}
+
+/// The words of a command line, with the list that may follow `--margins` joined to it.
+///
+/// `check --margins scene.json` asks for all, and `check --margins friction,tilt scene.json` for two: a word of names
+/// alone is a list, unless there is a file of that name.
+pub(crate) fn joined(words: impl Iterator<Item = OsString>) -> Vec<OsString> {
+    let mut joined: Vec<OsString> = Vec::new();
+    for word in words {
+        if let (Some(last), Some(list)) = (joined.last_mut(), word.to_str())
+            && last == "--margins"
+            && is_list(list)
+        {
+            last.push("=");
+            last.push(list);
+        } else {
+            joined.push(word);
+        }
+    }
+    joined
+}
+
+fn is_list(word: &str) -> bool {
+    let letters = |c: char| c.is_ascii_lowercase() || matches!(c, ',' | '-' | '_');
+    !word.starts_with('-') && word.chars().all(letters) && !Path::new(word).exists()
 }
 
 impl Check {
@@ -77,7 +139,8 @@ impl Check {
         };
         let progress = Progress::begin(sources.len(), shown);
         let options = Options {
-            margins: asked(self.margins),
+            margins: asked(self.margins.is_some()),
+            margin_kinds: kinds(self.margins.as_deref().unwrap_or_default()),
             verdict_only: asked(self.verdict_only),
             ..self.level.options()
         };

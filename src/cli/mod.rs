@@ -95,7 +95,7 @@ enum Command {
 
 /// Runs the command line of this process and tells how it ended.
 pub fn run() -> ExitCode {
-    let line = match CommandLine::try_parse() {
+    let line = match CommandLine::try_parse_from(check::joined(std::env::args_os())) {
         Ok(line) => line,
         Err(error) => {
             let printed = error.print().and_then(|()| io::stdout().flush());

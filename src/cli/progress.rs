@@ -1,12 +1,15 @@
 //! [`Progress`]: a bar on standard error for work that takes longer than half a second.
 //!
-//! The only file that names indicatif. The bar counts steps of work and is wiped off when the work is done.
+//! The only file that names indicatif. The bar counts steps of work, and beside them the changed frames judged for margins,
+//! of which one step may take hundreds; it is wiped off when the work is done.
 
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+
+use crate::analysis::trials;
 
 /// Work shorter than this needs no bar.
 const PATIENCE: Duration = Duration::from_millis(500);
@@ -33,9 +36,17 @@ impl Progress {
     fn on(steps: usize, patience: Duration, target: ProgressDrawTarget) -> Progress {
         let bar = ProgressBar::with_draw_target(Some(steps as u64), ProgressDrawTarget::hidden());
         if let Ok(style) =
-            ProgressStyle::with_template("{spinner} {msg} {wide_bar} {pos}/{len} {elapsed}")
+            ProgressStyle::with_template("{spinner} {msg} {wide_bar} {pos}/{len}{trials} {elapsed}")
         {
-            bar.set_style(style);
+            let before = trials();
+            let counted = move |_: &ProgressState, to: &mut dyn std::fmt::Write| {
+                let since = trials().saturating_sub(before);
+                if since > 0 {
+                    // A bar that cannot be drawn has nobody to tell.
+                    let _ = write!(to, ", {since} changed frames judged,");
+                }
+            };
+            bar.set_style(style.with_key("trials", counted));
         }
         let (done, over) = channel();
         let waiting = bar.clone();
@@ -135,6 +146,25 @@ mod tests {
         fn flush(&self) -> io::Result<()> {
             Ok(())
         }
+    }
+
+    #[test]
+    fn margins_count_the_frames_they_judge() {
+        let paper = Paper::default();
+        let target = ProgressDrawTarget::term_like(Box::new(paper.clone()));
+        let progress = Progress::on(1, Duration::ZERO, target);
+        let scene = crate::scene::Scene::from_json(
+            r#"{ "drystone": 1, "blocks": [{ "id": "a", "polygon": [[0, 0], [3, 0], [0, 2]] }] }"#,
+        );
+        let options = crate::analysis::Options {
+            margins: crate::analysis::Ask::Yes,
+            ..Default::default()
+        };
+        crate::analysis::Analysis::with(&scene.expect("sound"), &options);
+        thread::sleep(Duration::from_millis(300));
+        drop(progress);
+        let drawn = paper.text();
+        assert!(drawn.contains("changed frames judged"), "{drawn:?}");
     }
 
     fn drawn(patience: Duration, work: Duration) -> String {

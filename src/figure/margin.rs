@@ -224,6 +224,15 @@ pub(crate) fn reason(stage: &Stage<'_>, frame: usize) -> String {
             }
         };
     }
+    let sides = match toward {
+        Toward::Tilt => Some(&margins.tilt),
+        Toward::HorizontalLoad => Some(&margins.horizontal_load),
+        Toward::LoadFactor => None,
+    };
+    let confirmed = |margin: &Margin| !matches!(margin, Margin::Unconfirmed { .. });
+    if sides.is_some_and(|s| !confirmed(&s.left) || !confirmed(&s.right)) {
+        return "how far it is from falling was not confirmed by a verdict on either side".to_owned();
+    }
     let placed = &analysis.scene.frames[frame].placed;
     let loaded = analysis
         .scene

@@ -103,13 +103,13 @@ pub fn kinematic(
 /// The twin of  max λ  s.t.  Σ amount·column = need + λ·toward:  max needᵀy  s.t.  columnᵀy ≤ 0, towardᵀy ≥ 1.
 ///
 /// The last row is the one of λ: its dual is the largest λ ≥ 0.
-pub fn most_of(need: &[f64], toward: &[f64], columns: &[Column]) -> Conic {
-    let (mut conic, _) = kinematic(need, columns, |_| 0.0);
+pub fn most_of(need: &[f64], toward: &[f64], columns: &[Column]) -> (Conic, Vec<usize>) {
+    let (mut conic, row_of) = kinematic(need, columns, |_| 0.0);
     let row = conic.bound.len();
     let entries = toward.iter().enumerate().filter(|(_, v)| **v != 0.0);
     conic.matrix.extend(entries.map(|(i, v)| (row, i, -v)));
     conic.bound.push(-1.0);
-    conic
+    (conic, row_of)
 }
 
 /// The twin of  min Σ |what is left unbalanced|:  max needᵀy  s.t.  columnᵀy ≤ 0, −1 ≤ y ≤ 1.

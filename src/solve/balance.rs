@@ -132,11 +132,10 @@ pub fn balance_in(program: &Program, manner: Manner) -> Balance {
             let mut face = match (found, manner.choice) {
                 (Some(best), _) => best.1,
                 (None, Choice::Unique) => whole.with(solved.amounts),
-                // The one system of equations is cheaper than making good what the solver leaves, block by block.
+                // One system of equations is cheaper than making good what the solver leaves, block by block.
                 (None, Choice::Any) => {
-                    let amounts = solved.amounts;
-                    let amounts =
-                        settled(&whole.need, &whole.columns, amounts, manner, &mut effort);
+                    let (need, amounts) = (&whole.need, solved.amounts);
+                    let amounts = settled(need, &whole.columns, amounts, manner, &mut effort);
                     whole.with(amounts)
                 }
             };

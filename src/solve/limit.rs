@@ -6,7 +6,7 @@
 //! static and kinematic theorems of limit analysis, Livesley 1978.
 
 use super::slanted::Slanted;
-use super::{Care, Effort, Status, TOLERANCE, largest, solve, twin};
+use super::{Amounts, Care, Effort, Face, Status, TOLERANCE, largest, settled, solve, twin};
 use crate::program::{Column, Force, Program, columns, most_of};
 
 /// The end of what a program allows.
@@ -22,6 +22,27 @@ pub enum Limit {
     Unclear,
 }
 
+/// What a program found at its limit.
+#[derive(Clone, Debug)]
+pub struct Extreme {
+    /// The limit.
+    pub limit: Limit,
+    /// Forces that balance just there.
+    pub forces: Option<Amounts>,
+    /// The motion by which it begins to fall beyond: three velocities per block.
+    pub motion: Option<Vec<f64>>,
+}
+
+impl From<Limit> for Extreme {
+    fn from(limit: Limit) -> Extreme {
+        Extreme {
+            limit,
+            forces: None,
+            motion: None,
+        }
+    }
+}
+
 /// From so many blocks on the finest tolerance is out of reach: a wall of 410 bricks takes 50 iterations at the second and
 /// ends nowhere at the first, and the second is exact to 10⁻⁷.
 const MANY_BLOCKS: usize = 200;
@@ -33,32 +54,53 @@ const TOLERANCES: [f64; 3] = [TOLERANCE, 10.0 * TOLERANCE, 100.0 * TOLERANCE];
 ///
 /// Both are posed with a largest entry of 1: on a wall of 420 bricks loads of 300 end after a hundred iterations at
 /// 0.48159 where loads of 1 are solved, at 0.48162.
-pub fn most(program: &Program, toward: &[f64]) -> Limit {
+pub fn most(program: &Program, toward: &[f64]) -> Extreme {
     let size = largest(toward);
     if size == 0.0 {
-        return Limit::Unbounded;
+        return Limit::Unbounded.into();
     }
     let load = match largest(&program.need) {
         0.0 => 1.0,
         load => load,
     };
     let scaled = |list: &[f64], by: f64| -> Vec<f64> { list.iter().map(|v| v / by).collect() };
-    let conic = most_of(
-        &scaled(&program.need, load),
-        &scaled(toward, size),
-        &Slanted::of(&columns_in(program, load)).columns,
-    );
+    let (need, along) = (scaled(&program.need, load), scaled(toward, size));
+    let columns = Slanted::of(&columns_in(program, load)).columns;
+    let (conic, row_of) = most_of(&need, &along, &columns);
     let finest = usize::from(program.blocks >= MANY_BLOCKS);
     for tolerance in TOLERANCES.into_iter().skip(finest) {
         let answer = solve(&conic, tolerance, Care::Full);
         match (answer.status, answer.z.last()) {
-            (Status::Solved, Some(amount)) => return Limit::At(amount.max(0.0) * load / size),
-            (Status::Infeasible, _) => return Limit::Unbounded,
-            (Status::Unbounded, _) => return Limit::Never,
+            (Status::Solved, Some(amount)) => {
+                let amount = amount.max(0.0);
+                let total = need.iter().zip(&along).map(|(n, t)| n + amount * t);
+                let total: Vec<f64> = total.collect();
+                let given = row_of.iter().enumerate().map(|(k, row)| match *row {
+                    usize::MAX => (-answer.z[row_of[k - 1]]).max(0.0),
+                    row => answer.z[row].max(0.0),
+                });
+                let given: Vec<f64> = given.collect();
+                let mut amounts = rebalanced(&total, &columns, given);
+                amounts.iter_mut().for_each(|amount| *amount *= load);
+                let face = Face::whole(&total, columns).with(amounts);
+                return Extreme {
+                    limit: Limit::At(amount * load / size),
+                    forces: Some(face.gathered(program).0),
+                    motion: Some(answer.x[..need.len()].iter().map(|v| -v).collect()),
+                };
+            }
+            (Status::Infeasible, _) => return Limit::Unbounded.into(),
+            (Status::Unbounded, _) => return Limit::Never.into(),
             _ => {}
         }
     }
-    Limit::Unclear
+    Limit::Unclear.into()
+}
+
+/// Amounts with the smallest change that undoes what a solver left unbalanced of them.
+pub(super) fn rebalanced(need: &[f64], columns: &[Column], amounts: Vec<f64>) -> Vec<f64> {
+    let manner = Care::Quick.into();
+    settled(need, columns, amounts, manner, &mut Effort::default())
 }
 
 /// The columns of a program whose forces are counted in parts of `unit`.
@@ -71,28 +113,33 @@ pub(super) fn columns_in(program: &Program, unit: f64) -> Vec<Column> {
 }
 
 /// The least limit of one component of one grip that lets admissible forces balance, the other limits as they are.
-pub fn least(program: &Program, grip: usize, component: usize) -> Limit {
+pub fn least(program: &Program, grip: usize, component: usize) -> Extreme {
     let mut free = program.clone();
     free.grips[grip].limits[component] = f64::INFINITY;
     let own = |force: &Force| matches!(force, Force::Grip { grip: g, component: c, .. } if *g == grip && *c == component);
+    let columns = columns(&free);
     let solved = twin(
         &free.need,
-        &columns(&free),
+        &columns,
         Care::Full,
         &mut Effort::default(),
         |c| f64::from(u8::from(own(&c.force))),
     );
     match solved.status {
         // The aim counts what limited forces give at their limits, so the component's own amounts are summed instead.
-        Status::Solved => Limit::At(
-            columns(&free)
-                .iter()
-                .zip(&solved.amounts)
-                .filter(|(c, _)| own(&c.force))
-                .map(|(_, amount)| amount)
-                .sum(),
-        ),
-        Status::Unbounded => Limit::Never,
-        _ => Limit::Unclear,
+        Status::Solved => {
+            let amounts = rebalanced(&free.need, &columns, solved.amounts.clone());
+            let owned = columns.iter().zip(&solved.amounts);
+            let owned = owned.filter(|(c, _)| own(&c.force));
+            let at = owned.map(|(_, amount)| amount).sum();
+            let face = Face::whole(&free.need, columns.clone()).with(amounts);
+            Extreme {
+                limit: Limit::At(at),
+                forces: Some(face.gathered(&free).0),
+                motion: Some(solved.y.iter().map(|v| -v).collect()),
+            }
+        }
+        Status::Unbounded => Limit::Never.into(),
+        _ => Limit::Unclear.into(),
     }
 }

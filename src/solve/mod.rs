@@ -17,17 +17,19 @@ pub(crate) mod ray;
 mod refine;
 mod slanted;
 mod stick;
+mod tangent;
 mod wedge;
 
 pub use balance::{Balance, balance, balance_in};
 pub(crate) use conic::Until;
 pub use conic::{Answer, Care, Choice, ITERATIONS, Manner, Status, TOLERANCE, solve, solve_within};
 pub use leftover::{Leftover, leftover};
-pub use limit::{Limit, least, most};
+pub use limit::{Extreme, Limit, least, most};
 pub use nearest::{Nearest, generators};
 pub use opening::opened;
 pub use refine::{corrected, relative};
 pub use stick::{Stuck, stick, stick_in};
+pub use tangent::Tangent;
 pub use wedge::{Reach, Squeeze, reach};
 
 use crate::geometry::{Vector, cross, quarter_turn};
@@ -435,9 +437,8 @@ fn largest(list: &[f64]) -> f64 {
     list.iter().fold(0.0, |m: f64, v| m.max(v.abs()))
 }
 
-/// Amounts with the smallest change that undoes what they leave unbalanced: one system of equations, no inequality.
-///
-/// An amount that would fall below 0 is cut there, so that what it cost shows in the balance.
+/// Amounts with the smallest change that undoes what they leave unbalanced: one system of equations, no inequality. One
+/// that would fall below 0 is cut there, so that what it cost shows in the balance.
 fn settled(
     need: &[f64],
     columns: &[Column],
@@ -460,7 +461,6 @@ fn settled(
 }
 
 /// Amounts whose balance is exact to rounding, if they can be had near the given ones.
-///
 /// What is left unbalanced is blown up to size 1 and solved for as a correction, which keeps every amount ≥ 0; each round
 /// gains the solver's nine digits. Without it a feather under a mountain drowns in the mountain's rounding.
 fn refined(

@@ -10,6 +10,10 @@ pub fn value(margin: &Margin, unit: &str, none: &str) -> String {
         Margin::Value { at, .. } => format!("{}{unit}", digits(*at)),
         Margin::None => none.into(),
         Margin::Unbounded => "any".into(),
+        Margin::Unconfirmed { stands, .. } => {
+            format!("not confirmed (it stands at {}{unit})", digits(*stands))
+        }
+        Margin::NotAsked => "not asked for".into(),
     }
 }
 
@@ -18,29 +22,29 @@ pub const NONE: &str = "none (it falls at any)";
 /// What is said where a frame falls as it is.
 pub const UNTURNED: &str = "none (it falls unturned)";
 
-/// How far a frame is from the edge, a line per margin.
+/// How far a frame is from the edge, a line per margin that was asked for.
 pub fn lines(scene: &Scene, margins: &Margins) -> Vec<String> {
     let edge = |margin: &Margin, unit: &str| value(margin, unit, NONE);
-    let sides = |sides: &Sides, unit: &str, none: &str| {
+    let one = |name: &str, margin: &Margin| {
+        (*margin != Margin::NotAsked).then(|| format!("{name}: {}", edge(margin, "")))
+    };
+    let two = |name: &str, sides: &Sides, unit: &str, none: &str| {
         let (left, right) = (
             value(&sides.left, unit, none),
             value(&sides.right, unit, none),
         );
-        format!("left {left}, right {right}")
+        let asked = sides.left != Margin::NotAsked;
+        asked.then(|| format!("{name}: left {left}, right {right}"))
     };
-    let mut lines = vec![
-        format!("least friction: {}", edge(&margins.friction, "")),
-        format!("largest tilt: {}", sides(&margins.tilt, "°", UNTURNED)),
-        format!(
-            "largest horizontal share of the weights: {}",
-            sides(&margins.horizontal_load, "", NONE)
-        ),
-        format!("largest kernel: {}", edge(&margins.kernel, "")),
-        format!(
-            "largest factor on the loads: {}",
-            edge(&margins.load_factor, "")
-        ),
+    let share = "largest horizontal share of the weights";
+    let lines = [
+        one("least friction", &margins.friction),
+        two("largest tilt", &margins.tilt, "°", UNTURNED),
+        two(share, &margins.horizontal_load, "", NONE),
+        one("largest kernel", &margins.kernel),
+        one("largest factor on the loads", &margins.load_factor),
     ];
+    let mut lines: Vec<String> = lines.into_iter().flatten().collect();
     lines.extend(margins.robots.iter().map(|robot| {
         format!(
             "least limits of robot {}, each alone: fx {}, fy {}, torque {}",

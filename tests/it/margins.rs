@@ -1,10 +1,12 @@
 //! Margins: values known by hand or from the literature, and what every margin must obey.
 
-use drystone::analysis::{Ask, FrameAnalysis, Margin, Margins, Options, Verdict};
+use drystone::analysis::{
+    Ask, FrameAnalysis, Margin, MarginKind, MarginKinds, Margins, Options, Verdict,
+};
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
 
-use crate::structure::{arch, block, on_floor, on_slope, rectangle, scene, verdict};
+use crate::structure::{arch, block, on_floor, on_slope, rectangle, scene, verdict, wall};
 
 fn frames(scene: &Scene) -> Vec<FrameAnalysis> {
     let asked = Options {
@@ -326,4 +328,49 @@ fn just_inside_it_stands_and_just_beyond_it_falls() {
         }
     }
     assert_eq!(asked, 30);
+}
+
+/// How many changed frames were judged.
+fn judged(frame: &FrameAnalysis) -> usize {
+    let effect = frame.effects.iter().find(|e| e.effect == "margins");
+    let why = &effect.expect("every effect is told").why;
+    let mut words = why.split_whitespace();
+    let number = words.find_map(|word| word.parse().ok());
+    number.unwrap_or_else(|| panic!("{why} counts the changed frames"))
+}
+
+/// What one program finds is confirmed by its own forces and motion, and a search takes a step for every digit or two.
+#[test]
+fn few_changed_frames_are_judged_for_a_margin() {
+    for (file, most) in [(wall(8, 8), 6), (arch(31, 0.3, 0.7), 60)] {
+        let frame = frames(&scene(&file)).remove(0);
+        let judged = judged(&frame);
+        assert!(judged <= most, "{judged} changed frames were judged");
+        let found = frame.margins.expect("asked for");
+        for margin in [&found.horizontal_load.left, &found.tilt.right] {
+            assert!(matches!(margin, Margin::Value { .. }), "{margin:?}");
+        }
+    }
+}
+
+#[test]
+fn a_margin_alone_is_what_it_is_among_all() {
+    let file = scene(&arch(15, 0.3, 0.7));
+    let all = frames(&file).remove(0);
+    let asked = Options {
+        margins: Ask::Yes,
+        margin_kinds: MarginKinds::of(&[MarginKind::Friction]),
+        ..Options::default()
+    };
+    let alone = Analysis::with(&file, &asked).frames.remove(0);
+    assert!(judged(&alone) < judged(&all));
+    let (all, alone) = (
+        all.margins.expect("asked for"),
+        alone.margins.expect("asked for"),
+    );
+    let [a, b] = [&all, &alone].map(|found| found.friction.at().expect("it slides"));
+    assert!((a - b).abs() < 1e-7, "{a} and {b}");
+    assert_eq!(alone.kernel, Margin::NotAsked);
+    assert_eq!(alone.tilt.left, Margin::NotAsked);
+    assert_eq!(alone.horizontal_load.right, Margin::NotAsked);
 }

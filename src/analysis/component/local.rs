@@ -13,8 +13,8 @@
 //!
 //! Each round brings bodies of smaller weight within the digits; sets within a set are treated alike.
 
-use super::Case;
 use super::forces::Carried;
+use super::{Case, Place};
 use crate::analysis::Verdict;
 use crate::assembly::Part;
 use crate::geometry::Vector;
@@ -117,6 +117,7 @@ impl Case<'_> {
             settings: self.settings.clone(),
             demand: self.demand,
             described: self.described,
+            place: Place::Anywhere,
         };
         // Loads near the smallest numbers there are have no scale of their own.
         let ratio = self.scale.force / case.scale.force;

@@ -6,6 +6,7 @@
 mod description;
 mod failure;
 mod forces;
+mod guess;
 mod hunch;
 mod ladder;
 mod local;
@@ -13,8 +14,9 @@ mod motion;
 mod question;
 mod rung;
 
+pub(super) use guess::Guesses;
 pub(super) use hunch::Hunch;
-pub(super) use question::{judged, only_by_wedging};
+pub(super) use question::{Ends, guessed, judged, learn, only_by_wedging};
 
 use super::{Ask, Failure, Options, Verdict};
 use crate::assembly::Assembly;
@@ -23,6 +25,7 @@ use crate::proof::{Demand, Forces, Motion, Proof, fastest};
 use crate::solve::{Amounts, Effort, Manner};
 use ladder::Decision;
 pub use rung::Method;
+pub(super) use rung::Place;
 
 /// What was found out about one component, forces in the order of its contacts and grips.
 #[derive(Clone, Debug)]
@@ -54,6 +57,7 @@ struct Case<'a> {
     demand: Demand,
     /// Whether what belongs to a verdict is found after it.
     described: bool,
+    place: Place,
 }
 
 /// Solves one component, proves its verdict, and finds what belongs to it.
@@ -91,6 +95,7 @@ impl<'a> Case<'a> {
             settings: options.manners(),
             demand: options.accuracy.demand(),
             described: options.verdict_only == Ask::No,
+            place: Place::Anywhere,
         }
     }
 

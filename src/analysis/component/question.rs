@@ -1,34 +1,106 @@
 //! Questions about a component beside what [`solved`](super::solved) finds out.
 
-use super::{Case, Findings};
-use crate::analysis::{Options, Verdict, Wedged};
+use super::ladder::Decision;
+use super::{Case, Findings, Guesses, Place};
+use crate::analysis::{Ask, Options, Verdict, Wedged};
 use crate::assembly::Assembly;
 use crate::effect::wedging::Wedging;
 use crate::program::Program;
-use crate::proof::Motion;
+use crate::proof::{Forces, Motion};
 use crate::scene::Scene;
-use crate::solve::{Reach, Squeeze, reach};
+use crate::solve::{Amounts, Effort, Reach, Squeeze, reach};
 
 /// Whether a component stands, and how it begins to move where it falls: the verdict of [`solved`](super::solved) without
-/// the rest.
-pub(in crate::analysis) fn judged(assembly: &Assembly) -> (Verdict, Vec<Motion>) {
-    let case = Case::of(assembly, Options::default());
+/// the rest. What is found is remembered among the guesses; where one of them is a proof already, no program is solved.
+pub(in crate::analysis) fn judged(
+    assembly: &Assembly,
+    place: Place,
+    guesses: &mut Guesses,
+) -> (Verdict, Vec<Motion>) {
+    let guess = guessed(assembly, guesses);
+    if guess.0 != Verdict::Undecided {
+        return guess;
+    }
+    let case = Case {
+        place,
+        ..Case::of(assembly, ALONE)
+    };
     let program = Program::of(assembly, case.scale);
     if let Some(found) = case.in_closed_form(&program) {
         return (found.verdict, found.mechanism);
     }
+    let decision = decided(&case, &program);
+    match decision.verdict {
+        Verdict::Stable => guesses.add_forces(assembly, case.carried(&decision.amounts).forces),
+        Verdict::Unstable => guesses.add_motion(decision.mechanism.clone()),
+        Verdict::Undecided => {}
+    }
+    (decision.verdict, decision.mechanism)
+}
+
+/// The same from the guesses alone; undecided where none is a proof.
+pub(in crate::analysis) fn guessed(
+    assembly: &Assembly,
+    guesses: &Guesses,
+) -> (Verdict, Vec<Motion>) {
+    let case = Case::of(assembly, ALONE);
+    if guesses.balances(&case) {
+        return (Verdict::Stable, Vec::new());
+    }
+    match guesses.falls(&case) {
+        Some(motion) => (Verdict::Unstable, motion),
+        None => (Verdict::Undecided, Vec::new()),
+    }
+}
+
+/// The verdict is all that margins want.
+const ALONE: Options = Options {
+    verdict_only: Ask::Yes,
+    ..Options::PLAIN
+};
+
+fn decided(case: &Case, program: &Program) -> Decision {
     // A motion that less limited robots cannot stop is a mechanism all the same.
     if let Some(generous) = program.without_lavish_limits() {
         let decision = case.decided(&generous);
         let allowed = || program.allows(&decision.amounts.grip);
         match decision.verdict {
-            Verdict::Unstable => return (Verdict::Unstable, decision.mechanism),
-            Verdict::Stable if allowed() => return (Verdict::Stable, Vec::new()),
+            Verdict::Unstable => return decision,
+            Verdict::Stable if allowed() => return decision,
             _ => {}
         }
     }
-    let decision = case.decided(&program);
-    (decision.verdict, decision.mechanism)
+    case.decided(program)
+}
+
+/// What a program found at the edge of standing, in its pure numbers.
+#[derive(Debug)]
+pub(in crate::analysis) struct Ends<'a> {
+    /// The program.
+    pub program: &'a Program,
+    /// Forces that balance just there, and the component on which they do.
+    pub forces: Option<(&'a Amounts, &'a Assembly)>,
+    /// The motion by which it begins to fall, and a component well beyond.
+    pub motion: Option<(&'a [f64], &'a Assembly)>,
+}
+
+/// Remembers what a program found at the edge; the forces in newtons are returned.
+pub(in crate::analysis) fn learn(ends: &Ends, guesses: &mut Guesses) -> Option<Forces> {
+    let case = |assembly| Case {
+        scale: ends.program.scale,
+        ..Case::of(assembly, ALONE)
+    };
+    if let Some((y, assembly)) = ends.motion {
+        let mut effort = Effort::default();
+        let found = case(assembly).falling(ends.program, y, &mut effort);
+        if let Some((motion, _)) = found {
+            guesses.add_motion(motion);
+        }
+    }
+    let (amounts, assembly) = ends.forces?;
+    let forces = case(assembly).carried(amounts).forces;
+    guesses.add_forces(assembly, forces.clone());
+    Some(forces)
 }
 
 /// Whether some component stands only by wedging, and what shows it; nothing is said where none surely does and some

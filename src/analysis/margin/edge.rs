@@ -1,11 +1,13 @@
 //! [`Edge`]: between a value at which a component stands and one at which it falls.
 //!
-//! A value from elsewhere is confirmed by judging just inside and just beyond it; without one, the edge is searched for
-//! by halving, to nine digits.
+//! A value from elsewhere is confirmed by judging just inside and just beyond it; without one, the edge is searched for:
+//! by Newton's steps where only the contacts change with the value, else by halving, to nine digits. A value that no verdict
+//! confirms on either side is withheld.
 
 use super::Margin;
 use super::trial::{Setting, Trial};
 use crate::analysis::Verdict;
+use crate::analysis::component::Place;
 use crate::proof::Motion;
 
 /// Which side of an edge stands.
@@ -21,9 +23,12 @@ pub(super) enum Way {
 pub(super) fn worse(part: &Margin, whole: &Margin, way: Way) -> bool {
     match (part, whole) {
         (Margin::None, _) => *whole != Margin::None,
-        (_, Margin::None) | (Margin::Unbounded, _) => false,
-        (_, Margin::Unbounded) => true,
-        (Margin::Value { at: a, .. }, Margin::Value { at: b, .. }) => match way {
+        (_, Margin::None) | (Margin::Unbounded | Margin::NotAsked, _) => false,
+        (_, Margin::Unbounded | Margin::NotAsked) => true,
+        (
+            Margin::Value { at: a, .. } | Margin::Unconfirmed { stands: a, .. },
+            Margin::Value { at: b, .. } | Margin::Unconfirmed { stands: b, .. },
+        ) => match way {
             Way::Most => a < b,
             Way::Least => a > b,
         },
@@ -48,13 +53,17 @@ pub(super) struct Edge {
 pub(super) enum Loads {
     /// Linearly: a mechanism at one value says up to which value it is one.
     Linear,
-    /// Not, or the contacts change with the value as well.
+    /// Not at all: only the contacts change with it, and what their forces do along a motion does so linearly.
+    Constant,
+    /// Not linearly.
     Other,
 }
 
 impl Edge {
     /// How far inside an edge it must stand, and from how far beyond it may be shown to fall; relative.
     const NEAR: f64 = 1e-6;
+    /// A motion found so far beyond an edge at most is near enough to confirm it.
+    const SURE: f64 = 256e-6;
     /// Steps away from an edge grow by this factor up to [`Edge::FAR`], as long as no proof convinces so close to it.
     const WIDER: f64 = 16.0;
     /// The largest step away from an edge within which it may stay undecided.
@@ -68,13 +77,15 @@ impl Edge {
         at: f64,
     ) -> Option<Margin> {
         let at = if at < 1e-9 * self.natural { 0.0 } else { at };
-        let mut step = Self::NEAR;
-        loop {
-            let inside = at - self.outward(at) * step;
-            match trial.judge(&setting(inside.max(0.0))).0 {
-                Verdict::Stable => break,
-                Verdict::Undecided if step < Self::FAR => step *= Self::WIDER,
-                _ => return None,
+        let guessed = self
+            .steps(at, Side::Inside)
+            .any(|inside| trial.guess(&setting(inside)).0 == Verdict::Stable);
+        if !guessed {
+            let mut verdicts = self
+                .steps(at, Side::Inside)
+                .map(|inside| trial.judge_at(&setting(inside), Place::AtEdge).0);
+            if verdicts.find(|v| *v != Verdict::Undecided) != Some(Verdict::Stable) {
+                return None;
             }
         }
         let mechanism = self.beyond(trial, setting, at)?;
@@ -113,6 +124,12 @@ impl Edge {
             Way::Most => (near, far),
             Way::Least => (far, near),
         };
+        if self.loads == Loads::Constant {
+            let found = self.stepped(trial, setting, [inside, outside]);
+            if let Some(found) = found.and_then(|at| self.confirmed(trial, setting, at)) {
+                return found;
+            }
+        }
         // The end of a mechanism is the edge itself as soon as it stands there.
         let mut end = None;
         let mut fresh = verdict == Verdict::Unstable;
@@ -146,13 +163,88 @@ impl Edge {
             .unwrap_or(inside);
         // What is left of the band around 0 is 0.
         let at = if at < 1e-6 * self.natural { 0.0 } else { at };
-        self.told(trial, setting, at)
+        let found = self.confirmed(trial, setting, at);
+        found.unwrap_or(Margin::Unconfirmed {
+            stands: inside,
+            beyond: outside,
+        })
     }
 
-    /// A value with its mechanism, or without one where none is proved.
-    pub fn told(&self, trial: &mut Trial, setting: &dyn Fn(f64) -> Setting, at: f64) -> Margin {
-        let mechanism = self.beyond(trial, setting, at).unwrap_or_default();
-        Margin::Value { at, mechanism }
+    /// The edge from Newton's steps on the least that forces leave unbalanced, seen from where it falls; `None` where they
+    /// lead nowhere.
+    ///
+    /// The forces and the motion that confirm it are remembered on the way.
+    fn stepped(
+        &self,
+        trial: &mut Trial,
+        setting: &dyn Fn(f64) -> Setting,
+        [mut inside, mut outside]: [f64; 2],
+    ) -> Option<f64> {
+        let within = |value: f64, a: f64, b: f64| (value - a) * (value - b) < 0.0;
+        let mut tangent = trial.tangent(&setting(outside))?;
+        // The latest falling ones, and the last standing one.
+        let (mut falling, mut standing) = (Vec::new(), None);
+        let mut edge = None;
+        for _ in 0..STEPS {
+            if tangent.left <= LEFT {
+                return None;
+            }
+            let size = inside.max(outside);
+            let root = trial.root(&tangent, setting, [outside, inside]);
+            let is_within = within(root, inside, outside);
+            falling.push((outside, tangent.clone()));
+            if (inside - outside).abs() <= CLOSE * size {
+                edge = Some(if is_within { root } else { inside });
+                break;
+            }
+            if is_within && (root - outside).abs() <= CLOSE * size {
+                edge = Some(root);
+                break;
+            }
+            let next = if is_within {
+                root
+            } else {
+                0.5 * (inside + outside)
+            };
+            let found = trial.tangent(&setting(next))?;
+            if found.left > LEFT {
+                (outside, tangent) = (next, found);
+                continue;
+            }
+            inside = next;
+            standing = Some((next, found));
+            // It stands where the step ended. Is the edge just there?
+            let beside = next + 0.4 * CLOSE * next.max(outside) * (outside - next).signum();
+            if is_within && within(beside, inside, outside) {
+                let found = trial.tangent(&setting(beside))?;
+                if found.left > LEFT {
+                    (outside, tangent) = (beside, found);
+                } else {
+                    inside = beside;
+                }
+            }
+        }
+        let at = edge?;
+        let away = |value: f64| (value - at).abs() / at.max(f64::MIN_POSITIVE);
+        let near = falling
+            .into_iter()
+            .rev()
+            .find(|(value, _)| (2.0 * Self::NEAR..0.9 * Self::SURE).contains(&away(*value)));
+        let falls = near.or_else(|| {
+            let value = self.steps(at, Side::Beyond).nth(1)?;
+            Some((value, trial.tangent(&setting(value))?))
+        });
+        let standing = standing.filter(|(value, _)| away(*value) <= Self::NEAR);
+        let stands = standing.or_else(|| {
+            let value = self.steps(at, Side::Inside).next()?;
+            Some((value, trial.tangent(&setting(value))?))
+        });
+        for (found, verdict) in [(falls, Verdict::Unstable), (stands, Verdict::Stable)] {
+            if let Some((value, tangent)) = found {
+                trial.learn_tangent(&tangent, &setting(value), verdict);
+            }
+        }
+        Some(at)
     }
 
     /// The mechanism just beyond an edge: at the nearest of growing steps where there is a proved one. Empty at a least
@@ -163,27 +255,61 @@ impl Edge {
         setting: &dyn Fn(f64) -> Setting,
         at: f64,
     ) -> Option<Vec<Motion>> {
-        let mut step = Self::NEAR;
-        while step < 0.5 {
-            let outside = at + self.outward(at) * step;
-            if outside < 0.0 || (outside > self.most && self.way == Way::Most) {
-                break;
-            }
-            let (verdict, motion) = trial.judge(&setting(outside));
-            if verdict == Verdict::Unstable {
-                return Some(motion);
-            }
-            step *= Self::WIDER;
+        if at == 0.0 && self.way == Way::Least {
+            return Some(Vec::new());
         }
-        (at == 0.0 && self.way == Way::Least).then(Vec::new)
+        let motion = |(verdict, motion)| (verdict == Verdict::Unstable).then_some(motion);
+        let guessed = self
+            .steps(at, Side::Beyond)
+            .find_map(|outside| motion(trial.guess(&setting(outside))));
+        guessed.or_else(|| {
+            self.steps(at, Side::Beyond)
+                .find_map(|outside| motion(trial.judge_at(&setting(outside), Place::AtEdge)))
+        })
     }
 
-    /// The size of an outward step of the whole value.
-    fn outward(&self, at: f64) -> f64 {
-        let size = if at > 0.0 { at } else { self.natural };
-        match self.way {
-            Way::Most => size,
-            Way::Least => -size,
-        }
+    /// A value, just inside of it, and well beyond.
+    pub fn beside(&self, at: f64) -> [f64; 3] {
+        let inside = self.steps(at, Side::Inside).next();
+        let beyond = self.steps(at, Side::Beyond).last();
+        [at, inside.unwrap_or(at), beyond.unwrap_or(at)]
     }
+
+    /// Values at growing steps from an edge.
+    fn steps(&self, at: f64, side: Side) -> impl Iterator<Item = f64> {
+        let size = if at > 0.0 { at } else { self.natural };
+        let sign = match (self.way, side) {
+            (Way::Most, Side::Beyond) | (Way::Least, Side::Inside) => size,
+            _ => -size,
+        };
+        let most = match self.way {
+            Way::Most => self.most,
+            Way::Least => f64::INFINITY,
+        };
+        let mut ended = false;
+        std::iter::successors(Some(Self::NEAR), |step| Some(step * Self::WIDER))
+            .take_while(|step| *step <= Self::FAR)
+            .map(move |step| (at + sign * step).clamp(0.0, most))
+            // Where there is no farther value, the last one is tried once.
+            .take_while(move |value| {
+                let last = *value == 0.0 || *value == most;
+                !std::mem::replace(&mut ended, last)
+            })
+    }
+}
+
+/// Newton's steps, and halvings between them, of one edge.
+const STEPS: usize = 24;
+
+/// How near, relatively, a standing and a falling value lie around a found edge.
+const CLOSE: f64 = 1e-6;
+
+/// What forces may leave unbalanced, in parts of the largest load, of what stands as far as the solver can tell.
+const LEFT: f64 = 1e-8;
+
+/// Which side of an edge is looked at.
+#[derive(Clone, Copy)]
+enum Side {
+    Inside,
+    Beyond,
 }

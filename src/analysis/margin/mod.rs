@@ -10,19 +10,24 @@
 //! the first one, seen from the frame as it is, is told.
 
 mod edge;
+mod kind;
 mod tilt;
 mod trial;
+mod withheld;
 
 use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
+use super::component::Findings;
 use super::{Key, Verdict};
 use crate::assembly::Assembly;
 use crate::proof::Motion;
 use crate::scene::RobotId;
 use crate::solve::{Limit, least, most};
 use edge::{Edge, Loads, Way};
+pub use kind::{MarginKind, MarginKinds};
+pub use trial::trials;
 use trial::{Limited, Setting, Trial};
 
 /// The end of what a frame bears in one direction.
@@ -39,6 +44,15 @@ pub enum Margin {
     None,
     /// It stands at any value.
     Unbounded,
+    /// The edge lies between, but no verdict was reached near enough to it on either side.
+    Unconfirmed {
+        /// Here it stands.
+        stands: f64,
+        /// Here it falls, or is undecided.
+        beyond: f64,
+    },
+    /// It was not asked for.
+    NotAsked,
 }
 
 impl Margin {
@@ -113,28 +127,43 @@ pub struct RobotMargins {
     pub torque: Margin,
 }
 
+/// One component whose margins are sought.
+pub(super) struct Part<'a> {
+    pub component: &'a Assembly,
+    pub key: &'a Key,
+    pub found: &'a Findings,
+}
+
+impl Part<'_> {
+    fn stands(&self) -> bool {
+        self.found.verdict == Verdict::Stable
+    }
+}
+
 /// Finds the margins of a frame from its components, and how many changed components were judged for it. A component whose
 /// margins were found in an earlier frame is not judged again.
 pub(super) fn of(
-    components: &[((&Assembly, &Key), Verdict)],
+    parts: &[Part],
+    kinds: MarginKinds,
     known: &mut BTreeMap<Key, Margins>,
 ) -> (Margins, usize) {
-    let fresh = components.iter().filter(|c| !known.contains_key(c.0.1));
-    let fresh: Vec<&((&Assembly, &Key), Verdict)> = fresh.collect();
-    let parts: Vec<(Key, Margins, usize)> = fresh
+    let fresh = parts.iter().filter(|part| !known.contains_key(part.key));
+    let fresh: Vec<&Part> = fresh.collect();
+    let found: Vec<(Key, Margins, usize)> = fresh
         .par_iter()
-        .map(|((component, key), verdict)| {
-            let mut trial = Trial::of(component);
-            let margins = of_component(&mut trial, *verdict == Verdict::Stable);
-            ((*key).clone(), margins, trial.judged)
+        .map(|part| {
+            let forces = part.stands().then_some(&part.found.forces);
+            let mut trial = Trial::of(part.component, forces);
+            let margins = of_component(&mut trial, part.stands(), kinds);
+            (part.key.clone(), margins, trial.judged)
         })
         .collect();
     let mut judged = 0;
-    for (key, margins, tries) in parts {
+    for (key, margins, tries) in found {
         known.insert(key, margins);
         judged += tries;
     }
-    let falling = components.iter().filter(|c| c.1 != Verdict::Stable).count();
+    let falling = parts.iter().filter(|part| !part.stands()).count();
     let mut whole = Margins {
         friction: Margin::Value {
             at: 0.0,
@@ -152,8 +181,8 @@ pub(super) fn of(
         load_factor: Margin::Unbounded,
         robots: Vec::new(),
     };
-    for ((_, key), verdict) in components {
-        let Some(part) = known.get(*key).cloned() else {
+    for component in parts {
+        let Some(part) = known.get(component.key).cloned() else {
             continue;
         };
         let worse = |whole: &mut Margin, part: Margin, way: Way| {
@@ -177,7 +206,7 @@ pub(super) fn of(
         worse(&mut whole.kernel, part.kernel, Way::Most);
         worse(&mut whole.load_factor, part.load_factor, Way::Most);
         // No robot can save a frame in which another component falls.
-        let others_fall = falling > usize::from(*verdict != Verdict::Stable);
+        let others_fall = falling > usize::from(!component.stands());
         whole.robots.extend(part.robots.into_iter().map(|robot| {
             if others_fall {
                 RobotMargins {
@@ -193,11 +222,35 @@ pub(super) fn of(
     }
     // Holds stand by robot number in a frame.
     whole.robots.sort_by_key(|r| r.robot);
-    (whole, judged)
+    (only(whole, kinds), judged)
 }
 
-fn of_component(trial: &mut Trial, stands: bool) -> Margins {
-    let robots = trial.holds().into_iter().enumerate();
+/// The margins that were asked for.
+fn only(found: Margins, kinds: MarginKinds) -> Margins {
+    let or_not = |kind: MarginKind, margin: Margin| match kinds.has(kind) {
+        true => margin,
+        false => Margin::NotAsked,
+    };
+    let sides = |kind: MarginKind, sides: Sides| Sides {
+        left: or_not(kind, sides.left),
+        right: or_not(kind, sides.right),
+    };
+    Margins {
+        friction: or_not(MarginKind::Friction, found.friction),
+        tilt: sides(MarginKind::Tilt, found.tilt),
+        horizontal_load: sides(MarginKind::HorizontalLoad, found.horizontal_load),
+        kernel: or_not(MarginKind::Kernel, found.kernel),
+        load_factor: or_not(MarginKind::LoadFactor, found.load_factor),
+        robots: found.robots,
+    }
+}
+
+fn of_component(trial: &mut Trial, stands: bool, kinds: MarginKinds) -> Margins {
+    let holds = match kinds.has(MarginKind::Robots) {
+        true => trial.holds(),
+        false => Vec::new(),
+    };
+    let robots = holds.into_iter().enumerate();
     let robots = robots.map(|(grip, robot)| {
         let [fx, fy, torque] = [0, 1, 2].map(|component| limit(trial, grip, component));
         RobotMargins {
@@ -208,19 +261,40 @@ fn of_component(trial: &mut Trial, stands: bool) -> Margins {
         }
     });
     let robots = robots.collect();
-    let horizontal_load = Sides {
-        left: horizontal(trial, -1.0, stands),
-        right: horizontal(trial, 1.0, stands),
+    let of = |kind: MarginKind, trial: &mut Trial, find: &dyn Fn(&mut Trial) -> Margin| {
+        if kinds.has(kind) {
+            find(trial)
+        } else {
+            Margin::NotAsked
+        }
     };
+    // A tilt of plain weights follows from the horizontal share.
+    let with_tilt = kinds.has(MarginKind::Tilt);
+    let [left, right] = [-1.0, 1.0].map(|side| {
+        let share = if kinds.has(MarginKind::HorizontalLoad) || with_tilt {
+            horizontal(trial, side, stands)
+        } else {
+            Margin::NotAsked
+        };
+        let tilt = of(MarginKind::Tilt, trial, &|trial| {
+            tilt::tilt(trial, side, stands, &share)
+        });
+        (share, tilt)
+    });
     Margins {
-        friction: friction(trial),
+        friction: of(MarginKind::Friction, trial, &friction),
         tilt: Sides {
-            left: tilt::tilt(trial, -1.0, stands, &horizontal_load.left),
-            right: tilt::tilt(trial, 1.0, stands, &horizontal_load.right),
+            left: left.1,
+            right: right.1,
         },
-        horizontal_load,
-        kernel: kernel(trial),
-        load_factor: load_factor(trial, stands),
+        horizontal_load: Sides {
+            left: left.0,
+            right: right.0,
+        },
+        kernel: of(MarginKind::Kernel, trial, &kernel),
+        load_factor: of(MarginKind::LoadFactor, trial, &|trial| {
+            load_factor(trial, stands)
+        }),
         robots,
     }
 }
@@ -232,7 +306,7 @@ fn friction(trial: &mut Trial) -> Margin {
     };
     Edge {
         way: Way::Least,
-        loads: Loads::Other,
+        loads: Loads::Constant,
         natural: 1.0,
         most: Margins::MOST_FRICTION,
     }
@@ -246,7 +320,7 @@ fn kernel(trial: &mut Trial) -> Margin {
     };
     Edge {
         way: Way::Most,
-        loads: Loads::Other,
+        loads: Loads::Constant,
         natural: 1.0,
         most: 1.0,
     }
@@ -265,7 +339,7 @@ fn horizontal(trial: &mut Trial, side: f64, stands: bool) -> Margin {
         limits: Limited::Unlimited,
         ..Setting::default()
     };
-    linear(trial, &setting, alone, stands)
+    linear(trial, &setting, alone, stands.then_some(0.0))
 }
 
 fn load_factor(trial: &mut Trial, stands: bool) -> Margin {
@@ -279,7 +353,7 @@ fn load_factor(trial: &mut Trial, stands: bool) -> Margin {
         ..Setting::default()
     };
     if trial.is_loaded() {
-        linear(trial, &setting, alone, stands)
+        linear(trial, &setting, alone, stands.then_some(1.0))
     } else if stands {
         Margin::Unbounded
     } else {
@@ -288,12 +362,12 @@ fn load_factor(trial: &mut Trial, stands: bool) -> Margin {
 }
 
 /// The largest value of a setting in which the loads are linear. `alone` has only what grows: if what needs no limit of
-/// any robot carries that, nothing bounds it.
+/// any robot carries that, nothing bounds it. `base` is the value at which the component is as given, where it stands there.
 fn linear(
     trial: &mut Trial,
     setting: &dyn Fn(f64) -> Setting,
     alone: Setting,
-    stands: bool,
+    base: Option<f64>,
 ) -> Margin {
     let edge = Edge {
         way: Way::Most,
@@ -303,16 +377,19 @@ fn linear(
     };
     let (program, toward) = trial.direction(&setting(0.0), &setting(1.0));
     let stands_unloaded = |trial: &mut Trial| trial.judge(&setting(0.0)).0 == Verdict::Stable;
-    match most(&program, &toward) {
-        Limit::Never if !stands && !stands_unloaded(trial) => Margin::None,
+    let found = most(&program, &toward);
+    match found.limit {
+        Limit::Never if base.is_none() && !stands_unloaded(trial) => Margin::None,
         // It stands within the proof's band and not beyond it: on the edge.
         Limit::Never => edge
             .confirmed(trial, setting, 0.0)
             .unwrap_or_else(|| edge.searched(trial, setting)),
         Limit::Unbounded if trial.judge(&alone).0 == Verdict::Stable => Margin::Unbounded,
-        Limit::At(at) => edge
-            .confirmed(trial, setting, at)
-            .unwrap_or_else(|| edge.searched(trial, setting)),
+        Limit::At(at) => {
+            trial.learn_edge(&program, &found, edge.beside(at), setting, base);
+            edge.confirmed(trial, setting, at)
+                .unwrap_or_else(|| edge.searched(trial, setting))
+        }
         _ => edge.searched(trial, setting),
     }
 }
@@ -337,11 +414,15 @@ fn limit(trial: &mut Trial, grip: usize, component: usize) -> Margin {
         natural: unit * crate::program::Scale::HEAVIEST,
         most: 1e6 * unit * crate::program::Scale::HEAVIEST,
     };
-    match least(&program, grip, component) {
+    let found = least(&program, grip, component);
+    match found.limit {
         Limit::Never => Margin::None,
-        Limit::At(at) => edge
-            .confirmed(trial, &setting, at * unit)
-            .unwrap_or_else(|| edge.searched(trial, &setting)),
+        Limit::At(at) => {
+            let at = at * unit;
+            trial.learn_edge(&program, &found, edge.beside(at), &setting, None);
+            edge.confirmed(trial, &setting, at)
+                .unwrap_or_else(|| edge.searched(trial, &setting))
+        }
         _ => edge.searched(trial, &setting),
     }
 }

@@ -29,7 +29,19 @@ pub(super) fn tilt(trial: &mut Trial, side: f64, stands: bool, horizontal: &Marg
     };
     match exit.map(f64::to_degrees) {
         None => Margin::Unbounded,
-        Some(at) => edge.told(trial, &setting, if at < 1e-5 { 0.0 } else { at }),
+        Some(at) => {
+            let at = if at < 1e-5 { 0.0 } else { at };
+            let found = edge.confirmed(trial, &setting, at);
+            found.unwrap_or_else(|| {
+                let wider = std::iter::successors(Some(0.01), |step| Some(step * 4.0));
+                let mut turns = wider.map(|step| at + step).take_while(|turn| *turn < 180.0);
+                let falls = |turn: &f64| trial.judge(&setting(*turn)).0 == Verdict::Unstable;
+                Margin::Unconfirmed {
+                    stands: at,
+                    beyond: turns.find(falls).unwrap_or(180.0),
+                }
+            })
+        }
     }
 }
 
@@ -51,7 +63,11 @@ fn of_weights(trial: &mut Trial, side: f64, horizontal: &Margin) -> Margin {
     };
     match horizontal {
         Margin::Value { at, mechanism } => angle(0.0, *at, mechanism),
-        Margin::None => Margin::None,
+        Margin::Unconfirmed { stands, beyond } => Margin::Unconfirmed {
+            stands: libm::atan(*stands).to_degrees(),
+            beyond: libm::atan(*beyond).to_degrees(),
+        },
+        Margin::None | Margin::NotAsked => horizontal.clone(),
         Margin::Unbounded => {
             let lifted = |share: f64| Setting {
                 along: -share,
@@ -62,7 +78,7 @@ fn of_weights(trial: &mut Trial, side: f64, horizontal: &Margin) -> Margin {
                 along: -1.0,
                 ..Setting::default()
             };
-            match linear(trial, &lifted, alone, true) {
+            match linear(trial, &lifted, alone, Some(f64::INFINITY)) {
                 Margin::Value { at, mechanism } => angle(FRAC_PI_2, at, &mechanism),
                 other => other,
             }

@@ -1,12 +1,26 @@
 //! [`Trial`]: one component with something about it changed, judged as any other.
+//!
+//! What balanced one changed component, and by what motion another fell, is remembered: where it proves the verdict of the
+//! next one no program is solved for that.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::analysis::Verdict;
-use crate::analysis::component::judged;
+use crate::analysis::component::{Ends, Guesses, Place, guessed, judged, learn};
 use crate::assembly::{Assembly, LoadVector};
 use crate::geometry::quarter_turn;
 use crate::program::{Program, Scale};
-use crate::proof::Motion;
+use crate::proof::{Forces, Held, Motion, Pressed};
 use crate::scene::{Limits, RobotId};
+use crate::solve::{Extreme, Tangent};
+
+/// Changed components judged by this process, for who waits to see that it lives.
+static TRIALS: AtomicUsize = AtomicUsize::new(0);
+
+/// How many changed components this process has judged for margins so far: for a progress bar.
+pub fn trials() -> usize {
+    TRIALS.load(Ordering::Relaxed)
+}
 
 /// What is changed about a component; by default nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,13 +73,26 @@ impl Default for Setting {
 /// One component of a frame, to be changed and judged as often as wanted.
 pub(super) struct Trial<'a> {
     given: &'a Assembly,
+    /// The forces of the component as it is, where it stands.
+    forces: Option<&'a Forces>,
+    guesses: Guesses,
     /// How many settings were judged.
     pub judged: usize,
 }
 
 impl<'a> Trial<'a> {
-    pub fn of(given: &'a Assembly) -> Trial<'a> {
-        Trial { given, judged: 0 }
+    /// A component, with the forces that balance it where it stands.
+    pub fn of(given: &'a Assembly, forces: Option<&'a Forces>) -> Trial<'a> {
+        let mut guesses = Guesses::default();
+        if let Some(forces) = forces {
+            guesses.add_forces(given, forces.clone());
+        }
+        Trial {
+            given,
+            forces,
+            guesses,
+            judged: 0,
+        }
     }
 
     /// The robots that hold a body of the component, grip by grip.
@@ -92,8 +119,82 @@ impl<'a> Trial<'a> {
 
     /// Whether the changed component stands, and how it begins to move where it falls.
     pub fn judge(&mut self, setting: &Setting) -> (Verdict, Vec<Motion>) {
+        self.judge_at(setting, Place::Anywhere)
+    }
+
+    /// The same of a component of which it is known where it is.
+    pub fn judge_at(&mut self, setting: &Setting, place: Place) -> (Verdict, Vec<Motion>) {
+        self.count();
+        judged(&self.changed(setting), place, &mut self.guesses)
+    }
+
+    /// The same where something remembered proves it; undecided elsewhere.
+    pub fn guess(&self, setting: &Setting) -> (Verdict, Vec<Motion>) {
+        guessed(&self.changed(setting), &self.guesses)
+    }
+
+    /// The least that forces leave unbalanced of the changed component, and how it changes.
+    pub fn tangent(&mut self, setting: &Setting) -> Option<Tangent> {
+        self.count();
+        Tangent::of(&self.program(setting))
+    }
+
+    fn count(&mut self) {
         self.judged += 1;
-        judged(&self.changed(setting))
+        TRIALS.fetch_add(1, Ordering::Relaxed);
+    }
+
+    /// Where the least leftover would vanish, if it went on as it does at one value, of which the tangent is.
+    pub fn root(
+        &self,
+        tangent: &Tangent,
+        setting: &dyn Fn(f64) -> Setting,
+        [from, to]: [f64; 2],
+    ) -> f64 {
+        let there = tangent.of_sibling(&self.program(&setting(to)));
+        from + (to - from) * tangent.left / (tangent.left - there)
+    }
+
+    /// Remembers the forces and the motion of a tangent, those of a standing and this of a falling setting.
+    pub fn learn_tangent(&mut self, tangent: &Tangent, setting: &Setting, verdict: Verdict) {
+        let changed = self.changed(setting);
+        let program = Program::of(&changed, Scale::of_assembly(&changed));
+        let (forces, motion) = (tangent.forces(&program), tangent.motion());
+        let ends = Ends {
+            program: &program,
+            forces: (verdict == Verdict::Stable).then_some((&forces, &changed)),
+            motion: (verdict == Verdict::Unstable).then_some((&motion[..], &changed)),
+        };
+        learn(&ends, &mut self.guesses);
+    }
+
+    /// Remembers what one program found at the edge: the forces there, the motion well beyond, and, where the loads are
+    /// linear and `base` is the value at which the component is as given, forces just inside.
+    pub fn learn_edge(
+        &mut self,
+        program: &Program,
+        extreme: &Extreme,
+        [at, inside, beyond]: [f64; 3],
+        setting: &dyn Fn(f64) -> Setting,
+        base: Option<f64>,
+    ) {
+        let [here, there] = [at, beyond].map(|value| self.changed(&setting(value)));
+        let ends = Ends {
+            program,
+            forces: extreme.forces.as_ref().map(|forces| (forces, &here)),
+            motion: extreme.motion.as_ref().map(|y| (&y[..], &there)),
+        };
+        let found = learn(&ends, &mut self.guesses);
+        if let (Some(last), Some(first), Some(base)) = (found, self.forces, base)
+            && at != base
+        {
+            let share = (inside - base) / (at - base);
+            if (0.0..=1.0).contains(&share) {
+                let changed = self.changed(&setting(inside));
+                let between = between(first, &last, share);
+                self.guesses.add_forces(&changed, between);
+            }
+        }
     }
 
     /// The value up to which a motion is a mechanism, where the loads are linear in the value: there they do no work.
@@ -188,5 +289,24 @@ fn limits(given: Limits, number: usize, setting: Limited) -> Limits {
             },
         },
         _ => given,
+    }
+}
+
+/// Forces a share of the way from some to others: what is admissible is convex.
+fn between(first: &Forces, last: &Forces, share: f64) -> Forces {
+    let mix = |a: f64, b: f64| a + share * (b - a);
+    let contacts = first.contacts.iter().zip(&last.contacts);
+    let contacts = contacts.map(|(a, b)| Pressed {
+        normal: [0, 1].map(|k| mix(a.normal[k], b.normal[k])),
+        friction: mix(a.friction, b.friction),
+    });
+    let grips = first.grips.iter().zip(&last.grips);
+    let grips = grips.map(|(a, b)| Held {
+        force: a.force + (b.force - a.force) * share,
+        torque: mix(a.torque, b.torque),
+    });
+    Forces {
+        contacts: contacts.collect(),
+        grips: grips.collect(),
     }
 }

@@ -25,34 +25,21 @@ pub struct Bullet {
     pub short: String,
 }
 
-/// The margins of a frame as bars; none where they were not asked for.
+/// The margins of a frame as bars, those that were asked for.
 pub fn of(scene: &Scene, found: &FrameAnalysis) -> Vec<Bullet> {
     let Some(margins) = &found.margins else {
         return Vec::new();
     };
-    let mut bullets = vec![friction(found, margins)];
-    bullets.push(sided("tilt of gravity", "°", &margins.tilt, 90.0, UNTURNED));
     let share = &margins.horizontal_load;
-    bullets.push(sided(
-        "horizontal share of the weights",
-        "",
-        share,
-        1.0,
-        NONE,
-    ));
-    bullets.push(upwards(
-        "safety kernel",
-        &margins.kernel,
-        scene.kernel,
-        Some(1.0),
-    ));
+    let mut bullets = vec![
+        friction(found, margins),
+        sided("tilt of gravity", "°", &margins.tilt, 90.0, UNTURNED),
+        sided("horizontal share of the weights", "", share, 1.0, NONE),
+        upwards("safety kernel", &margins.kernel, scene.kernel, Some(1.0)),
+    ];
     if !scene.loads.is_empty() {
-        bullets.push(upwards(
-            "factor on the loads",
-            &margins.load_factor,
-            1.0,
-            None,
-        ));
+        let factor = &margins.load_factor;
+        bullets.push(upwards("factor on the loads", factor, 1.0, None));
     }
     for robot in &margins.robots {
         let arm = &scene.robots[robot.robot.0];
@@ -66,7 +53,15 @@ pub fn of(scene: &Scene, found: &FrameAnalysis) -> Vec<Bullet> {
             bullets.push(needed(&name, unit, margin, limit));
         }
     }
-    bullets
+    bullets.into_iter().flatten().collect()
+}
+
+/// How far a frame is known to stand: up to the edge, or, where no verdict confirmed one, up to where it was seen to stand.
+fn known(margin: &Margin) -> Option<f64> {
+    match margin {
+        Margin::Value { at, .. } | Margin::Unconfirmed { stands: at, .. } => Some(*at),
+        Margin::None | Margin::Unbounded | Margin::NotAsked => None,
+    }
 }
 
 /// The bullet with the least reserve.
@@ -76,32 +71,32 @@ pub fn closest(bullets: &[Bullet]) -> Option<&Bullet> {
         .min_by(|a, b| a.reserve.total_cmp(&b.reserve))
 }
 
-fn friction(found: &FrameAnalysis, margins: &Margins) -> Bullet {
+fn friction(found: &FrameAnalysis, margins: &Margins) -> Option<Bullet> {
     let all = found.contacts.iter().map(|c| c.interface.friction);
     let least = all.fold(f64::INFINITY, f64::min);
     let have = if least.is_finite() { least } else { 0.0 };
-    let needed = needed("friction coefficient, least", "", &margins.friction, have);
-    Bullet {
+    let needed = needed("friction coefficient, least", "", &margins.friction, have)?;
+    Some(Bullet {
         name: "friction coefficient".into(),
         ..needed
-    }
+    })
 }
 
 /// What must be at least so much, and is so much.
-fn needed(name: &str, unit: &str, margin: &Margin, have: f64) -> Bullet {
+fn needed(name: &str, unit: &str, margin: &Margin, have: f64) -> Option<Bullet> {
+    if *margin == Margin::NotAsked {
+        return None;
+    }
     let gap = if unit.is_empty() { "" } else { " " };
-    let need = margin.at();
+    let need = known(margin);
     let top = [Some(have), need]
         .into_iter()
         .flatten()
         .filter(|v| v.is_finite())
         .fold(0.0, f64::max);
     let top = if top > 0.0 { 1.25 * top } else { 1.0 };
-    let safe = match margin {
-        Margin::Value { at, .. } => Some((*at, top)),
-        Margin::Unbounded => Some((0.0, top)),
-        Margin::None => None,
-    };
+    let unbounded = *margin == Margin::Unbounded;
+    let safe = need.or(unbounded.then_some(0.0)).map(|from| (from, top));
     let has = if have.is_finite() {
         format!("has {}{gap}{unit}", digits(have))
     } else {
@@ -111,11 +106,11 @@ fn needed(name: &str, unit: &str, margin: &Margin, have: f64) -> Bullet {
         Some(need) if need <= 0.0 || have.is_infinite() => 1.0,
         Some(need) if have > 0.0 => (1.0 - need / have).max(0.0),
         Some(_) => 0.0,
-        None if *margin == Margin::Unbounded => 1.0,
+        None if unbounded => 1.0,
         None => 0.0,
     };
     let shown = value(margin, &format!("{gap}{unit}"), NONE);
-    Bullet {
+    Some(Bullet {
         name: name.into(),
         words: match margin {
             Margin::None => format!("falls at any; {has}"),
@@ -129,35 +124,33 @@ fn needed(name: &str, unit: &str, margin: &Margin, have: f64) -> Bullet {
             "{}: needs {shown}, {has}",
             name.split(',').next().unwrap_or(name)
         ),
-    }
+    })
 }
 
 /// What may grow to either side, from nothing.
-fn sided(name: &str, unit: &str, sides: &Sides, all: f64, none: &str) -> Bullet {
+fn sided(name: &str, unit: &str, sides: &Sides, all: f64, none: &str) -> Option<Bullet> {
+    if sides.left == Margin::NotAsked {
+        return None;
+    }
     let [left, right] = [&sides.left, &sides.right];
     let most = [left, right]
         .into_iter()
-        .filter_map(Margin::at)
+        .filter_map(known)
         .fold(0.0, f64::max);
     let top = if most > 0.0 { 1.25 * most } else { all };
-    let reach = |margin: &Margin| match margin {
-        Margin::Value { at, .. } => *at,
-        Margin::Unbounded => top,
-        Margin::None => 0.0,
+    let ends = |margin: &Margin, endless: f64| match margin {
+        Margin::Unbounded => endless,
+        _ => known(margin).unwrap_or(0.0),
     };
     let falls = *left == Margin::None && *right == Margin::None;
-    let share = |margin: &Margin| match margin {
-        Margin::Value { at, .. } => (at / all).min(1.0),
-        Margin::Unbounded => 1.0,
-        Margin::None => 0.0,
-    };
+    let share = |margin: &Margin| (ends(margin, all) / all).min(1.0);
     let (least, side) = if share(left) <= share(right) {
         (left, "left")
     } else {
         (right, "right")
     };
     let [to_left, to_right] = [left, right].map(|m| value(m, unit, none));
-    Bullet {
+    Some(Bullet {
         name: if unit.is_empty() {
             name.into()
         } else {
@@ -169,25 +162,28 @@ fn sided(name: &str, unit: &str, sides: &Sides, all: f64, none: &str) -> Bullet 
             format!("{to_left} to the left, {to_right} to the right")
         },
         scale: (-top, top),
-        safe: (!falls).then(|| (-reach(left), reach(right))),
+        safe: (!falls).then(|| (-ends(left, top), ends(right, top))),
         now: Some(0.0),
         reserve: share(least),
         short: format!("{name}: {} {side}", value(least, unit, none)),
-    }
+    })
 }
 
 /// What may grow from where it is.
-fn upwards(name: &str, margin: &Margin, now: f64, end: Option<f64>) -> Bullet {
-    let at = margin.at();
+fn upwards(name: &str, margin: &Margin, now: f64, end: Option<f64>) -> Option<Bullet> {
+    if *margin == Margin::NotAsked {
+        return None;
+    }
+    let at = known(margin);
     let top = end.unwrap_or_else(|| 1.25 * at.unwrap_or(now).max(now));
-    let reserve = match (margin, end) {
-        (Margin::Value { at, .. }, Some(end)) => ((at - now) / (end - now).max(1e-9)).max(0.0),
-        (Margin::Value { at, .. }, None) => (1.0 - now / at.max(1e-300)).max(0.0),
-        (Margin::Unbounded, _) => 1.0,
-        (Margin::None, _) => 0.0,
+    let reserve = match (at, end) {
+        (Some(at), Some(end)) => ((at - now) / (end - now).max(1e-9)).max(0.0),
+        (Some(at), None) => (1.0 - now / at.max(1e-300)).max(0.0),
+        (None, _) if *margin == Margin::Unbounded => 1.0,
+        (None, _) => 0.0,
     };
     let shown = value(margin, "", NONE);
-    Bullet {
+    Some(Bullet {
         name: name.into(),
         words: match margin {
             Margin::None => format!("falls at any; has {}", digits(now)),
@@ -195,12 +191,11 @@ fn upwards(name: &str, margin: &Margin, now: f64, end: Option<f64>) -> Bullet {
         },
         scale: (0.0, top),
         safe: match margin {
-            Margin::Value { at, .. } => Some((0.0, *at)),
             Margin::Unbounded => Some((0.0, top)),
-            Margin::None => None,
+            _ => at.map(|at| (0.0, at)),
         },
         now: Some(now),
         reserve: reserve.min(1.0),
         short: format!("{name}: up to {shown}, has {}", digits(now)),
-    }
+    })
 }

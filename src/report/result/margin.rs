@@ -1,6 +1,7 @@
 //! Margins as JSON: a number, `null` where a frame falls at any value, `"unbounded"` where it stands at any.
 //!
-//! A tilt of `null` says that the frame falls unturned; it may stand turned.
+//! A tilt of `null` says that the frame falls unturned; it may stand turned. A margin that no verdict confirms is `null` as
+//! well, and a notice of the frame says between which values it lies. What was not asked for is absent.
 
 use serde::{Serialize, Serializer};
 
@@ -10,10 +11,15 @@ use crate::scene::Scene;
 
 #[derive(Serialize)]
 pub(super) struct Margins<'a> {
+    #[serde(skip_serializing_if = "End::is_left_out")]
     friction: End,
+    #[serde(skip_serializing_if = "Sides::is_left_out")]
     tilt: Sides<End>,
+    #[serde(skip_serializing_if = "Sides::is_left_out")]
     horizontal_load: Sides<End>,
+    #[serde(skip_serializing_if = "End::is_left_out")]
     kernel: End,
+    #[serde(skip_serializing_if = "End::is_left_out")]
     load_factor: End,
     robots: Named<'a, Limits<End>>,
     mechanisms: Mechanisms<'a>,
@@ -49,6 +55,20 @@ enum End {
     At(Number),
     None,
     Unbounded(&'static str),
+    /// Left out of the object.
+    NotAsked,
+}
+
+impl End {
+    fn is_left_out(&self) -> bool {
+        matches!(self, End::NotAsked)
+    }
+}
+
+impl Sides<End> {
+    fn is_left_out(&self) -> bool {
+        self.left.is_left_out()
+    }
 }
 
 /// An object whose keys stand in the order of the list.
@@ -66,7 +86,7 @@ impl<'a> Margins<'a> {
             Margin::Value { mechanism, .. } => {
                 mechanism.iter().map(|m| Motion::of(scene, m)).collect()
             }
-            Margin::None | Margin::Unbounded => Vec::new(),
+            _ => Vec::new(),
         };
         Margins {
             friction: end(&found.friction),
@@ -90,7 +110,8 @@ impl<'a> Margins<'a> {
 fn end(margin: &Margin) -> End {
     match margin {
         Margin::Value { at, .. } => End::At(Number(*at)),
-        Margin::None => End::None,
+        Margin::None | Margin::Unconfirmed { .. } => End::None,
+        Margin::NotAsked => End::NotAsked,
         Margin::Unbounded => End::Unbounded("unbounded"),
     }
 }

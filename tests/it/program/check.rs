@@ -129,6 +129,31 @@ fn margins_are_there_where_asked_for() {
 }
 
 #[test]
+fn some_margins_can_be_asked_for_alone() {
+    let bench = Bench::new();
+    for line in [
+        "check --json --margins friction,tilt falls.json",
+        "check --json --margins=friction,tilt falls.json",
+        "check falls.json --json --margins tilt,friction",
+    ] {
+        let asked: Value = serde_json::from_str(&bench.run(line).out).expect("JSON");
+        let margins = asked["frames"][1]["margins"].as_object().expect("margins");
+        let mut keys: Vec<&str> = margins.keys().map(String::as_str).collect();
+        keys.sort_unstable();
+        assert_eq!(keys, ["friction", "mechanisms", "robots", "tilt"], "{line}");
+        assert!(margins["robots"].as_object().expect("an object").is_empty());
+    }
+    let told = bench.run("check --margins kernel stands.json").out;
+    assert!(
+        told.contains("largest kernel: ") && !told.contains("least friction: "),
+        "{told}"
+    );
+    let wrong = bench.run("check --margins fricton,tilt stands.json");
+    assert_eq!(wrong.code, 2);
+    assert!(wrong.err.contains("friction"), "{}", wrong.err);
+}
+
+#[test]
 fn the_verdict_alone_has_the_same_shape() {
     let bench = Bench::new();
     let object =

@@ -38,6 +38,15 @@ impl Method {
     }
 }
 
+/// Where a component is, as far as that is known beforehand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::analysis) enum Place {
+    /// Nothing is known.
+    Anywhere,
+    /// At the edge of standing.
+    AtEdge,
+}
+
 /// One program that may decide: the program of the least …
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Rung {
@@ -73,9 +82,15 @@ impl Rung {
     /// Least force first, as nearly every component is decided there; then the least residual, which has an optimum on
     /// either side of the edge; then least force with full precision; last the least sticking, whose optimum is the
     /// physical residual.
-    pub fn ladder(settings: &[Manner]) -> Vec<Rung> {
+    ///
+    /// What is known to be at its edge begins with the least residual: the least force would end without a status there.
+    pub fn ladder(settings: &[Manner], place: Place) -> Vec<Rung> {
         let mut rungs: Vec<Rung> = settings.iter().copied().map(Rung::Force).collect();
-        rungs.insert(1.min(rungs.len()), Rung::Residual);
+        let residual = match place {
+            Place::Anywhere => 1.min(rungs.len()),
+            Place::AtEdge => 0,
+        };
+        rungs.insert(residual, Rung::Residual);
         rungs.extend(settings.iter().copied().map(Rung::Sticking));
         rungs
     }

@@ -1,0 +1,50 @@
+//! [`MarginKinds`]: which margins are asked for.
+
+/// One margin of a frame, or a pair of them, by its name in results.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MarginKind {
+    /// [`Margins::friction`](super::Margins::friction).
+    Friction,
+    /// [`Margins::tilt`](super::Margins::tilt), to both sides.
+    Tilt,
+    /// [`Margins::horizontal_load`](super::Margins::horizontal_load), to both sides.
+    HorizontalLoad,
+    /// [`Margins::kernel`](super::Margins::kernel).
+    Kernel,
+    /// [`Margins::load_factor`](super::Margins::load_factor).
+    LoadFactor,
+    /// [`Margins::robots`](super::Margins::robots), every limit of every robot.
+    Robots,
+}
+
+/// A set of margins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MarginKinds {
+    bits: u8,
+}
+
+impl MarginKinds {
+    /// All of them.
+    pub const ALL: MarginKinds = MarginKinds { bits: 0b11_1111 };
+
+    /// Those of a list.
+    pub fn of(list: &[MarginKind]) -> MarginKinds {
+        let bits = list.iter().fold(0, |bits, kind| bits | bit(*kind));
+        MarginKinds { bits }
+    }
+
+    /// Whether a margin is among them.
+    pub fn has(self, kind: MarginKind) -> bool {
+        self.bits & bit(kind) != 0
+    }
+}
+
+impl Default for MarginKinds {
+    fn default() -> MarginKinds {
+        MarginKinds::ALL
+    }
+}
+
+fn bit(kind: MarginKind) -> u8 {
+    1 << kind as u8
+}
