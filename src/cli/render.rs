@@ -1,6 +1,7 @@
 //! `drystone render`: scenes in, figures out.
 
 mod choice;
+mod pair;
 mod target;
 
 use std::path::{Path, PathBuf};
@@ -294,59 +295,6 @@ impl Render {
             _ => return Ok(()),
         };
         Err(Complaint::CommandLine(why))
-    }
-
-    /// Whether two scenes become one figure that compares them.
-    fn joins(&self, scenes: usize, destination: &Destination) -> bool {
-        matches!(self.kind, Kind::Compare)
-            && scenes == 2
-            && !matches!(destination, Destination::Folder(_))
-    }
-
-    /// The last frames of two scenes side by side, with what changed from the one to the other.
-    fn compared(
-        &self,
-        sources: [&Source; 2],
-        asked: &analysis::Options,
-        options: &figure::Options,
-        format: Format,
-        fonts: &Fonts,
-    ) -> Result<Rendered, Complaint> {
-        if self.zoom.is_some() || self.panels || self.pages || self.animate.is_some() {
-            let why = "a comparison of two scenes is one picture; leave out --zoom, --panels, --pages and --animate";
-            return Err(Complaint::CommandLine(why.into()));
-        }
-        let scenes = sources.map(|source| {
-            if self.picture.draws_words(format) {
-                script::legible(&source.scene, fonts)
-            } else {
-                source.scene.clone()
-            }
-        });
-        let [before, after] = [&scenes[0], &scenes[1]].map(|s| Analysis::with(s, asked));
-        let title = |number: usize| match scenes[number].title.as_str() {
-            title if title.is_empty() || scenes[0].title == scenes[1].title => {
-                sources[number].stem()
-            }
-            title => title.to_owned(),
-        };
-        let last = |analysis: &Analysis<'_>| analysis.frames.len() - 1;
-        let (a, b) = ((&before, last(&before)), (&after, last(&after)));
-        let (scene, frames) = analysis::pair(a, b, [title(0), title(1)]).map_err(|why| {
-            let names = sources.map(Source::name);
-            Complaint::CommandLine(format!("{} and {}: {why}", names[0], names[1]))
-        })?;
-        let joined = Analysis {
-            scene: &scene,
-            frames,
-            notes: Vec::new(),
-        };
-        let drawing = figure::draw(&joined, figure::Kind::Compare, options);
-        Ok(Rendered {
-            bytes: vec![self.picture.bytes(drawing, format, fonts)?],
-            ending: Ending::of(&joined),
-            summary: summary(&joined),
-        })
     }
 
     fn render(

@@ -4,13 +4,18 @@
 //! no arrow, outline, disc or other label; one for which nowhere is clear is left out, and the figure counts those. What
 //! the words below a frame name comes first, and bears its name in a frame of any number of blocks.
 
+mod solid;
+mod spoken;
+
+use solid::Solids;
+use spoken::names;
+
 use super::arrow::{ArrowKind, ForceArrow, TurnArrow, TurnKind};
 use super::pen::{CENTROID, DOT, Pen};
 use super::stage::Stage;
 use super::view;
 use super::words::{counted, listed, quantity};
 use crate::drawing::placement::{Ink, Placed, Wish, place_where};
-use crate::drawing::text::NO_BREAK;
 use crate::drawing::{
     Anchor, Colour, Face, Group, Outline, PagePoint, PageRect, Path, Stroke, Text, text,
 };
@@ -96,55 +101,6 @@ pub(crate) fn labels(pen: &Pen<'_>, view: Bounds, mut ink: Ink) -> Group {
     group
 }
 
-/// What a name may seem to belong to: the blocks of a frame where they are drawn, and ground, as boxes on the page.
-struct Solids {
-    blocks: Vec<(BlockId, PageRect)>,
-    ground: Vec<(usize, PageRect)>,
-}
-
-impl Solids {
-    fn of(pen: &Pen<'_>) -> Solids {
-        let scene = pen.stage.analysis.scene;
-        let drawn = |id: &BlockId| {
-            let corners = scene.blocks[id.0].body.polygon.rings().first();
-            let corners = corners.into_iter().flatten();
-            let bounds = Bounds::of(corners.map(|p| pen.moved(*id, *p)))?;
-            Some((*id, pen.camera.rect(bounds)))
-        };
-        let ground = scene.ground.iter().enumerate();
-        Solids {
-            blocks: scene.frames[pen.number]
-                .placed
-                .iter()
-                .filter_map(drawn)
-                .collect(),
-            ground: ground
-                .map(|(i, g)| (i, pen.camera.rect(g.body.polygon.bounds())))
-                .collect(),
-        }
-    }
-
-    /// Whether a label reaches into another block than its own, or into ground.
-    fn other(&self, pen: &Pen<'_>, own: BlockId, rect: PageRect) -> bool {
-        let scene = pen.stage.analysis.scene;
-        let met = |other: &PageRect| {
-            rect.at.x < other.at.x + other.width
-                && other.at.x < rect.at.x + rect.width
-                && rect.at.y < other.at.y + other.height
-                && other.at.y < rect.at.y + rect.height
-        };
-        // Labels lie on no outline: one that reaches into a body has its middle and its corners in it.
-        let at = pen.camera.back(middle(rect));
-        let inside = |id: BlockId| {
-            let at = pen.displacement(id).map_or(at, |d| d.back(at));
-            scene.blocks[id.0].body.polygon.contains(at)
-        };
-        let mut blocks = self.blocks.iter().filter(|b| b.0 != own && met(&b.1));
-        let mut ground = self.ground.iter().filter(|g| met(&g.1));
-        blocks.any(|b| inside(b.0)) || ground.any(|g| scene.ground[g.0].body.polygon.contains(at))
-    }
-}
-
 /// What a figure says of the labels that its frames are too full for; `None` where there are none.
 pub(crate) fn left_out(stage: &Stage<'_>) -> Option<String> {
     let options = stage.options;
@@ -208,62 +164,6 @@ fn mentioned(stage: &Stage<'_>, frame: usize) -> Vec<BlockId> {
         .filter(|id| names(said, &scene.blocks[id.0].id))
         .collect()
 }
-
-/// Whether a text has a name as a word of its own. A number before a unit or a noun is an amount or a count, and names
-/// nothing; so is one that goes on behind its point.
-fn names(text: &str, name: &str) -> bool {
-    let apart = |c: Option<char>| c.is_none_or(|c| !c.is_alphanumeric());
-    let ends_in_digit = name.ends_with(|c: char| c.is_ascii_digit());
-    let begins_with_digit = name.starts_with(|c: char| c.is_ascii_digit());
-    let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
-    let counts = |before: &str, rest: &str| {
-        let mut after = rest.chars();
-        let goes_on = after.next() == Some('.') && digit(after.next());
-        let mut earlier = before.chars().rev();
-        let began = earlier.next() == Some('.') && digit(earlier.next());
-        let word = rest.trim_start_matches([' ', NO_BREAK]);
-        let word = word.split(|c: char| !c.is_alphabetic() && c != '%').next();
-        (ends_in_digit && goes_on)
-            || (begins_with_digit && began)
-            || (ends_in_digit && rest.starts_with('°'))
-            || (ends_in_digit && COUNTED.contains(&word.unwrap_or_default()))
-    };
-    !name.is_empty()
-        && text.match_indices(name).any(|(at, _)| {
-            let (before, rest) = (&text[..at], &text[at + name.len()..]);
-            apart(before.chars().next_back()) && apart(rest.chars().next()) && !counts(before, rest)
-        })
-}
-
-/// What follows a number in the words below a frame where it is no name.
-const COUNTED: [&str; 26] = [
-    "N",
-    "nN",
-    "µN",
-    "mN",
-    "kN",
-    "MN",
-    "GN",
-    "m",
-    "mm",
-    "km",
-    "%",
-    "more",
-    "of",
-    "block",
-    "blocks",
-    "bodies",
-    "hinge",
-    "hinges",
-    "sliding",
-    "shared",
-    "interfaces",
-    "resultants",
-    "robots",
-    "forces",
-    "frames",
-    "rigid",
-];
 
 /// Edge of a block of which so much is the root of its area.
 const EDGE: f64 = 0.6;

@@ -256,7 +256,7 @@ fn a_long_strip_goes_to_pages_and_a_margin_has_a_direction() {
     let mut pages = 0;
     while let Ok(svg) = fs::read_to_string(bench.path(&format!("steps-{}.svg", pages + 1))) {
         pages += 1;
-        frames += svg.matches("id=\"frame-").count();
+        frames += svg.matches("class=\"frame\"").count();
         let number = |name: &str| -> f64 {
             let rest = svg.split(&format!(" {name}=\"")).nth(1).expect(name);
             rest.split('"')

@@ -1,0 +1,56 @@
+//! [`Solids`]: blocks and ground, in which a name would seem to be theirs.
+
+use super::middle;
+use crate::drawing::PageRect;
+use crate::figure::pen::Pen;
+use crate::geometry::Bounds;
+use crate::scene::BlockId;
+
+/// What a name may seem to belong to: the blocks of a frame where they are drawn, and ground, as boxes on the page.
+pub(super) struct Solids {
+    blocks: Vec<(BlockId, PageRect)>,
+    ground: Vec<(usize, PageRect)>,
+}
+
+impl Solids {
+    pub(super) fn of(pen: &Pen<'_>) -> Solids {
+        let scene = pen.stage.analysis.scene;
+        let drawn = |id: &BlockId| {
+            let corners = scene.blocks[id.0].body.polygon.rings().first();
+            let corners = corners.into_iter().flatten();
+            let bounds = Bounds::of(corners.map(|p| pen.moved(*id, *p)))?;
+            Some((*id, pen.camera.rect(bounds)))
+        };
+        let ground = scene.ground.iter().enumerate();
+        Solids {
+            blocks: scene.frames[pen.number]
+                .placed
+                .iter()
+                .filter_map(drawn)
+                .collect(),
+            ground: ground
+                .map(|(i, g)| (i, pen.camera.rect(g.body.polygon.bounds())))
+                .collect(),
+        }
+    }
+
+    /// Whether a label reaches into another block than its own, or into ground.
+    pub(super) fn other(&self, pen: &Pen<'_>, own: BlockId, rect: PageRect) -> bool {
+        let scene = pen.stage.analysis.scene;
+        let met = |other: &PageRect| {
+            rect.at.x < other.at.x + other.width
+                && other.at.x < rect.at.x + rect.width
+                && rect.at.y < other.at.y + other.height
+                && other.at.y < rect.at.y + rect.height
+        };
+        // Labels lie on no outline: one that reaches into a body has its middle and its corners in it.
+        let at = pen.camera.back(middle(rect));
+        let inside = |id: BlockId| {
+            let at = pen.displacement(id).map_or(at, |d| d.back(at));
+            scene.blocks[id.0].body.polygon.contains(at)
+        };
+        let mut blocks = self.blocks.iter().filter(|b| b.0 != own && met(&b.1));
+        let mut ground = self.ground.iter().filter(|g| met(&g.1));
+        blocks.any(|b| inside(b.0)) || ground.any(|g| scene.ground[g.0].body.polygon.contains(at))
+    }
+}

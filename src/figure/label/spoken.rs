@@ -1,0 +1,77 @@
+//! [`names`]: whether a sentence names a block, where blocks may be called by numbers.
+
+use crate::drawing::text::NO_BREAK;
+
+/// Whether a text has a name as a word of its own. A number before a unit or a noun is an amount or a count, and names
+/// nothing; so is one that goes on behind its point.
+pub(super) fn names(text: &str, name: &str) -> bool {
+    let apart = |c: Option<char>| c.is_none_or(|c| !c.is_alphanumeric());
+    let ends_in_digit = name.ends_with(|c: char| c.is_ascii_digit());
+    let begins_with_digit = name.starts_with(|c: char| c.is_ascii_digit());
+    let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
+    let counts = |before: &str, rest: &str| {
+        let mut after = rest.chars();
+        let goes_on = after.next() == Some('.') && digit(after.next());
+        let mut earlier = before.chars().rev();
+        let began = earlier.next() == Some('.') && digit(earlier.next());
+        let word = rest.trim_start_matches([' ', NO_BREAK]);
+        let word = word.split(|c: char| !c.is_alphabetic() && c != '%').next();
+        (ends_in_digit && goes_on)
+            || (begins_with_digit && began)
+            || (ends_in_digit && rest.starts_with('°'))
+            || (ends_in_digit && COUNTED.contains(&word.unwrap_or_default()))
+    };
+    !name.is_empty()
+        && text.match_indices(name).any(|(at, _)| {
+            let (before, rest) = (&text[..at], &text[at + name.len()..]);
+            apart(before.chars().next_back()) && apart(rest.chars().next()) && !counts(before, rest)
+        })
+}
+
+/// What follows a number in the words below a frame where it is no name.
+const COUNTED: [&str; 26] = [
+    "N",
+    "nN",
+    "µN",
+    "mN",
+    "kN",
+    "MN",
+    "GN",
+    "m",
+    "mm",
+    "km",
+    "%",
+    "more",
+    "of",
+    "block",
+    "blocks",
+    "bodies",
+    "hinge",
+    "hinges",
+    "sliding",
+    "shared",
+    "interfaces",
+    "resultants",
+    "robots",
+    "forces",
+    "frames",
+    "rigid",
+];
+
+#[cfg(test)]
+mod tests {
+    use super::names;
+
+    #[test]
+    fn amounts_counts_and_parts_of_words_name_nothing() {
+        let said = "missing: a pull of 2.5\u{a0}kN between 19.17 and 3, friction of 12 N between 4 and b-2; 5 more";
+        for name in ["19.17", "3", "4", "b-2"] {
+            assert!(names(said, name), "{name}");
+        }
+        for name in ["2.5", "19", "17", "12", "5", "pull of a", ""] {
+            assert!(!names(said, name), "{name}");
+        }
+        assert!(!names("3 of 5 shared forces changed by over 5 %", "5"));
+        assert!(!names("gravity is turned by 12° to the left", "12"));
+    }
+}
