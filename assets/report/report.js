@@ -88,8 +88,10 @@
         readout.textContent = found.length ? found[0].querySelector("title")?.textContent || still : still;
       };
       const marked = (event) => event.target.closest?.("[data-mark]")?.dataset.mark;
-      step.addEventListener("mouseover", (event) => point(marked(event)));
-      step.addEventListener("mouseleave", () => point());
+      /* What has the focus stays marked where the mouse points at nothing: the page scrolls under a mouse that lies still. */
+      const kept = () => step.contains(document.activeElement) ? marked({ target: document.activeElement }) : undefined;
+      step.addEventListener("mouseover", (event) => point(marked(event) ?? kept()));
+      step.addEventListener("mouseleave", () => point(kept()));
       step.addEventListener("focusin", (event) => point(marked(event)));
       /* One row of a table is in the order of the tab key; up and down go on from there. */
       for (const table of all("table", step)) {

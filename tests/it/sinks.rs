@@ -306,6 +306,73 @@ fn snapshots_are_told_in_words_whatever_their_names() {
 }
 
 #[test]
+fn a_report_keeps_words_as_words_in_all_its_forms() {
+    use drystone::report::entry::{Entry, File, Wanted};
+    use drystone::report::page::{Form, Piece, Refused, Report};
+    use drystone::scene::Problem;
+    each(|hostile, _, analysis| {
+        let text = scene(hostile);
+        let file = File {
+            name: hostile,
+            text: &text,
+        };
+        let entry = Entry::of(file, analysis, &Wanted::default());
+        let problem = Problem {
+            code: drystone::scene::Code::NotJson,
+            path: hostile.into(),
+            line: 1,
+            column: 1,
+            span: None,
+            message: hostile.into(),
+            help: hostile.into(),
+        };
+        for form in [Form::Html, Form::Split, Form::Markdown, Form::Json] {
+            let piece = |number| Piece::of(&entry, number, form, "r").expect("drawn");
+            let report = Report {
+                title: hostile.into(),
+                pieces: vec![piece(1), piece(2)],
+                refused: vec![Refused {
+                    name: hostile.into(),
+                    problems: vec![problem.clone()],
+                }],
+                notes: vec![hostile.into()],
+                compares: false,
+                dark: None,
+            };
+            for (name, bytes) in report.files(form, "r").expect("written") {
+                let text = String::from_utf8(bytes).expect("UTF-8");
+                silent(&text, hostile);
+                if name.ends_with(".html") {
+                    assert_eq!(text.matches("<script").count(), 1, "{hostile:?}: {name}");
+                    assert_eq!(
+                        text.matches("</noscript").count(),
+                        text.matches("<noscript").count()
+                    );
+                    assert!(
+                        !text.contains("<img") && !text.contains("\" onload="),
+                        "{hostile:?}"
+                    );
+                } else if name.ends_with(".md") {
+                    for event in Parser::new_ext(&text, Options::all()) {
+                        let acts = matches!(
+                            event,
+                            Event::Html(_)
+                                | Event::InlineHtml(_)
+                                | Event::Start(Tag::Link { .. } | Tag::CodeBlock(_))
+                        );
+                        assert!(!acts, "{hostile:?}: {event:?}");
+                    }
+                } else if name.ends_with(".json") {
+                    let value: Value = serde_json::from_str(&text).expect("JSON");
+                    assert_eq!(value["scenes"][0]["file"], *hostile);
+                    assert_eq!(value["scenes"][2]["problems"][0]["message"], *hostile);
+                }
+            }
+        }
+    });
+}
+
+#[test]
 fn what_cannot_be_seen_is_seen() {
     each(|hostile, _, analysis| {
         let hidden = hostile.contains(|c: char| acts(c) && !"\r\u{85}\u{2028}\u{2029}".contains(c));

@@ -63,7 +63,7 @@ pub fn compared(sides: [Side<'_, '_>; 2], wanted: &Wanted) -> Entry {
             [Some(a), Some(b)] => both([was, is], number, [a, b], wanted),
             [a, b] => {
                 let (side, drawing) = if a.is_some() { (was, a) } else { (is, b) };
-                alone(side, number, drawing, a_is_gone(counts, number))
+                alone(side, number, drawing, only_in(counts, number))
             }
         };
         said.push(step.sentence.clone());
@@ -103,7 +103,7 @@ pub fn compared(sides: [Side<'_, '_>; 2], wanted: &Wanted) -> Entry {
     }
 }
 
-fn a_is_gone(counts: [usize; 2], number: usize) -> &'static str {
+fn only_in(counts: [usize; 2], number: usize) -> &'static str {
     if number < counts[0] {
         "Only the first scene has this step."
     } else {
@@ -460,6 +460,9 @@ fn grid(scene: &Scene, forces: &[Shared]) -> Grid {
 
 /// Outlines blocks and rings points of a scene in its drawing.
 fn mark(drawing: &mut Drawing, scene: &Scene, blocks: &[usize], rings: &[Point], colour: Colour) {
+    if blocks.is_empty() && rings.is_empty() {
+        return;
+    }
     let marks = |camera: &Camera| {
         let mut outline = Outline::default();
         for block in blocks {

@@ -70,6 +70,9 @@ impl Browser {
         for domain in ["Page", "Runtime", "Network", "Log"] {
             browser.call(&format!("{domain}.enable"), json!({}));
         }
+        // A page without the focus tells nobody when a part of it gets it.
+        let focus = json!({ "enabled": true });
+        browser.call("Emulation.setFocusEmulationEnabled", focus);
         browser
     }
 

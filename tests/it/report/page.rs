@@ -202,9 +202,9 @@ fn a_thousand_scenes_open_and_scroll() {
     browser.eval(
         "scrollTo(0, document.body.scrollHeight); document.body.getBoundingClientRect().height",
     );
-    browser.eval("location.hash = '#scene-700'; new Promise(r => setTimeout(r, 50))");
+    browser.eval("location.hash = '#scene-701'; new Promise(r => setTimeout(r, 50))");
     assert_eq!(
-        browser.eval("document.querySelectorAll('#scene-700 .plate svg').length"),
+        browser.eval("document.querySelectorAll('#scene-701 .plate svg').length"),
         1
     );
     let elements = browser.eval("document.querySelectorAll('*').length");
