@@ -200,20 +200,12 @@ fn finding(part: &Part, state: State, words: Vec<String>) -> Finding {
     }
 }
 
-/// A reference that is missing or cannot be opened, or its bytes.
-fn reference(part: &Part) -> Result<Vec<u8>, Finding> {
+/// The bytes of a reference, or what is the matter where it is missing or cannot be opened.
+fn reference(part: &Part) -> Result<Vec<u8>, (State, String)> {
     match store::read(&part.file) {
         Ok(Some(bytes)) => Ok(bytes),
-        Ok(None) => Err(finding(
-            part,
-            State::Missing,
-            vec!["there is no reference".into()],
-        )),
-        Err(error) => Err(finding(
-            part,
-            State::Unreadable,
-            vec![format!("it cannot be read: {error}")],
-        )),
+        Ok(None) => Err((State::Missing, "there is no reference".into())),
+        Err(error) => Err((State::Unreadable, format!("it cannot be read: {error}"))),
     }
 }
 
@@ -221,7 +213,12 @@ fn facts_finding(part: &Part, facts: &Facts) -> Option<Finding> {
     let fresh = facts.text().into_bytes();
     let bytes = match reference(part) {
         Ok(bytes) => bytes,
-        Err(finding) => return Some(Finding { fresh, ..finding }),
+        Err((state, words)) => {
+            return Some(Finding {
+                fresh,
+                ..finding(part, state, vec![words])
+            });
+        }
     };
     if bytes == fresh {
         return None;
@@ -260,7 +257,12 @@ fn svg_finding(part: &Part, text: &str) -> Option<Finding> {
     let fresh = text.as_bytes().to_vec();
     let bytes = match reference(part) {
         Ok(bytes) => bytes,
-        Err(finding) => return Some(Finding { fresh, ..finding }),
+        Err((state, words)) => {
+            return Some(Finding {
+                fresh,
+                ..finding(part, state, vec![words])
+            });
+        }
     };
     if bytes == fresh {
         return None;
@@ -291,10 +293,10 @@ fn pixels_finding(
     let fresh = || found.encode(Some(subject)).unwrap_or_default();
     let bytes = match reference(part) {
         Ok(bytes) => bytes,
-        Err(finding) => {
+        Err((state, words)) => {
             return Some(Finding {
                 fresh: fresh(),
-                ..finding
+                ..finding(part, state, vec![words])
             });
         }
     };

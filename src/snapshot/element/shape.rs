@@ -77,6 +77,9 @@ pub(super) fn movement(old: &Element, new: &Element) -> Movement {
     let (from, to) = (centre(&a), centre(&b));
     let (x, y) = (to[0] - from[0], to[1] - from[1]);
     if far(&b, &|p| [p[0] + x, p[1] + y]) <= 2.0 * NEAR {
+        if x.abs() <= NEAR && y.abs() <= NEAR {
+            return Movement::None;
+        }
         // A hundredth is where places are rounded: what moves together differs by one.
         let whole = |by: f64| match by.abs() {
             far if far < 0.2 => (by * 100.0).round() / 100.0,

@@ -111,7 +111,7 @@ fn unquoted(text: &str) -> Option<(String, &str)> {
 fn value(text: &str) -> Value {
     let parts: Vec<&str> = text.split_whitespace().collect();
     let is_number = |part: &&str| part.parse::<f64>().is_ok() || *part == "none";
-    let Some(first) = parts.iter().position(|p| is_number(p)) else {
+    let Some(first) = parts.iter().position(&is_number) else {
         return Value {
             name: String::new(),
             numbers: Vec::new(),
