@@ -16,11 +16,12 @@ use crate::program::{Column, Force, Program, columns};
 /// A column wants in where it gains more than this share of its own size times what is left.
 const WANTS: f64 = 1e-11;
 
-/// What is left below this share of the need is nothing.
-const NOTHING: f64 = 1e-14;
+/// What is left below this share of the need is nothing: far less than a proof asks for, and more than the rounding of the
+/// amounts of some hundred bodies, which would keep columns changing places for ever.
+const NOTHING: f64 = 1e-12;
 
-/// And what wants in with less than this share of the need does so for the rounding of the amounts.
-const ROUNDING: f64 = 1e-15;
+/// And what wants in with less than this share of the need does so for that rounding.
+const ROUNDING: f64 = 1e-13;
 
 /// A column whose part across the used ones is smaller than this share of it is a sum of them.
 const ACROSS: f64 = 1e-11;
@@ -341,16 +342,16 @@ mod tests {
     #[test]
     fn a_load_within_the_base_is_balanced_and_one_beyond_it_is_not() {
         let (rest, amounts) = found(&block(0.25, 1.0, vec![]));
-        assert!(rest.iter().all(|v| v.abs() < 1e-12), "{rest:?}");
-        assert!((amounts.normal[0].iter().sum::<f64>() - 10.0).abs() < 1e-12);
+        assert!(rest.iter().all(|v| v.abs() < 1e-10), "{rest:?}");
+        assert!((amounts.normal[0].iter().sum::<f64>() - 10.0).abs() < 1e-9);
         assert!(
-            (amounts.friction[0] + 1.0).abs() < 1e-12 || (amounts.friction[0] - 1.0).abs() < 1e-12
+            (amounts.friction[0] + 1.0).abs() < 1e-9 || (amounts.friction[0] - 1.0).abs() < 1e-9
         );
         let program = block(1.5, 0.0, vec![]);
         let (rest, _) = found(&program);
         let columns = generators(&program);
         assert!(
-            columns.iter().all(|c| c.dot(&rest) < 1e-12),
+            columns.iter().all(|c| c.dot(&rest) < 1e-9),
             "no force objects"
         );
         let work: f64 = rest.iter().zip(&program.need).map(|(r, b)| r * b).sum();
@@ -385,6 +386,6 @@ mod tests {
         let first = nearest.numbers().next().expect("used");
         nearest.renumber(|k| (k != first).then_some(k));
         let rest = nearest.find(&program.need, &columns).expect("an end");
-        assert!(rest.iter().all(|v| v.abs() < 1e-12), "{rest:?}");
+        assert!(rest.iter().all(|v| v.abs() < 1e-10), "{rest:?}");
     }
 }

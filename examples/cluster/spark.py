@@ -1,0 +1,122 @@
+"""Runs a corpus through `drystone batch` on Spark and writes Parquet that can be queried.
+
+    pip install pyspark pyarrow && apt-get install default-jre-headless
+    python3 examples/cluster/corpus.py 1000000 > corpus.ndjson
+    python3 examples/cluster/spark.py corpus.ndjson answers.parquet --drystone target/release/drystone
+
+Every partition of the lines goes through one process of drystone, line in, line out. A partition whose process dies, or whose
+machine does, gives too few lines: it fails as a task and Spark runs it again from its beginning, so that in the end every
+scene is answered exactly once. --kill N ends N of the processes in the middle of their work, to see just that.
+"""
+
+import argparse
+import json
+import os
+import pathlib
+import random
+import signal
+import subprocess
+import tempfile
+import threading
+import time
+
+from pyspark.sql import Row, SparkSession
+
+
+def answered(binary, fields, pids):
+    """A function for mapPartitions: pairs (number, line) in, rows out, as many as there were pairs."""
+
+    def partition(pairs):
+        process = subprocess.Popen(
+            [binary, "batch", "--jobs", "1", "--quiet", "--fields", fields],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+        )
+        mark = pathlib.Path(pids) / str(process.pid)
+        mark.touch()
+        numbers = []
+
+        def feed():
+            try:
+                for number, line in pairs:
+                    numbers.append(number)
+                    process.stdin.write(line.encode() + b"\n")
+                process.stdin.close()
+            except BrokenPipeError:
+                pass  # The count below tells.
+
+        feeder = threading.Thread(target=feed)
+        feeder.start()
+        count = 0
+        for count, line in enumerate(process.stdout, 1):
+            answer = json.loads(line)
+            problems = answer.get("problems")
+            yield Row(
+                number=numbers[count - 1],
+                scene=answer.get("scene"),
+                verdict=answer.get("verdict"),
+                problems=json.dumps(problems) if problems else None,
+            )
+        feeder.join()
+        code = process.wait()
+        mark.unlink()
+        # 0 to 3 say what the verdicts are; whatever else ends a process, this partition is not answered.
+        if code not in (0, 1, 2, 3) or count != len(numbers):
+            raise RuntimeError(f"drystone ended with {code} after {count} of {len(numbers)} lines")
+
+    return partition
+
+
+def kill_some(pids, count, after):
+    """Kills so many of the processes at work, one every `after` seconds."""
+    killed = 0
+    while killed < count:
+        time.sleep(after)
+        marks = list(pathlib.Path(pids).iterdir())
+        if marks:
+            mark = random.choice(marks)
+            try:
+                os.kill(int(mark.name), signal.SIGKILL)
+            except ProcessLookupError:
+                continue
+            killed += 1
+            print(f"killed process {mark.name}", flush=True)
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    arguments.add_argument("corpus")
+    arguments.add_argument("parquet")
+    arguments.add_argument("--drystone", default="drystone")
+    arguments.add_argument("--fields", default="scene,verdict")
+    arguments.add_argument("--master", default="local[2,4]", help="local[cores,attempts], or a cluster")
+    arguments.add_argument("--partitions", type=int, default=32)
+    arguments.add_argument("--kill", type=int, default=0, metavar="N")
+    arguments.add_argument("--after", type=float, default=5.0, metavar="SECONDS")
+    wanted = arguments.parse_args()
+    spark = SparkSession.builder.master(wanted.master).appName("drystone").getOrCreate()
+    spark.sparkContext.setLogLevel("ERROR")
+    start = time.perf_counter()
+    with tempfile.TemporaryDirectory() as pids:
+        if wanted.kill:
+            threading.Thread(target=kill_some, args=(pids, wanted.kill, wanted.after), daemon=True).start()
+        lines = spark.sparkContext.textFile(wanted.corpus, wanted.partitions).zipWithIndex()
+        pairs = lines.map(lambda pair: (pair[1] + 1, pair[0]))
+        binary = wanted.drystone if os.sep not in wanted.drystone else os.path.abspath(wanted.drystone)
+        rows = pairs.mapPartitions(answered(binary, wanted.fields, pids))
+        schema = "number long, scene string, verdict string, problems string"
+        spark.createDataFrame(rows, schema).write.mode("overwrite").parquet(wanted.parquet)
+    seconds = time.perf_counter() - start
+
+    answers = spark.read.parquet(wanted.parquet)
+    answers.createOrReplaceTempView("answers")
+    scenes = lines.count()
+    told = spark.sql("select count(*) as n, count(distinct number) as d, max(number) as m from answers").first()
+    assert (told.n, told.d, told.m) == (scenes, scenes, scenes), f"{scenes} scenes, but {told}"
+    print(f"{scenes} scenes, each answered once, in {seconds:.0f} s: {scenes / seconds:.0f} a second")
+    spark.sql("select verdict, count(*) as scenes from answers group by verdict order by scenes desc").show()
+    spark.stop()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,73 @@
+"""Walls, arches and stacks that stand or fall, with the answer known beforehand."""
+
+import math
+
+
+def scene(title, blocks, gravity=(0, -9.81), friction=0.7):
+    return {
+        "drystone": 1,
+        "title": title,
+        "gravity": list(gravity),
+        "friction": friction,
+        "contact_tolerance": 1e-6,
+        "ground": [{"polygon": [[-9999, -1], [9999, -1], [9999, 0], [-9999, 0]]}],
+        "blocks": [{"id": f"b{k}", "polygon": polygon, "density": 1000} for k, polygon in enumerate(blocks)],
+    }
+
+
+def rectangle(x, y, width, height):
+    return [[x, y], [x + width, y], [x + width, y + height], [x, y + height]]
+
+
+def turned(degrees):
+    a = math.radians(degrees)
+    return (9.81 * math.sin(a), -9.81 * math.cos(a))
+
+
+def wall(blocks, stands):
+    """Running bond, half bricks at the ends of every other row; gravity turned by 40 degrees slides it off (tan 40 > 0.7)."""
+    rows = max(2, round(math.sqrt(blocks / 2.5)))
+    columns = max(2, round((blocks - rows // 2) / rows))
+    bricks = []
+    for row in range(rows):
+        cuts = [float(c) for c in range(columns + 1)]
+        if row % 2:
+            cuts = [0.0] + [c + 0.5 for c in range(columns)] + [float(columns)]
+        bricks += [rectangle(a, 0.5 * row, b - a, 0.5) for a, b in zip(cuts, cuts[1:])]
+    gravity = (0, -9.81) if stands else turned(40)
+    return scene(f"wall of {len(bricks)}", bricks, gravity)
+
+
+def arch(blocks, stands):
+    """A half circle; the least thickness that stands is 0.1075 of the radius (Milankovitch), for any number of stones a little
+    less, and none at 0.05 for ten stones or more."""
+    thickness = 0.2 if stands else 0.05
+    inner, outer = 1 - thickness / 2, 1 + thickness / 2
+
+    def at(radius, k):
+        angle = math.pi * k / blocks
+        return [-radius * math.cos(angle), 0.0 if k in (0, blocks) else radius * math.sin(angle)]
+
+    stones = [[at(inner, k), at(inner, k + 1), at(outer, k + 1), at(outer, k)] for k in range(blocks)]
+    return scene(f"arch of {blocks}", stones)
+
+
+def stack(blocks, stands):
+    """One brick on another, each shifted by the same: the centre of all above the lowest is (n - 1)/2 shifts and half a shift
+    from its middle, so a stack stands up to a shift of 1/n."""
+    shift = (0.9 if stands else 1.1) / blocks
+    bricks = [rectangle(shift * k, 0.25 * k, 1.0, 0.25) for k in range(blocks)]
+    return scene(f"stack of {blocks}", bricks)
+
+
+def separate(blocks, stands):
+    """Towers of ten beside each other; of those that fall the last one does."""
+    bricks = []
+    towers = max(1, blocks // 10)
+    for tower in range(towers):
+        shift = 0.11 if not stands and tower == towers - 1 else 0.05
+        bricks += [rectangle(4.0 * tower + shift * k, 0.25 * k, 1.0, 0.25) for k in range(10)]
+    return scene(f"{towers} towers", bricks)
+
+
+KINDS = {"wall": wall, "arch": arch, "stack": stack}

@@ -1,0 +1,164 @@
+//! How fast a step of a session is: walls laid brick by brick on a square lattice, and what is done to them then.
+//!
+//! `cargo bench --bench session` prints medians in microseconds, and how many steps were answered by what was known. From
+//! scratch means a scene file of the same blocks, in Rust, read and examined.
+
+use std::time::Instant;
+
+use drystone::analysis::{Options, Source, Verdict, verdicts};
+use drystone::scene::format::{
+    BlockEntry, CellEntry, GridEntry, GridKind, GroundEntry, RobotEntry, SceneFile,
+};
+use drystone::session::Session;
+use drystone::{Analysis, Scene};
+
+/// How often each wall is laid.
+const ROUNDS: usize = 41;
+
+fn main() {
+    println!("| blocks | step | µs, median | of them answered by what was known |");
+    println!("|---|---|---|---|");
+    for blocks in [20, 200] {
+        let mut steps = Steps::default();
+        let rounds = if blocks > 100 { 5 } else { ROUNDS };
+        let mut wholes = Vec::new();
+        for _ in 0..rounds {
+            let start = Instant::now();
+            lay(blocks, &mut steps);
+            wholes.push(start.elapsed().as_secs_f64() * 1e6);
+        }
+        for (name, list) in &mut steps.0 {
+            let known = list.iter().filter(|s| s.1 == Source::Guess).count();
+            let share = 100 * known / list.len();
+            let times = list.iter().map(|s| s.0).collect();
+            println!("| {blocks} | {name} | {:.1} | {share} % |", median(times));
+        }
+        println!("| {blocks} | all of these | {:.0} | |", median(wholes));
+        let file = SceneFile {
+            blocks: (0..blocks).map(|k| brick(k, blocks)).collect(),
+            ..empty(blocks)
+        };
+        let scratch = |examine: &dyn Fn(&Scene) -> Verdict| {
+            let one = |_| {
+                let start = Instant::now();
+                let scene = Scene::new(file.clone()).expect("sound");
+                assert_eq!(examine(&scene), Verdict::Stable);
+                start.elapsed().as_secs_f64() * 1e6
+            };
+            median((0..rounds).map(one).collect())
+        };
+        let alone = scratch(&|scene| verdicts(scene, &Options::default())[0]);
+        println!("| {blocks} | from scratch, the verdict alone | {alone:.1} | |");
+        let whole = scratch(&|scene| Analysis::of(scene).verdict());
+        println!("| {blocks} | from scratch, everything | {whole:.1} | |");
+    }
+}
+
+/// Times of steps by their kind, in microseconds.
+#[derive(Default)]
+struct Steps(Vec<(&'static str, Vec<(f64, Source)>)>);
+
+impl Steps {
+    fn take(
+        &mut self,
+        name: &'static str,
+        session: &mut Session,
+        step: impl FnOnce(&mut Session) -> Verdict,
+    ) -> Verdict {
+        let start = Instant::now();
+        let verdict = step(session);
+        let micros = start.elapsed().as_secs_f64() * 1e6;
+        let known = (micros, session.source());
+        match self.0.iter_mut().find(|(n, _)| *n == name) {
+            Some((_, list)) => list.push(known),
+            None => self.0.push((name, vec![known])),
+        }
+        verdict
+    }
+}
+
+/// Lays a wall and does a few things to it.
+fn lay(blocks: usize, steps: &mut Steps) {
+    let mut session = Session::of(empty(blocks)).expect("sound");
+    for k in 0..blocks {
+        let brick = brick(k, blocks);
+        let verdict = steps.take("place a brick", &mut session, |s| {
+            s.place(brick).expect("free")
+        });
+        assert_eq!(verdict, Verdict::Stable);
+    }
+    let top = blocks.to_string();
+    let told = steps.take("hold the last", &mut session, |s| {
+        s.hold("r0", &top, None).expect("there")
+    });
+    assert_eq!(told, Verdict::Stable);
+    let told = steps.take("let it go", &mut session, |s| {
+        s.release("r0").expect("held")
+    });
+    assert_eq!(told, Verdict::Stable);
+    let stray = || cells(-40, 3);
+    let told = steps.take("place one in the air", &mut session, |s| {
+        s.place(stray()).expect("free")
+    });
+    assert_eq!(told, Verdict::Unstable);
+    for k in 0..3 {
+        let more = cells(-30 + 4 * k, 0);
+        let told = steps.take("place another while it falls", &mut session, |s| {
+            s.place(more).expect("free")
+        });
+        assert_eq!(told, Verdict::Unstable);
+    }
+    let name = (blocks + 1).to_string();
+    let told = steps.take("take the falling one away", &mut session, |s| {
+        s.remove(&name).expect("there")
+    });
+    assert_eq!(told, Verdict::Stable);
+    let told = steps.take("take the last away", &mut session, |s| {
+        s.remove(&top).expect("there")
+    });
+    assert_eq!(told, Verdict::Stable);
+}
+
+fn empty(blocks: usize) -> SceneFile {
+    let floor = (-50..4 * blocks as i64).map(|x| CellEntry::Square(x as f64, -1.0));
+    SceneFile {
+        grid: Some(GridEntry {
+            kind: GridKind::Square,
+            side: Some(0.5),
+        }),
+        ground: vec![GroundEntry {
+            cells: Some(floor.collect()),
+            ..GroundEntry::default()
+        }],
+        robots: vec![RobotEntry::default()],
+        ..SceneFile::default()
+    }
+}
+
+/// The bricks of a pyramid in running bond, row by row.
+fn brick(number: usize, blocks: usize) -> BlockEntry {
+    let mut width = 1;
+    while width * (width + 1) / 2 < blocks {
+        width += 1;
+    }
+    let (mut row, mut left) = (0, number);
+    while left >= width - row {
+        left -= width - row;
+        row += 1;
+    }
+    cells((row + 2 * left) as i64, row as i64)
+}
+
+fn cells(x: i64, y: i64) -> BlockEntry {
+    let cell = |k: i64| CellEntry::Square((x + k) as f64, y as f64);
+    BlockEntry {
+        cells: Some(vec![cell(0), cell(1)]),
+        weight: Some(2.0),
+        ..BlockEntry::default()
+    }
+}
+
+fn median(mut times: Vec<f64>) -> f64 {
+    times.sort_by(f64::total_cmp);
+    times[times.len() / 2]
+}
