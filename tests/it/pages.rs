@@ -120,15 +120,18 @@ fn object_table(schema: &Value, definitions: &Value) -> String {
     let mut rows = String::from("| key | value | default | meaning |\n|---|---|---|---|\n");
     let keys = schema["properties"].as_object().expect("keys");
     for (key, value) in keys {
-        let meaning = value["description"]
-            .as_str()
-            .expect("every key is described");
+        let meaning = (value["description"].as_str()).expect("every key is described");
+        // A description may run over several lines; a row of a table may not.
+        let meaning = meaning.split_whitespace().collect::<Vec<_>>().join(" ");
         let default = match &value["default"] {
             _ if required.contains(&key.as_str()) => "required".to_owned(),
             Value::Null => "none".into(),
             Value::Array(list) if list.is_empty() => "none".into(),
             Value::Object(map) if map.is_empty() => "none".into(),
-            other => format!("{other}"),
+            other => format!(
+                "`{}`",
+                other.to_string().replace(".0", "").replace(',', ", ")
+            ),
         };
         // What the text says of a default is what the schema says.
         if let (Some(said), false) = (
@@ -157,7 +160,7 @@ fn object_table(schema: &Value, definitions: &Value) -> String {
         }
         let cell = |text: &str| text.replace('|', "\\|");
         let kind = cell(&words(value, definitions));
-        rows += &format!("| `{key}` | {kind} | {default} | {} |\n", cell(meaning));
+        rows += &format!("| `{key}` | {kind} | {default} | {} |\n", cell(&meaning));
     }
     rows
 }
