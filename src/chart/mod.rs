@@ -235,9 +235,16 @@ mod tests {
             title: "over the steps".into(),
             y: "N".into(),
             steps: vec!["a".into(), "b".into(), "c".into()],
-            lines: vec![("sum".into(), [0, 0, 200], vec![Some(3.0), None, Some(5.0)])],
+            lines: vec![
+                ("sum".into(), [0, 0, 200], vec![Some(3.0), None, Some(5.0)]),
+                (
+                    "missing".into(),
+                    [200, 0, 0],
+                    vec![None, Some(1.0), Some(2.0)],
+                ),
+            ],
         });
-        assert!(course.is_ok_and(|svg| svg.contains("sum")));
+        assert!(course.is_ok_and(|svg| svg.contains("sum") && svg.contains("missing")));
     }
 
     #[test]

@@ -204,7 +204,11 @@ impl Work {
                 "the program failed on this scene; that is its own fault and no fault of the scene";
             Ok(refused(
                 &place,
-                &[problem(Code::InternalFault, fault, "please report it with the scene")],
+                &[problem(
+                    Code::InternalFault,
+                    fault,
+                    "please report it with the scene",
+                )],
             ))
         })
     }

@@ -21,6 +21,9 @@ const NEAR: f64 = 6.0;
 /// A leader that crosses ink counts as so many pixels of distance.
 const CROSSING: f64 = 14.0;
 
+/// A leader that crosses a label, for want of another place, counts as so many pixels of distance: more than any way.
+const STRUCK: f64 = 1000.0;
+
 /// A place that is not liked counts as so many pixels of distance.
 const DISLIKED: f64 = 110.0;
 
@@ -34,8 +37,8 @@ pub struct Ink {
 
 #[derive(Clone, Debug)]
 struct Piece {
-    /// Whether no leader may cross it: a label would be struck out.
-    barred: bool,
+    /// Whether it is a label, which a leader that crosses it would strike out.
+    is_label: bool,
     corners: Vec<PagePoint>,
     min: PagePoint,
     max: PagePoint,
@@ -47,7 +50,7 @@ impl Ink {
         self.piece(corners.into_iter().collect(), false);
     }
 
-    fn piece(&mut self, corners: Vec<PagePoint>, barred: bool) {
+    fn piece(&mut self, corners: Vec<PagePoint>, is_label: bool) {
         let least = |a: PagePoint, b: PagePoint| PagePoint::new(a.x.min(b.x), a.y.min(b.y));
         let most = |a: PagePoint, b: PagePoint| PagePoint::new(a.x.max(b.x), a.y.max(b.y));
         let ends =
@@ -60,7 +63,7 @@ impl Ink {
                 }
             }
             self.pieces.push(Piece {
-                barred,
+                is_label,
                 corners,
                 min,
                 max,
@@ -147,7 +150,7 @@ impl Ink {
         self.convex(corners(rect));
     }
 
-    /// A label, which no leader may cross.
+    /// A label, which no leader should cross.
     fn label(&mut self, rect: PageRect) {
         self.piece(corners(rect).to_vec(), true);
     }
@@ -158,8 +161,8 @@ impl Ink {
         !self.near(min, max).any(|piece| meets(&piece.corners, rect))
     }
 
-    /// How many pieces a line touches; `None` where one of them is barred.
-    fn crossed(&self, from: PagePoint, to: PagePoint) -> Option<usize> {
+    /// How many labels and how many other pieces a line touches.
+    fn crossed(&self, from: PagePoint, to: PagePoint) -> (usize, usize) {
         let (min, max) = (
             PagePoint::new(from.x.min(to.x), from.y.min(to.y)),
             PagePoint::new(from.x.max(to.x), from.y.max(to.y)),
@@ -167,14 +170,11 @@ impl Ink {
         let crosses = |piece: &&Piece| {
             !parted(&piece.corners, &[from, to]) && !parted(&[from, to], &piece.corners)
         };
-        let mut count = 0;
-        for piece in self.near(min, max).filter(crosses) {
-            if piece.barred {
-                return None;
-            }
-            count += 1;
-        }
-        Some(count)
+        let crossed = self.near(min, max).filter(crosses);
+        crossed.fold((0, 0), |(labels, others), piece| match piece.is_label {
+            true => (labels + 1, others),
+            false => (labels, others + 1),
+        })
     }
 }
 
@@ -292,13 +292,14 @@ fn one(
             };
             let end = nearest(rect, wish.anchor);
             let apart = libm::hypot(end.x - wish.anchor.x, end.y - wish.anchor.y);
-            let Some(crossed) = ink.crossed(wish.anchor, end) else {
-                continue;
-            };
+            let (labels, others) = ink.crossed(wish.anchor, end);
             let disliked = disliked(rect);
             let leader = (disliked || apart > wish.from + NEAR).then_some([end, wish.anchor]);
             let penalty = if disliked { DISLIKED } else { 0.0 };
-            let cost = radius + penalty + CROSSING * crossed.saturating_sub(1) as f64;
+            let cost = radius
+                + penalty
+                + CROSSING * others.saturating_sub(1) as f64
+                + STRUCK * labels as f64;
             if best.is_none_or(|(least, _)| cost < least) {
                 let placed = Placed {
                     disliked,

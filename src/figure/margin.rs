@@ -231,7 +231,8 @@ pub(crate) fn reason(stage: &Stage<'_>, frame: usize) -> String {
     };
     let confirmed = |margin: &Margin| !matches!(margin, Margin::Unconfirmed { .. });
     if sides.is_some_and(|s| !confirmed(&s.left) || !confirmed(&s.right)) {
-        return "how far it is from falling was not confirmed by a verdict on either side".to_owned();
+        return "how far it is from falling was not confirmed by a verdict on either side"
+            .to_owned();
     }
     let placed = &analysis.scene.frames[frame].placed;
     let loaded = analysis

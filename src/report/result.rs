@@ -26,8 +26,8 @@ pub use import::import_json;
 pub use key::schema;
 pub use line::{Fields, Picture, Place, UnknownField, line_of, verdict_line};
 use margin::Margins;
-pub use refusal::{problem_line, refusal};
 pub use page::{Counts, quoted, report_json};
+pub use refusal::{problem_line, refusal};
 use wedging::Wedging;
 
 use crate::analysis::{

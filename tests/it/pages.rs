@@ -324,6 +324,13 @@ fn every_key_of_real_results_is_told_and_every_told_key_occurs() {
             .to_owned(),
     ];
     let mut texts: Vec<String> = extra.into();
+    // A bar between two walls that only press it if it is put in too tight.
+    texts.push(
+        r#"{ "drystone": 1, "friction": 0.7, "ground": [{ "polygon": [[-1, 0], [0, 0], [0, 1], [-1, 1]] },
+            { "polygon": [[3, 0], [4, 0], [4, 1], [3, 1]] }],
+            "blocks": [{ "polygon": [[0, 0], [3, 0], [3, 1], [0, 1]] }] }"#
+            .to_owned(),
+    );
     for folder in ["assets/thesis", "tests/scenes"] {
         let mut files: Vec<_> = std::fs::read_dir(root.join(folder))
             .expect("readable")

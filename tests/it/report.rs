@@ -181,10 +181,7 @@ fn every_result_is_the_one_that_check_prints() {
         .output()
         .expect("starts");
     let check: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
-    let mut scene = report["scenes"][0].clone();
-    let object = scene.as_object_mut().expect("an object");
-    assert_eq!(object.remove("file"), Some("in/b.json".into()));
-    assert_eq!(scene, check);
+    assert_eq!(report["scenes"][0], check);
 }
 
 #[test]

@@ -386,13 +386,19 @@ fn what_cannot_be_seen_is_seen() {
 /// Where each kind of output is written, by what only its writers have to say. A new file that says it is a new row for the
 /// table above.
 const WRITERS: &[(&str, &[&str])] = &[
-    ("io::stdout", &["cli/terminal.rs", "cli/mod.rs"]),
+    (
+        "io::stdout",
+        &["cli/terminal.rs", "cli/mod.rs", "cli/batch/output.rs"],
+    ),
     (
         "io::stderr",
         &["cli/terminal.rs", "cli/mod.rs", "cli/progress.rs"],
     ),
     ("anstream", &["cli/terminal.rs"]),
-    ("PreEscaped", &["report/accuracy.rs", "report/html/", "snapshot/review.rs"]),
+    (
+        "PreEscaped",
+        &["report/accuracy.rs", "report/html/", "snapshot/review.rs"],
+    ),
     (
         "\"<",
         &[
@@ -408,7 +414,8 @@ const WRITERS: &[(&str, &[&str])] = &[
         ],
     ),
     ("fs::write", &[]),
-    ("File::create", &[]),
+    // A batch grows line by line, so that an interrupted run can go on.
+    ("File::create", &["cli/batch/output.rs"]),
     (
         "to_writer",
         &[

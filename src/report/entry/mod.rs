@@ -22,7 +22,7 @@ use crate::analysis::Analysis;
 use crate::chart::{self, Course, Undrawn};
 use crate::drawing::{Drawing, Theme};
 use crate::report::accuracy;
-use crate::report::result::{Layout, Timing, accuracy_json, to_json};
+use crate::report::result::{Layout, Timing, accuracy_json, to_json_of};
 use crate::study::Study;
 use crate::text;
 use crate::wording::number::letter;
@@ -141,12 +141,8 @@ impl Entry {
 
 /// The object of `check --json` in one line, with the file it was read from.
 fn result(name: &str, analysis: &Analysis<'_>, timing: Timing) -> String {
-    let object = to_json(analysis, timing, Layout::OneLine);
-    let file = crate::report::result::quoted(name);
-    format!(
-        "{{\"file\":{file},{}",
-        object.trim_end().trim_start_matches('{')
-    )
+    let object = to_json_of(name, analysis, timing, Layout::OneLine);
+    object.trim_end().to_owned()
 }
 
 /// The commands that make a scene's figures again.

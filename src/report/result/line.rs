@@ -136,7 +136,7 @@ pub fn line_of(place: &Place, analysis: &Analysis, picture: &Picture, fields: &F
             false => Timing::LeftOut,
         };
         let whole = serde_json::to_value(Result::of(analysis, timing)).unwrap_or_default();
-        for name in NAMES {
+        for name in NAMES.iter() {
             let chosen = below(&fields.chosen, name.word);
             match name.word {
                 _ if chosen.is_empty() => {}
@@ -144,7 +144,7 @@ pub fn line_of(place: &Place, analysis: &Analysis, picture: &Picture, fields: &F
                 word => {
                     if let Some(value) = whole.get(word) {
                         key(&mut out, word);
-                        pick(&mut out, value, name.parts, &chosen);
+                        pick(&mut out, value, &name.parts, &chosen);
                     }
                 }
             }
@@ -239,7 +239,7 @@ fn pick(out: &mut String, value: &Value, parts: &[Name], chosen: &[Vec<&'static 
                 };
                 if let (Some(value), false) = (map.get(name.word), deeper.is_empty()) {
                     key(&mut inner, name.word);
-                    pick(&mut inner, value, name.parts, &deeper);
+                    pick(&mut inner, value, &name.parts, &deeper);
                 }
             }
             out.push_str(&inner);

@@ -128,8 +128,8 @@ fn fields_pick_what_is_written() {
         assert_eq!(part["interfaces"][0].as_object().map(|o| o.len()), Some(1));
     }
     // Everything by its names is everything.
-    let ran =
-        bench.run("batch falls.json --fields drystone,scene,verdict,contact_tolerance,frames");
+    let ran = bench
+        .run("batch falls.json --fields drystone,scene,verdict,contact_tolerance,notes,frames");
     assert_eq!(lines(&ran.out).remove(0), whole);
     // What is found out only on request is asked for by its own name.
     let frame = |list: &str| {
