@@ -79,7 +79,7 @@ pub struct FrameAnalysis {
     /// Σ(N1+N2+|T|) + Σ(|Fx|+|Fy|+|M|/L), N: the source's cost.
     pub total_force: f64,
     /// Where it stands: the sum that admissible forces must have at least to balance, N, as far as a motion shows it
-    /// ([`proof::least_sum`]).
+    /// ([`least_sum`](crate::proof::least_sum)).
     pub force_bound: Option<f64>,
     /// Whether the total force is no more than a millionth above that; where not, the forces balance, and a smaller sum may
     /// balance too.

@@ -1,4 +1,4 @@
-//! The macros for tests: [`assert_scene!`], [`assert_scenes!`] and [`assert_figure!`].
+//! The macros for tests: [`assert_scene!`](crate::assert_scene), [`assert_scenes!`](crate::assert_scenes) and [`assert_figure!`](crate::assert_figure).
 //!
 //! Paths begin at the folder of the crate that calls them. `UPDATE_SNAPSHOTS=1` writes references, never where `CI` is set; without
 //! it what was found lies beside them as `.new.*` and `.diff.png`, and the test fails with what changed in words. Under `CI`
@@ -73,7 +73,7 @@ macro_rules! assert_figure {
     };
 }
 
-/// What [`assert_scene!`] calls: a scene, by its path from the folder of a crate.
+/// What [`assert_scene!`](crate::assert_scene) calls: a scene, by its path from the folder of a crate.
 ///
 /// # Panics
 /// Where a reference does not hold, and where the scene is wrong.
@@ -83,7 +83,7 @@ pub fn scene(crate_folder: &Path, path: &Path) {
     scenes_at(&[place], &place_words(path));
 }
 
-/// What [`assert_scenes!`] calls: all scenes in a folder, by its path from the folder of a crate.
+/// What [`assert_scenes!`](crate::assert_scenes) calls: all scenes in a folder, by its path from the folder of a crate.
 ///
 /// # Panics
 /// Where a reference does not hold or has no scene, and where a scene is wrong or there is none.
@@ -93,7 +93,7 @@ pub fn scenes(crate_folder: &Path, path: &Path) {
     scenes_at(&[place], &place_words(path));
 }
 
-/// What [`assert_figure!`] calls: a drawing, by a name for its references.
+/// What [`assert_figure!`](crate::assert_figure) calls: a drawing, by a name for its references.
 ///
 /// # Panics
 /// Where a reference does not hold, and where the name leads out of the folder of references.

@@ -3,6 +3,11 @@
 //! `cargo bench --bench session` prints medians in microseconds, and how many steps were answered by what was known. From
 //! scratch means a scene file of the same blocks, in Rust, read and examined.
 
+#![allow(
+    clippy::print_stdout,
+    reason = "a benchmark reports on standard output"
+)]
+
 use std::time::Instant;
 
 use drystone::analysis::{Options, Source, Verdict, verdicts};

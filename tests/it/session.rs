@@ -183,7 +183,6 @@ fn a_session_on_a_lattice_says_what_a_file_says() {
         };
         played(number, base, candidate, &mut tally);
     }
-    println!("{tally:?}");
     assert!(
         tally.stable > 300 && tally.unstable > 300 && tally.refused > 50,
         "{tally:?}"
@@ -207,7 +206,6 @@ fn a_session_of_bricks_says_what_a_file_says() {
         };
         played(number, base, candidate, &mut tally);
     }
-    println!("{tally:?}");
     assert!(tally.stable > 100 && tally.unstable > 100, "{tally:?}");
 }
 
