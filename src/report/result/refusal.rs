@@ -37,7 +37,7 @@ struct Entry<'a> {
 ///
 /// let problems = Scene::from_json("{ }").unwrap_err();
 /// let json = refusal("empty.json", &problems.list, Layout::OneLine);
-/// assert!(json.starts_with(r#"{"file":"empty.json","problems":[{"code":"missing_key","path":"blocks","line":1,"#));
+/// assert!(json.starts_with(r#"{"file":"empty.json","problems":[{"code":"missing_key","path":"drystone","line":1,"#));
 /// ```
 pub fn refusal(file: &str, problems: &[Problem], layout: Layout) -> String {
     written(
