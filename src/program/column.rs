@@ -250,7 +250,7 @@ pub fn columns(program: &Program) -> Vec<Column> {
     columns
 }
 
-/// Every sticking force of a program: the opposite twin of each of the source's columns
+/// Every sticking force of a program: the opposite partner of each of the source's columns
 /// ([Vallat23](crate::doc::references) §2.0.8), unbounded.
 ///
 /// Sticking friction is one force per interface, because both corners' act along the same line.

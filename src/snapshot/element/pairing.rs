@@ -45,7 +45,7 @@ fn key(element: &Element, stage: usize) -> u64 {
 
 fn between<'e>(old: &'e [Element], new: &'e [Element], stage: usize, pairs: &mut Vec<Pair<'e>>) {
     if stage == 3 || old.is_empty() || new.is_empty() {
-        leftover(old, new, pairs);
+        pair_rest(old, new, pairs);
         return;
     }
     let keys = |list: &[Element]| list.iter().map(|e| key(e, stage)).collect::<Vec<u64>>();
@@ -59,7 +59,7 @@ fn between<'e>(old: &'e [Element], new: &'e [Element], stage: usize, pairs: &mut
 }
 
 /// Pairs of one kind where there are as many of it; the rest came or went.
-fn leftover<'e>(old: &'e [Element], new: &'e [Element], pairs: &mut Vec<Pair<'e>>) {
+fn pair_rest<'e>(old: &'e [Element], new: &'e [Element], pairs: &mut Vec<Pair<'e>>) {
     let kind = |e: &Element| (e.tag.clone(), e.class.clone());
     let of = |list: &'e [Element], k: &(String, String)| -> Vec<&'e Element> {
         list.iter().filter(|e| kind(e) == *k).collect()
