@@ -22,7 +22,7 @@ pub struct Options {
     /// Whether each standing frame stands only by wedging.
     pub wedging: Ask,
     /// The verdict with its proof, and no program beyond what decides: where a frame falls, what fails is not sought; where it
-    /// stands, the forces are some that balance. Each is said in the result.
+    /// stands, the forces are some that balance. Each is stated in the result.
     pub verdict_only: Ask,
     /// When to give up: what is not decided by then is `Undecided`, and its doubt says so. Without one the same scene gives
     /// the same answer every time.

@@ -1,4 +1,5 @@
-//! [`Column`]: one force of amount ≥ 0 and the balance rows it enters. The only index arithmetic of the crate.
+//! [`Column`]: one force of amount ≥ 0 and the balance rows it enters. Where a force enters the
+//! balance rows is worked out here.
 //!
 //! Admissible contact forces are the generators of the friction cone of each application point: the normal alone and the
 //! normal with full friction either way, (n̂ ± μ t̂)/(1 + μ), each at cost 1 a unit. Every admissible contact force is a

@@ -3,7 +3,8 @@
 //! For every block three rows (force x, force y, moment about its own centroid over L), for every force a column
 //! ([`Column`]). Invariant: lengths are in parts of the median interface length L, forces such that the heaviest load is
 //! [`Scale::HEAVIEST`], moments about the block's own centroid, so that neither place nor units reach the solver.
-//! `column` holds the only index arithmetic, `scale` the only units, `pose` the forms handed to the solver.
+//! `column` says which rows a force enters, `scale` turns metres and newtons into pure numbers and back, `pose` makes the
+//! forms handed to the solver.
 
 mod column;
 mod pose;

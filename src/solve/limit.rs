@@ -21,7 +21,7 @@ pub enum Limit {
     /// Every value from some on does.
     Unbounded,
     /// The solver gave up.
-    Unclear,
+    Unsolved,
 }
 
 /// What a program found at its limit.
@@ -96,7 +96,7 @@ pub fn most(program: &Program, toward: &[f64]) -> Extreme {
             _ => {}
         }
     }
-    Limit::Unclear.into()
+    Limit::Unsolved.into()
 }
 
 /// Amounts with the smallest change that undoes what a solver left unbalanced of them.
@@ -142,6 +142,6 @@ pub fn least(program: &Program, grip: usize, component: usize) -> Extreme {
             }
         }
         Status::Unbounded => Limit::Never.into(),
-        _ => Limit::Unclear.into(),
+        _ => Limit::Unsolved.into(),
     }
 }

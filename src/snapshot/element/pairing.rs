@@ -21,7 +21,7 @@ pub(super) fn pairs<'e>(old: &'e [Element], new: &'e [Element]) -> Vec<Pair<'e>>
 
 /// What two elements that may stand for the same thing have in common, ever less of it.
 fn key(element: &Element, stage: usize) -> u64 {
-    // Within one run only: nothing of it is told.
+    // Within one run only: nothing of it is reported.
     let mut hasher = DefaultHasher::new();
     match stage {
         0 => element.hash(&mut hasher),

@@ -36,7 +36,7 @@ pub(super) enum Search {
     Open,
 }
 
-/// One case: what is said of each point and each face.
+/// One case: what is reported of each point and each face.
 #[derive(Clone)]
 struct Case {
     pressed: Vec<Option<bool>>,
@@ -138,11 +138,11 @@ impl Case {
     /// A pattern with what the case says put in.
     fn imposed(&self, pattern: &Pattern) -> Pattern {
         let mut imposed = pattern.clone();
-        for (to, said) in imposed.pressed.iter_mut().zip(&self.pressed) {
-            *to = said.unwrap_or(*to);
+        for (to, given) in imposed.pressed.iter_mut().zip(&self.pressed) {
+            *to = given.unwrap_or(*to);
         }
-        for (to, said) in imposed.slides.iter_mut().zip(&self.slides) {
-            *to = said.unwrap_or(*to);
+        for (to, given) in imposed.slides.iter_mut().zip(&self.slides) {
+            *to = given.unwrap_or(*to);
         }
         imposed
     }
