@@ -1,13 +1,13 @@
 //! Verdicts alone, each from what is known already where that has a proof.
 //!
 //! The nearest balance ([`Nearest`]) of a frame is its forces, or the motion by which it falls. Its used columns are a
-//! first guess for the next frame: where little changed they need little more, and where nothing changed that matters,
+//! first guess for the next frame: where little changed they require little more, and where nothing changed that matters,
 //! nothing. What it finds is believed for its proof, as anything else; where there is none, the frame is examined as
 //! [`Analysis`](super::Analysis) does, so that a guess can save work and decide nothing.
 
 use std::collections::BTreeMap;
 
-use super::component::Hunch;
+use super::component::Candidate;
 use super::{Analysis, Known, Options, Verdict, examined};
 use crate::assembly::Assembly;
 use crate::effect::{self, Situation};
@@ -120,12 +120,12 @@ impl Guess {
         let program = Program::of(assembly, scale);
         let columns = generators(&program);
         self.move_to(assembly, columns);
-        let Some(rest) = self.nearest.find(&program.need, &self.columns) else {
+        let Some(rest) = self.nearest.find(&program.loads, &self.columns) else {
             *self = Guess::default();
             return None;
         };
         let amounts: Amounts = self.nearest.gathered(&program, &self.columns);
-        Hunch::of(assembly, scale, options).verdict(&amounts, &rest)
+        Candidate::of(assembly, scale, options).verdict(&amounts, &rest)
     }
 
     /// The scale of the guess, or a new one and no guess where it is too far off.

@@ -4,7 +4,7 @@
 //! been meant to touch, and so may bodies that overlap by as little. Where there are such places a frame is judged both
 //! ways: as it is written, where neither a gap nor an overlap carries force, and with all of them closed. If the verdicts
 //! differ nobody can say which structure was meant: the frame is undecided, with the places and the tolerance that settles
-//! it. If they agree an overlap is told beside the verdict. A tolerance that somebody gave settles it already.
+//! it. If they agree an overlap is reported beside the verdict. A tolerance that somebody gave settles it already.
 
 use std::collections::BTreeMap;
 

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use super::margin::MarginKinds;
 use crate::proof::Demand;
-use crate::solve::{Care, Choice, Manner, TOLERANCE};
+use crate::solve::{Choice, Conditioning, SolverSettings, TOLERANCE};
 
 /// How an analysis is made.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -22,7 +22,7 @@ pub struct Options {
     /// Whether each standing frame stands only by wedging.
     pub wedging: Ask,
     /// The verdict with its proof, and no program beyond what decides: where a frame falls, what fails is not sought; where it
-    /// stands, the forces are some that balance. Each is said in the result.
+    /// stands, the forces are some that balance. Each is stated in the result.
     pub verdict_only: Ask,
     /// When to give up: what is not decided by then is `Undecided`, and its doubt says so. Without one the same scene gives
     /// the same answer every time.
@@ -82,31 +82,31 @@ impl Options {
         self.deadline.is_some_and(|end| Instant::now() >= end)
     }
 
-    /// The manners in which a program is tried, one after the other until a proof convinces.
-    pub(super) fn manners(self) -> Vec<Manner> {
+    /// The settings with which a program is tried, one after the other until a proof convinces.
+    pub(super) fn solver_settings(self) -> Vec<SolverSettings> {
         let full = match self.accuracy {
-            Accuracy::Draft | Accuracy::Standard => Manner::from(Care::Full),
+            Accuracy::Draft | Accuracy::Standard => SolverSettings::from(Conditioning::Full),
             // A motion's violation is the solver's own: only a closer look makes it smaller.
-            Accuracy::Proved => Manner {
+            Accuracy::Proved => SolverSettings {
                 tolerance: TOLERANCE * 1e-2,
-                ..Care::Full.into()
+                ..Conditioning::Full.into()
             },
         };
-        let draft = Manner {
+        let draft = SolverSettings {
             tolerance: Accuracy::LOOSE,
-            care: Care::Quick,
+            conditioning: Conditioning::Plain,
             choice: Choice::Any,
         };
-        let mut manners = vec![Manner::from(Care::Quick), full];
+        let mut list = vec![SolverSettings::from(Conditioning::Plain), full];
         if self.accuracy == Accuracy::Draft {
-            manners.insert(0, draft);
+            list.insert(0, draft);
         }
-        for manner in &mut manners {
+        for one in &mut list {
             if self.verdict_only == Ask::Yes {
-                manner.choice = Choice::Any;
+                one.choice = Choice::Any;
             }
-            manner.tolerance = self.tolerance.unwrap_or(manner.tolerance);
+            one.tolerance = self.tolerance.unwrap_or(one.tolerance);
         }
-        manners
+        list
     }
 }

@@ -93,13 +93,13 @@ pub fn pair(
 
 /// What differs beside blocks, loads and robots, in words.
 fn differences(first: &Scene, second: &Scene) -> Vec<String> {
-    let mut said = Vec::new();
-    let mut told = |what: &str, a: f64, b: f64| {
+    let mut words = Vec::new();
+    let mut compare = |what: &str, a: f64, b: f64| {
         if (a - b).abs() > ALIKE * a.abs().max(b.abs()) {
-            said.push(format!("{what} {b} in place of {a}"));
+            words.push(format!("{what} {b} in place of {a}"));
         }
     };
-    told("kernel", first.kernel, second.kernel);
+    compare("kernel", first.kernel, second.kernel);
     let rubs = |scene: &Scene| {
         let bodies = scene.blocks.iter().map(|b| &b.body);
         let mut all: Vec<f64> = bodies
@@ -112,8 +112,8 @@ fn differences(first: &Scene, second: &Scene) -> Vec<String> {
     };
     let (a, b) = (rubs(first), rubs(second));
     match (&a[..], &b[..]) {
-        ([a], [b]) => told("friction", *a, *b),
-        _ if a != b => said.push("other friction".into()),
+        ([a], [b]) => compare("friction", *a, *b),
+        _ if a != b => words.push("other friction".into()),
         _ => {}
     }
     if first.corner_contacts != second.corner_contacts {
@@ -122,9 +122,9 @@ fn differences(first: &Scene, second: &Scene) -> Vec<String> {
         } else {
             "without"
         };
-        said.push(format!("{how} corner contacts"));
+        words.push(format!("{how} corner contacts"));
     }
-    said
+    words
 }
 
 fn alike(a: &Polygon, b: &Polygon) -> bool {

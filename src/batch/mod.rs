@@ -12,12 +12,12 @@
 //!
 //! let text = Cursor::new("a\nbb\n\nccc");
 //! let records = Records::of(vec![Input::lines(None, Box::new(text))]);
-//! let mut told = Vec::new();
+//! let mut described = Vec::new();
 //! in_order(records, Room::of(2), |record| (record.line, record.bytes.map(|b| b.len())), |answer| {
-//!     told.extend(answer);
+//!     described.extend(answer);
 //!     ControlFlow::Continue(())
 //! });
-//! assert_eq!(told, [(Some(1), Ok(1)), (Some(2), Ok(2)), (Some(3), Ok(0)), (Some(4), Ok(3))]);
+//! assert_eq!(described, [(Some(1), Ok(1)), (Some(2), Ok(2)), (Some(3), Ok(0)), (Some(4), Ok(3))]);
 //! ```
 
 mod queue;

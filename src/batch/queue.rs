@@ -229,12 +229,12 @@ mod tests {
             thread::sleep(Duration::from_micros((n * 7919 % 13) as u64 * 100));
             n
         };
-        let mut told = Vec::new();
+        let mut described = Vec::new();
         in_order(0..500, ROOM, work, |answer| {
-            told.extend(answer);
+            described.extend(answer);
             ControlFlow::Continue(())
         });
-        assert_eq!(told, (0..500).collect::<Vec<_>>());
+        assert_eq!(described, (0..500).collect::<Vec<_>>());
     }
 
     #[test]
@@ -266,51 +266,51 @@ mod tests {
 
     #[test]
     fn one_item_larger_than_the_room_goes_through() {
-        let mut told = 0;
+        let mut described = 0;
         let room = Room { bytes: 10, ..ROOM };
         in_order(
             0..20,
             room,
             |n: usize| n,
             |answer| {
-                told += answer.iter().count();
+                described += answer.iter().count();
                 ControlFlow::Continue(())
             },
         );
-        assert_eq!(told, 20);
+        assert_eq!(described, 20);
     }
 
     #[test]
     fn a_taker_who_has_enough_ends_it_though_the_input_never_ends() {
-        let mut told = 0;
+        let mut described = 0;
         in_order(
             0..,
             ROOM,
             |n: usize| n,
             |answer| {
-                told += answer.iter().count();
-                match told {
+                described += answer.iter().count();
+                match described {
                     100 => ControlFlow::Break(()),
                     _ => ControlFlow::Continue(()),
                 }
             },
         );
-        assert_eq!(told, 100);
+        assert_eq!(described, 100);
     }
 
     #[test]
     fn an_answer_is_handed_on_before_the_next_item_comes() {
         let (sender, receiver) = channel::<usize>();
         sender.send(0).expect("open");
-        let mut told = Vec::new();
+        let mut described = Vec::new();
         in_order(
             receiver.into_iter(),
             ROOM,
             |n| n,
             |answer| {
-                told.extend(answer);
+                described.extend(answer);
                 // The next item is sent only once the last was answered.
-                match (answer, told.len()) {
+                match (answer, described.len()) {
                     (Some(_), 3) => return ControlFlow::Break(()),
                     (Some(n), _) => sender.send(n + 1).expect("open"),
                     (None, _) => {}
@@ -318,6 +318,6 @@ mod tests {
                 ControlFlow::Continue(())
             },
         );
-        assert_eq!(told, [0, 1, 2]);
+        assert_eq!(described, [0, 1, 2]);
     }
 }

@@ -24,12 +24,14 @@ use crate::cli::terminal::Terminal;
 use crate::figure;
 use crate::output::file::Existing;
 use crate::output::fonts::Fonts;
-use crate::report::result::{Fields, Picture as Told, Place, line_of, problem_line, verdict_line};
+use crate::report::result::{
+    Fields, Picture as PictureState, Place, line_of, problem_line, verdict_line,
+};
 use crate::scene::{Code, Problem, Scene};
 use output::Output;
 use pace::Pace;
 
-/// The width of a picture where nothing is said, pixels.
+/// The width of a picture where nothing is given, pixels.
 const WIDTH: u32 = 400;
 
 /// Examine many scenes, one per line, on all cores: a line of JSON for each, in their order
@@ -233,7 +235,7 @@ impl Work {
         }
         let analysis = Analysis::with(&scene, &options);
         let picture = match &self.drawn {
-            None => Told::NotAsked,
+            None => PictureState::NotAsked,
             Some(drawn) => drawn.draw(&analysis, name)?,
         };
         Ok(Answer {
@@ -258,7 +260,7 @@ impl Work {
 
 impl Drawn {
     /// Draws a scene into its file. The file is there, whole, before the line that tells of it.
-    fn draw(&self, analysis: &Analysis<'_>, name: &str) -> Result<Told, Complaint> {
+    fn draw(&self, analysis: &Analysis<'_>, name: &str) -> Result<PictureState, Complaint> {
         let name = format!("{name}.{}", self.format.ending());
         let legible = match self.picture.draws_words(self.format) {
             true => script::legible(analysis.scene, &self.fonts),
@@ -274,10 +276,10 @@ impl Drawn {
             Ok(bytes) => {
                 let file = (self.folder.join(&name), bytes);
                 destination::write(&[file], Existing::Replace)?;
-                Ok(Told::Drawn(name))
+                Ok(PictureState::Drawn(name))
             }
             Err(Complaint::CommandLine(why) | Complaint::NotWritten { why, .. }) => {
-                Ok(Told::Refused(why))
+                Ok(PictureState::Refused(why))
             }
             Err(other) => Err(other),
         }

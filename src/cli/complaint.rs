@@ -77,7 +77,7 @@ impl Complaint {
         }
     }
 
-    /// What a program is told of a scene that cannot be read.
+    /// What a program reads of a scene that cannot be read.
     pub(crate) fn problems(&self) -> Vec<Problem> {
         let alone = |code, message: String, help: &str| {
             vec![Problem {
@@ -105,7 +105,7 @@ impl Complaint {
         }
     }
 
-    /// What a person is told, in colour.
+    /// What a person reads, in colour.
     pub(crate) fn page(&self) -> Page {
         let mut page = Page::default();
         match self {

@@ -4,7 +4,7 @@ use std::process::ExitCode;
 
 use crate::analysis::{Analysis, Verdict};
 
-/// How a command ended. The greater is the one that is told.
+/// How a command ended. The greater is the one that is reported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Ending {
     /// Done, and everything that was asked about is stable.

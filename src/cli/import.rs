@@ -24,7 +24,7 @@ const LISTED: usize = 12;
 ///
 /// Every closed outline becomes a block, named after its label or id. Layers and elements whose names begin with "ground"
 /// become ground, with "robot" robots, which hold the block in which their centre lies; "ignore" and "guide" are left out.
-/// What nearly touches is made to touch, and what cannot be taken is told.
+/// What nearly touches is made to touch, and what cannot be taken is reported.
 #[derive(Debug, Args)]
 #[command(allow_negative_numbers = true)]
 pub(crate) struct Import {
@@ -109,7 +109,7 @@ impl Import {
             Ok(imported) => imported,
             Err(refusal) => {
                 for remark in &refusal.remarks {
-                    terminal.notes(&said("warning", &name, remark));
+                    terminal.notes(&remark_page("warning", &name, remark));
                 }
                 return Err(refused(&name, &refusal.problems));
             }
@@ -203,7 +203,7 @@ impl Import {
 
     fn tell(&self, terminal: &Terminal, name: &str, imported: &Imported) {
         for remark in &imported.remarks {
-            terminal.notes(&said("warning", name, remark));
+            terminal.notes(&remark_page("warning", name, remark));
         }
         let count = |n: usize, one: &str, many: &str| match n {
             1 => format!("1 {one}"),
@@ -248,11 +248,11 @@ impl Import {
 }
 
 fn refused(name: &str, problems: &[Remark]) -> Vec<Complaint> {
-    let complaint = |remark: &Remark| Complaint::Drawing(said("error", name, remark));
+    let complaint = |remark: &Remark| Complaint::Drawing(remark_page("error", name, remark));
     problems.iter().map(complaint).collect()
 }
 
-fn said(severity: &str, name: &str, remark: &Remark) -> Page {
+fn remark_page(severity: &str, name: &str, remark: &Remark) -> Page {
     let mut page = Page::default();
     page.words(&format!("{severity}: {name}: "));
     if !remark.element.is_empty() {

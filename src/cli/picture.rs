@@ -39,7 +39,7 @@ pub(crate) struct Picture {
     #[arg(long, value_enum, value_name = "FORM")]
     text: Option<TextForm>,
     /// A font file (.ttf, .otf, .ttc) for scripts that ours do not have, as often as needed; without one their characters
-    /// are told by their code points wherever the words are drawn here
+    /// are written as their code points wherever the words are drawn here
     #[arg(long = "font", value_name = "FILE")]
     fonts: Vec<PathBuf>,
 }
@@ -77,7 +77,7 @@ enum Background {
 }
 
 impl Format {
-    /// All formats, in the order in which they are told.
+    /// All formats, in the order in which they are reported.
     pub(crate) const ALL: [Format; 4] = [Format::Svg, Format::Png, Format::Pdf, Format::Tikz];
 
     /// The file ending, without its dot.
@@ -256,7 +256,7 @@ impl Picture {
         }
     }
 
-    /// Two pixels per unit where nothing is said: sharp on screens that have two, and still small.
+    /// Two pixels per unit where nothing is given: sharp on screens that have two, and still small.
     fn size(&self) -> Size {
         match (self.width, self.scale, self.width_mm) {
             (Some(width), _, _) => Size::Width(width),

@@ -77,7 +77,7 @@ pub(crate) struct Render {
     /// Leave out the frames' captions
     #[arg(long)]
     no_caption: bool,
-    /// Leave out the verdicts and what is said below them
+    /// Leave out the verdicts and what is written below them
     #[arg(long)]
     no_verdict: bool,
     /// Leave out the key and the scale of arrows

@@ -203,7 +203,7 @@ impl Report {
         }
     }
 
-    /// The scenes to tell of, and what is to be said of files that have no counterpart.
+    /// The scenes to tell of, and what is to be reported of files that have no counterpart.
     fn tasks(&self) -> Result<(Vec<Task>, Vec<String>), Vec<Complaint>> {
         if self.compare {
             return self.pairs();

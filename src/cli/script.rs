@@ -38,7 +38,7 @@ fn words(scene: &Scene) -> Vec<&str> {
     title.chain(frames).chain(blocks).chain(robots).collect()
 }
 
-/// The scene with the characters that no font has told by their code points.
+/// The scene with the characters that no font has written as their code points.
 pub(crate) fn legible(scene: &Scene, fonts: &Fonts) -> Scene {
     let mut scene = scene.clone();
     let spell = |words: &mut String| {

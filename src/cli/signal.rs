@@ -24,7 +24,7 @@ pub(crate) fn listen() {
     let listener = std::thread::Builder::new().name("signals".into());
     let _ = listener.spawn(move || {
         for signal in signals.forever() {
-            // A file that grows beyond its limit: the write fails then, as on a full disk, and that is told.
+            // A file that grows beyond its limit: the write fails then, as on a full disk, and that is reported.
             if signal == SIGXFSZ {
                 continue;
             }

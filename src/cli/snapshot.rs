@@ -75,7 +75,7 @@ impl Snapshot {
         drop(progress);
 
         let failing: Vec<String> = report.failing().map(|s| s.name.clone()).collect();
-        let told = report.lines();
+        let described = report.lines();
         // With what is accepted now, for whoever looks afterwards.
         let page = match &self.review {
             Some(Some(_)) => review::page(&report, &self.folders),
@@ -95,7 +95,7 @@ impl Snapshot {
         }
         destination::write(&written, Existing::Replace).map_err(|c| vec![c])?;
         drop(turn);
-        self.tell(terminal, &report, &told, accepts, &failing)?;
+        self.tell(terminal, &report, &described, accepts, &failing)?;
         match unwritten {
             // What lies beside is for looking at; the answer stands without it.
             Err(failed) if !accepts => {
@@ -165,7 +165,7 @@ impl Snapshot {
         &self,
         terminal: &Terminal,
         report: &Report,
-        told: &[String],
+        described: &[String],
         accepts: bool,
         failing: &[String],
     ) -> Result<(), Vec<Complaint>> {
@@ -175,7 +175,7 @@ impl Snapshot {
                 page.line(&annotation);
             }
         } else if !terminal.is_quiet() {
-            for line in told {
+            for line in described {
                 page.line(line);
             }
         }

@@ -28,7 +28,7 @@ impl Source {
         stem.to_string_lossy().into_owned()
     }
 
-    /// How a person is told which scene is meant.
+    /// How a person is shown which scene is meant.
     pub(crate) fn name(&self) -> String {
         name(&self.path)
     }
@@ -202,7 +202,7 @@ pub(crate) fn with_text(
     Ok((source, text.trim_start_matches('\u{feff}').to_owned()))
 }
 
-/// How a person is told which file is meant.
+/// How a person is shown which file is meant.
 pub(crate) fn name(path: &Path) -> String {
     if path == Path::new("-") {
         "standard input".into()

@@ -18,11 +18,11 @@ pub(crate) const LIMITS: &str = "\
 stable    some set of admissible forces balances every block. Rigid blocks, laid dry, at rest; a wedged balance counts.
 forces    sum of all normal, friction and robot forces; sticking: what would have to be glued to make up for the rest
 friction  most of it that is used anywhere; robots: most of a limit that is used
-proof     in parts of the largest weight; the motion's fastest point has speed 1
+proof     in parts of the forces on each block; of a motion in parts of the loads of what moves
 ";
 
-/// So many failures of a frame are told in words; the figure and the JSON have them all.
-const TOLD: usize = 12;
+/// So many failures of a frame are described in words; the figure and the JSON have them all.
+const MOST_LISTED: usize = 12;
 /// A frame's longer title is cut.
 const TITLE: usize = 40;
 /// A scene's longer title is cut: a terminal would break the line, and what stands behind the break would look like a row.
@@ -156,17 +156,17 @@ fn remarks(scene: &Scene, frame: &FrameAnalysis) -> Vec<String> {
     let mut remarks: Vec<String> = frame
         .failures
         .iter()
-        .take(TOLD)
+        .take(MOST_LISTED)
         .map(|f| failure::sentence(scene, f))
         .collect();
-    if frame.failures.len() > TOLD {
-        remarks.push(format!("and {} more", frame.failures.len() - TOLD));
+    if frame.failures.len() > MOST_LISTED {
+        remarks.push(format!("and {} more", frame.failures.len() - MOST_LISTED));
     }
     if !frame.unsupported.is_empty() {
         let names: Vec<&str> = frame
             .unsupported
             .iter()
-            .take(TOLD)
+            .take(MOST_LISTED)
             .map(|id| scene.blocks[id.0].id.as_str())
             .collect();
         let more = frame.unsupported.len() - names.len();

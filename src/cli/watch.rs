@@ -19,7 +19,7 @@ type Mark = Option<(SystemTime, u64)>;
 
 /// Runs a command, and runs it again after every change of a file, until the process is ended from outside.
 ///
-/// What is wrong is told, and watching goes on: the next save may mend it.
+/// What is wrong is reported, and watching goes on: the next save may mend it.
 pub(crate) fn repeat(
     files: &[PathBuf],
     terminal: &Terminal,

@@ -104,7 +104,7 @@ pub struct Sizes {
     pub caption: f64,
     /// A frame's verdict.
     pub verdict: f64,
-    /// What is said below a verdict.
+    /// What is written below a verdict.
     pub reason: f64,
     /// The key.
     pub key: f64,

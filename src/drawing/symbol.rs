@@ -74,7 +74,7 @@ impl Symbol {
     }
 
     /// Its letters in a row, for those who hear it: `F_s1^(2)`.
-    pub fn said(&self) -> String {
+    pub fn stated(&self) -> String {
         let one = |l: &Letter| {
             let mark = |sign: &str, words: &str| match words {
                 "" => String::new(),
@@ -205,9 +205,9 @@ mod tests {
         let wide = |s: &Symbol| s.size(20.0).0;
         assert!(wide(&below) > wide(&plain) + 10.0);
         assert!(wide(&both) < wide(&plain) + 2.0 * (wide(&below) - wide(&plain)));
-        assert_eq!(both.said(), "F_fl1^(2)");
+        assert_eq!(both.stated(), "F_fl1^(2)");
         let weight = Symbol::new("m", Accent::None, "").then(Symbol::new("g", Accent::Arrow, ""));
-        assert_eq!(weight.said(), "mg");
+        assert_eq!(weight.stated(), "mg");
     }
 
     #[test]

@@ -7,14 +7,14 @@ use crate::analysis::{Analysis, Motion, Verdict};
 use crate::drawing::text::NO_BREAK;
 use crate::scene::BodyId;
 
-/// So many rigid bodies are told one by one.
-const MOST_TOLD: usize = 3;
+/// So many rigid bodies are listed one by one.
+const MOST_LISTED: usize = 3;
 /// So many blocks of a body are named.
 const MOST_NAMED: usize = 4;
 /// A body whose turning moves it by less than this share of its fastest point's speed merely shifts.
 const TURNS: f64 = 0.02;
 
-/// What is said below a panel of a mechanism.
+/// What is written below a panel of a mechanism.
 pub(crate) fn reason(analysis: &Analysis<'_>, frame: usize) -> String {
     let found = &analysis.frames[frame];
     match found.verdict {
@@ -40,12 +40,12 @@ fn collapse(analysis: &Analysis<'_>, frame: usize) -> String {
         .filter(|c| c.0 > 0)
         .map(|(count, what)| counted(count, what))
         .collect();
-    if bodies.len() <= MOST_TOLD {
-        let mut told: Vec<String> = bodies.iter().map(|body| teller.body(body)).collect();
+    if bodies.len() <= MOST_LISTED {
+        let mut described: Vec<String> = bodies.iter().map(|body| teller.body(body)).collect();
         if bodies.len() > 1 && !counts.is_empty() {
-            told.push(listed(&counts));
+            described.push(listed(&counts));
         }
-        return told.join("; ");
+        return described.join("; ");
     }
     let moving: usize = bodies.iter().map(Vec::len).sum();
     let blocks = analysis.scene.frames[frame].placed.len();

@@ -5,12 +5,12 @@
 
 use std::collections::BTreeMap;
 
+use super::description;
 use super::label;
 use super::legend::{self, Entry};
 use super::panel::composed;
 use super::pen::Pen;
 use super::stage::Stage;
-use super::told;
 use super::words::{counted, listed, quantity};
 use crate::analysis::{Analysis, Contact, Verdict};
 use crate::drawing::arrow::straight;
@@ -131,7 +131,7 @@ pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Ca
     let radius = (share * pen.unit()).clamp(least, most);
     for change in changes(stage.analysis, frame).0 {
         let at = camera.place(change.now.resultant.at);
-        let pair = told::pair(scene, change.now.interface.bodies);
+        let pair = description::pair(scene, change.now.interface.bodies);
         let amounts = [change.before, change.now].map(|c| quantity(force(c).norm(), "N"));
         let [was, is] = amounts;
         let title = format!("Between {pair}: {was} before, {is} now");
@@ -177,7 +177,7 @@ pub(crate) fn entries(stage: &Stage<'_>, unit: f64) -> Vec<Entry> {
     entries
 }
 
-/// What is said below a frame's verdict.
+/// What is written below a frame's verdict.
 pub(crate) fn reason(analysis: &Analysis<'_>, frame: usize) -> String {
     let Some(earlier) = frame.checked_sub(1) else {
         return match analysis.frames.len() {
@@ -186,10 +186,10 @@ pub(crate) fn reason(analysis: &Analysis<'_>, frame: usize) -> String {
         };
     };
     let [came, went] = blocks(analysis, frame);
-    let mut said = Vec::new();
+    let mut stated = Vec::new();
     let verdicts = [earlier, frame].map(|f| analysis.frames[f].verdict);
     if verdicts[0] != verdicts[1] {
-        said.push(match verdicts[1] {
+        stated.push(match verdicts[1] {
             Verdict::Stable => "stands where the frame before did not".to_owned(),
             Verdict::Unstable => "falls where the frame before did not".to_owned(),
             Verdict::Undecided => "undecided where the frame before was decided".to_owned(),
@@ -216,19 +216,19 @@ pub(crate) fn reason(analysis: &Analysis<'_>, frame: usize) -> String {
     ] {
         match names.len() {
             0 => {}
-            n if n <= MOST_NAMED => said.push(format!("{how}: {}", listed(&names))),
-            n => said.push(format!("{how}: {n} blocks")),
+            n if n <= MOST_NAMED => stated.push(format!("{how}: {}", listed(&names))),
+            n => stated.push(format!("{how}: {n} blocks")),
         }
     }
     let (changed, shared) = changes(analysis, frame);
-    said.push(match changed.len() {
+    stated.push(match changed.len() {
         0 => "no force changed by over 5 %".to_owned(),
         n => format!(
             "{n} of {} changed by over 5 %",
             counted(shared, "shared force")
         ),
     });
-    said.join("; ")
+    stated.join("; ")
 }
 
 fn new_path(outline: Outline, theme: &Theme) -> Path {

@@ -2,12 +2,12 @@
 
 use super::bearing::{Bearing, bearings};
 use super::by_colour::ByColour;
+use super::description;
 use super::label;
 use super::legend::{self, Entry};
 use super::panel::composed;
 use super::pen::Pen;
 use super::stage::Stage;
-use super::told;
 use super::verdict;
 use super::words::{ALL, percent, quantity};
 use crate::analysis::{Contact, FrameAnalysis, Verdict};
@@ -35,7 +35,7 @@ pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Ca
     composed(&pen, view, pen.blocks(), vec![stretches, dots], ink)
 }
 
-/// What is said below a frame's verdict.
+/// What is written below a frame's verdict.
 pub(crate) fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
     match found.verdict {
         Verdict::Stable => {}
@@ -68,7 +68,7 @@ pub(crate) fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
             "in the balance shown {at_end} resultants sit at an end of the safe stretch"
         );
     }
-    let pair = told::pair(scene, contact.interface.bodies);
+    let pair = description::pair(scene, contact.interface.bodies);
     if at_end == 1 {
         return format!(
             "in the balance shown the resultant between {pair} sits at the end of the safe stretch"
@@ -158,7 +158,7 @@ fn stretches(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
             continue;
         }
         let length = contact.interface.length();
-        let pair = told::pair(scene, contact.interface.bodies);
+        let pair = description::pair(scene, contact.interface.bodies);
         let title = format!(
             "Between {pair}: {} of {} safe",
             quantity((1.0 - scene.kernel) * length, "m"),
@@ -208,7 +208,7 @@ fn dots(pen: &Pen<'_>, found: &FrameAnalysis, ink: &mut dyn FnMut(PagePoint)) ->
             joined.add(fill, outline);
             continue;
         }
-        let pair = told::pair(scene, contact.interface.bodies);
+        let pair = description::pair(scene, contact.interface.bodies);
         let amount = quantity(contact.resultant.force.norm(), "N");
         let place = bearing.eccentricity.map_or(String::new(), |share| {
             let share = percent(share);

@@ -100,7 +100,7 @@ impl Kind {
         };
         let mut stage = Stage::of(analysis, options, &content);
         let frames = 0..analysis.frames.len();
-        stage.said = frames.map(|frame| self.reason(&stage, frame)).collect();
+        stage.statements = frames.map(|frame| self.reason(&stage, frame)).collect();
         stage
     }
 
@@ -224,7 +224,7 @@ impl Kind {
         }
     }
 
-    /// What is said below a frame's verdict.
+    /// What is written below a frame's verdict.
     fn reason(self, stage: &Stage<'_>, frame: usize) -> String {
         let (scene, found) = (stage.analysis.scene, &stage.analysis.frames[frame]);
         match self {

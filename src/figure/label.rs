@@ -158,10 +158,10 @@ fn wanted(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
 /// The blocks that the words below a frame name, in placing order.
 fn mentioned(stage: &Stage<'_>, frame: usize) -> Vec<BlockId> {
     let scene = stage.analysis.scene;
-    let said = &stage.said[frame];
+    let stated = &stage.statements[frame];
     let placed = scene.frames[frame].placed.iter().copied();
     placed
-        .filter(|id| names(said, &scene.blocks[id.0].id))
+        .filter(|id| names(stated, &scene.blocks[id.0].id))
         .collect()
 }
 
@@ -262,13 +262,13 @@ fn amounts(pen: &Pen<'_>) -> Vec<Label> {
         .max(SMALLEST)
         .min(pen.stage.options.theme.sizes.amount);
     // Between two blocks the same amount acts both ways: it is said once, on the block of the lower number.
-    let said = |arrow: &&ForceArrow| match (arrow.kind.partner(), arrow.on) {
+    let stated = |arrow: &&ForceArrow| match (arrow.kind.partner(), arrow.on) {
         (Some(BodyId::Block(partner)), BodyId::Block(on)) => on.0 < partner.0,
         _ => true,
     };
     let seen = |a: &&ForceArrow| pen.seen(a) || a.kind == ArrowKind::Load;
     let seen = marks.arrows.iter().filter(seen);
-    let wanted = |arrow: &&ForceArrow| asked(arrow.kind == ArrowKind::Load) && said(arrow);
+    let wanted = |arrow: &&ForceArrow| asked(arrow.kind == ArrowKind::Load) && stated(arrow);
     let straight = seen.filter(wanted).map(|arrow| {
         let words = quantity(arrow.force.norm(), "N");
         let (from, along) = (pen.camera.place(arrow.at), pen.camera.turn(arrow.reach()));

@@ -1,10 +1,10 @@
 //! The key: what the colours and signs of a figure mean. It lists only what occurs.
 
 use super::arrow::{ArrowKind, ForceArrow, LEAST_SEEN, TurnKind};
+use super::description;
 use super::option::{ArrowScale, Options};
 use super::pen::{CENTROID, DOT, TEXTURE};
 use super::stage::Stage;
-use super::told;
 use super::words::{counted, quantity, round_below};
 use crate::drawing::arrow::{HEAD_LENGTH, straight};
 use crate::drawing::{
@@ -328,7 +328,7 @@ pub(crate) fn entries(stage: &Stage<'_>, unit: f64) -> Vec<Entry> {
     }
     let small = |kind: fn(ArrowKind) -> bool| {
         let mut arrows = stage.marks.iter().flat_map(|m| &m.arrows);
-        arrows.any(|a| kind(a.kind) && told::dotted(a, seen(a)))
+        arrows.any(|a| kind(a.kind) && description::dotted(a, seen(a)))
     };
     if small(|kind| kind == ArrowKind::Load) {
         let words = "load too small for an arrow".to_owned();

@@ -196,7 +196,7 @@ pub(crate) fn entries(stage: &Stage<'_>) -> Vec<Entry> {
     entries
 }
 
-/// What is said below a frame's verdict.
+/// What is written below a frame's verdict.
 pub(crate) fn reason(stage: &Stage<'_>, frame: usize) -> String {
     let (analysis, toward) = (stage.analysis, stage.options.toward);
     let found = &analysis.frames[frame];
@@ -259,11 +259,14 @@ fn times(factor: f64) -> String {
         f if f < 100.0 => 1,
         _ => 0,
     };
-    let told = format!("{factor:.decimals$}");
+    let described = format!("{factor:.decimals$}");
     if decimals == 0 {
-        return told;
+        return described;
     }
-    told.trim_end_matches('0').trim_end_matches('.').to_owned()
+    described
+        .trim_end_matches('0')
+        .trim_end_matches('.')
+        .to_owned()
 }
 
 fn ghost_sign(at: PagePoint, theme: &Theme) -> Vec<crate::drawing::Item> {

@@ -8,6 +8,7 @@
 //! With a kernel a block turns about the end of the safe stretch, and what lies beyond dips into its neighbour: the figure
 //! shows the mechanism of the structure that was examined.
 
+use super::description;
 use super::displacement::Displacement;
 use super::joint::{Joint, joints};
 use super::label;
@@ -15,7 +16,6 @@ use super::legend::{self, Entry};
 use super::panel::composed;
 use super::pen::{MOVED, Pen, TEXTURE};
 use super::stage::Stage;
-use super::told;
 use super::words::quantity;
 use crate::analysis::{Analysis, Contact, Motion, Verdict};
 use crate::drawing::placement::Ink;
@@ -177,7 +177,7 @@ fn displaced(pen: &Pen<'_>) -> Vec<Item> {
     }
     moved(pen)
         .map(|(id, motion)| {
-            let title = told::motion(scene, motion);
+            let title = description::motion(scene, motion);
             let mut group = Group::of_class("displaced").titled(title);
             let weight = quantity(scene.blocks[id.0].weight, "N");
             group.description = format!("weight {weight}");
@@ -212,7 +212,7 @@ fn hinge(pen: &Pen<'_>, contact: &Contact, at: Point, ink: &mut Ink) -> Item {
         ring_radius(pen),
     );
     ink.disc(centre, radius + 1.0);
-    let pair = told::pair(scene, contact.interface.bodies);
+    let pair = description::pair(scene, contact.interface.bodies);
     Group::of_class("hinge")
         .titled(format!("Hinge between {pair}"))
         .with(ring(centre, radius, theme))
@@ -233,7 +233,7 @@ fn slip(pen: &Pen<'_>, contact: &Contact, joint: &Joint, ink: &mut Ink) -> Item 
         l if l > 0.0 => f64::min(ARROW.0 * unit, 0.8 * l),
         _ => ARROW.0 * unit,
     };
-    let pair = told::pair(scene, interface.bodies);
+    let pair = description::pair(scene, interface.bodies);
     let mut group = Group::of_class("slip").titled(format!("Slip between {pair}"));
     for (side, body) in [1.0, -1.0].into_iter().zip(interface.bodies) {
         let turned = |v: Vector| match body {

@@ -38,7 +38,7 @@ mod shapes;
 mod stage;
 mod strip;
 mod thrust;
-mod told;
+mod description;
 mod unit;
 mod utilisation;
 mod verdict;

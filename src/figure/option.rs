@@ -91,7 +91,7 @@ pub struct Options {
     pub titles: bool,
     /// Whether the frames' captions are written.
     pub captions: bool,
-    /// Whether verdicts and what is said below them are shown.
+    /// Whether verdicts and what is written below them are shown.
     pub verdicts: bool,
     /// Whether the scale of arrows and the key are shown.
     pub keys: bool,

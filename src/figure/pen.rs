@@ -4,9 +4,9 @@ mod stroke;
 
 use super::arrow::ForceArrow;
 use super::by_colour::ByColour;
+use super::description;
 use super::displacement::Displacement;
 use super::stage::{MANY, Stage};
-use super::told;
 use crate::drawing::{Camera, Colour, Group, Outline, PagePoint, Path, Stroke};
 use crate::geometry::{Bounds, Lattice, Point};
 use crate::scene::{BlockId, Body, Rgb};
@@ -204,7 +204,7 @@ impl<'a> Pen<'a> {
             let fill = self.fill(place, *id);
             let outline = self.camera.polygon(&block.body.polygon);
             let mut body = Group::of_class("block").titled(format!("Block {}", block.id));
-            body.description = told::block(self.stage, self.number, place, block);
+            body.description = description::block(self.stage, self.number, place, block);
             body = body.with(Path::filled(outline.clone(), fill));
             let seams = seams(&block.body, scene.lattice, self.camera);
             body = body.with(Path::stroked(seams, self.seam(fill)));

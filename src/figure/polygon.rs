@@ -5,6 +5,7 @@
 //! that it has on the structure beside it; only the scale is larger, by a whole number that the key tells.
 
 use super::arrow::{ArrowKind, ForceArrow, Marks};
+use super::description;
 use super::label;
 use super::legend::{self, Entry};
 use super::mark;
@@ -12,7 +13,6 @@ use super::option::Options;
 use super::panel::composed;
 use super::pen::Pen;
 use super::stage::Stage;
-use super::told;
 use super::unit::unit;
 use super::verdict;
 use super::view;
@@ -185,7 +185,7 @@ pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Ca
             let along = camera.turn(ends[1] - ends[0]);
             ink.arrow(from, along, pen.width(arrow));
             let path = Path::filled(straight(from, along, pen.width(arrow)), arrow.colour);
-            let title = told::arrow(stage, arrow);
+            let title = description::arrow(stage, arrow);
             let drawn = Group::of_class("force").titled(title).with(path);
             polygon.items.push(drawn.into());
         }
@@ -266,7 +266,7 @@ pub(crate) fn entries(stage: &Stage<'_>, unit: f64) -> Vec<Entry> {
     entries
 }
 
-/// What is said below a frame's verdict.
+/// What is written below a frame's verdict.
 pub(crate) fn reason(stage: &Stage<'_>, frame: usize) -> String {
     let why = verdict::reason(stage.analysis.scene, &stage.analysis.frames[frame]);
     let marks = &stage.marks[frame];

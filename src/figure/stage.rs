@@ -40,8 +40,8 @@ pub(crate) struct Stage<'a> {
     pub marks: Vec<Marks>,
     /// For each frame how each block is displaced, by its number; empty where all are drawn in their places.
     pub displaced: Vec<Vec<Option<Displacement>>>,
-    /// What is said below each frame's verdict.
-    pub said: Vec<String>,
+    /// What is written below each frame's verdict.
+    pub statements: Vec<String>,
     /// How many labels, so far, had no room, or none but in another block.
     pub cramped: Cell<usize>,
 }
@@ -121,7 +121,7 @@ impl<'a> Stage<'a> {
             displaced: frames
                 .map(|frame| (content.displaced)(frame, unit))
                 .collect(),
-            said: vec![String::new(); analysis.frames.len()],
+            statements: vec![String::new(); analysis.frames.len()],
             cramped: Cell::new(0),
         }
     }
@@ -145,7 +145,7 @@ impl<'a> Stage<'a> {
 
     /// Whether arrows would be dust where a metre is so many pixels long, and colours tell the forces instead.
     pub fn dusty(&self, scale: f64) -> bool {
-        let told = self
+        let described = self
             .analysis
             .scene
             .blocks
@@ -155,7 +155,7 @@ impl<'a> Stage<'a> {
         let most = frames.map(|f| f.placed.len()).max().unwrap_or(0);
         most >= CROWD
             && (self.unit * scale < DUST || self.faint(scale))
-            && told
+            && described
             && !self.plain()
             && !self.options.printed()
     }

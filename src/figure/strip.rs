@@ -19,14 +19,14 @@ use crate::geometry::{Bounds, Point};
 
 /// Height of a caption's line, in sizes of its letters.
 const CAPTION_LINE: f64 = 22.0 / 17.0;
-/// Height of a line of what is said below a verdict, in sizes of its letters.
+/// Height of a line of what is written below a verdict, in sizes of its letters.
 const REASON_LINE: f64 = 1.36;
 /// Room for names around what a panel shows, where they need it, across and up, pixels.
 const NAMES: (f64, f64) = (24.0, 30.0);
 const MOST_CAPTION_LINES: usize = 8;
 const MOST_REASON_LINES: usize = 12;
 /// The description tells so many frames.
-const MOST_TOLD: usize = 30;
+const MOST_LISTED: usize = 30;
 
 /// The figure of an analysis: a panel of this kind for each frame.
 pub(crate) fn strip(analysis: &Analysis<'_>, kind: Kind, options: &Options) -> Drawing {
@@ -219,10 +219,10 @@ pub(crate) fn page(strips: &[&Strip<'_>], order: &[(usize, usize)], title: &str)
         items.push(key.into());
         y += height - 10.0;
     }
-    let told: Vec<String> = order
+    let described: Vec<String> = order
         .iter()
-        .take(MOST_TOLD)
-        .map(|(strip, frame)| strips[*strip].told(*frame))
+        .take(MOST_LISTED)
+        .map(|(strip, frame)| strips[*strip].described(*frame))
         .collect();
     Drawing {
         width: width.ceil(),
@@ -232,7 +232,7 @@ pub(crate) fn page(strips: &[&Strip<'_>], order: &[(usize, usize)], title: &str)
         } else {
             title.to_owned()
         },
-        description: told.join(" "),
+        description: described.join(" "),
         background: Some(theme.page),
         items,
     }
@@ -297,7 +297,7 @@ impl Strip<'_> {
             id: Some(format!("frame-{}", frame + 1)),
             ..Group::of_class("frame")
         };
-        group.title = self.said(frame, ": ", verdict::word(found.verdict));
+        group.title = self.labelled(frame, ": ", verdict::word(found.verdict));
         let picture = self.kind.picture(stage, frame, view, &camera);
         let cramped = without_room(&picture);
         group = group.with(picture);
@@ -323,7 +323,7 @@ impl Strip<'_> {
             group.items.extend(signs);
             y += 2.2 * half + below;
             let reason = if options.verdicts {
-                stage.said[frame].clone()
+                stage.statements[frame].clone()
             } else {
                 String::new()
             };
@@ -346,7 +346,7 @@ impl Strip<'_> {
     }
 
     /// Something said of a frame, after its caption where it has one.
-    fn said(&self, frame: usize, between: &str, what: &str) -> String {
+    fn labelled(&self, frame: usize, between: &str, what: &str) -> String {
         let caption = self.caption(frame, between);
         if caption.is_empty() {
             what.to_owned()
@@ -449,7 +449,7 @@ impl Strip<'_> {
     }
 
     /// A frame in a sentence.
-    fn told(&self, frame: usize) -> String {
+    fn described(&self, frame: usize) -> String {
         let (scene, found) = (
             self.stage.analysis.scene,
             &self.stage.analysis.frames[frame],
@@ -460,8 +460,8 @@ impl Strip<'_> {
             "{blocks}, {weight} in all, {}",
             verdict::word(found.verdict)
         );
-        let mut sentence = self.said(frame, " ", &what);
-        let more = [self.stage.said[frame].clone()];
+        let mut sentence = self.labelled(frame, " ", &what);
+        let more = [self.stage.statements[frame].clone()];
         for more in more.iter().chain(&found.notices).filter(|m| !m.is_empty()) {
             sentence.push_str("; ");
             sentence.push_str(&more.replace(text::NO_BREAK, " "));
@@ -476,7 +476,7 @@ fn without_room(picture: &Group) -> Option<String> {
         Item::Group(group) if group.class == label::CLASS => Some(group.description.clone()),
         _ => None,
     });
-    groups.into_iter().find(|said| !said.is_empty())
+    groups.into_iter().find(|labelled| !labelled.is_empty())
 }
 
 /// Words in as few lines as `room` allows, and those about equally long.

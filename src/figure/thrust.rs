@@ -6,6 +6,7 @@
 use super::arrow::{ArrowKind, ForceArrow, Marks, TurnKind};
 use super::bearing::bearings;
 use super::by_colour::ByColour;
+use super::description;
 use super::funicular::{Giver, Stretch, stretches};
 use super::label;
 use super::legend::{self, Entry};
@@ -14,7 +15,6 @@ use super::option::{ArrowScale, Options};
 use super::panel::composed;
 use super::pen::Pen;
 use super::stage::Stage;
-use super::told;
 use super::verdict;
 use super::words::{force, quantity};
 use crate::analysis::{Analysis, FrameAnalysis, Verdict};
@@ -93,7 +93,7 @@ pub(crate) fn largest_load(scene: &Scene, frame: &Frame) -> f64 {
     loads.map(|l| l.force.norm()).fold(0.0, f64::max)
 }
 
-/// What is said below a frame's verdict.
+/// What is written below a frame's verdict.
 pub(crate) fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
     let why = verdict::reason(scene, found);
     match found.verdict {
@@ -211,7 +211,7 @@ fn lines(pen: &Pen<'_>, scene: &Scene, found: &FrameAnalysis, stretches: &[Stret
             Giver::Contact(number) => {
                 let [a, b] = found.contacts[number].interface.bodies;
                 let other = if a == BodyId::Block(stretch.on) { b } else { a };
-                told::named(scene, other)
+                description::named(scene, other)
             }
             Giver::Robot(robot) => format!("robot {}", scene.robots[robot.0].id),
             Giver::Load(_) => "a load".to_owned(),
@@ -241,7 +241,7 @@ fn dots(pen: &Pen<'_>, found: &FrameAnalysis, ink: &mut dyn FnMut(PagePoint, f64
             joined.add(theme.ink, Outline::circle(at, radius));
             continue;
         }
-        let pair = told::pair(scene, contact.interface.bodies);
+        let pair = description::pair(scene, contact.interface.bodies);
         let amount = quantity(contact.resultant.force.norm(), "N");
         let dot = Group::of_class("resultant").titled(format!("Between {pair}: {amount}"));
         group.items.push(dot.with(dot_at(at, radius, theme)).into());

@@ -4,12 +4,12 @@
 
 use super::bearing::{Bearing, bearings};
 use super::by_colour::ByColour;
+use super::description;
 use super::label;
 use super::legend::{self, Entry};
 use super::panel::composed;
 use super::pen::Pen;
 use super::stage::Stage;
-use super::told;
 use super::verdict;
 use super::words::{ALL, percent, quantity};
 use crate::analysis::{Contact, FrameAnalysis, Verdict};
@@ -41,7 +41,7 @@ pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Ca
     composed(&pen, view, pen.blocks(), vec![idle, used, robots], ink)
 }
 
-/// What is said below a frame's verdict.
+/// What is written below a frame's verdict.
 pub(crate) fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
     let used = most_used(scene, found);
     match found.verdict {
@@ -109,7 +109,7 @@ fn limited(scene: &Scene, robot: usize) -> bool {
 
 /// Where most of the friction, and of the robots' limits, is used.
 fn most_used(scene: &Scene, found: &FrameAnalysis) -> String {
-    let mut said = Vec::new();
+    let mut stated = Vec::new();
     let bearings = bearings(scene, found);
     let mut most: Option<(f64, &Contact)> = None;
     for (bearing, contact) in bearings.iter().zip(&found.contacts) {
@@ -121,16 +121,16 @@ fn most_used(scene: &Scene, found: &FrameAnalysis) -> String {
     let sliding = bearings.iter().flatten().filter(|b| full(b)).count();
     match most {
         None => {}
-        Some((share, _)) if share < 1e-6 => said.push("no interface uses friction".to_owned()),
+        Some((share, _)) if share < 1e-6 => stated.push("no interface uses friction".to_owned()),
         Some(_) if sliding > 1 => {
-            said.push(format!(
+            stated.push(format!(
                 "{sliding} interfaces use all the friction available"
             ));
         }
         Some((share, contact)) => {
-            let pair = told::pair(scene, contact.interface.bodies);
+            let pair = description::pair(scene, contact.interface.bodies);
             let share = percent(share);
-            said.push(format!(
+            stated.push(format!(
                 "most between {pair}: {share} of the friction available"
             ));
         }
@@ -138,12 +138,12 @@ fn most_used(scene: &Scene, found: &FrameAnalysis) -> String {
     let robots = found.robots.iter().filter(|r| limited(scene, r.robot.0));
     if let Some(robot) = robots.max_by(|a, b| a.limit_used.total_cmp(&b.limit_used)) {
         let (id, share) = (&scene.robots[robot.robot.0].id, percent(robot.limit_used));
-        said.push(format!("robot\u{a0}{id} gives {share} of its limit"));
+        stated.push(format!("robot\u{a0}{id} gives {share} of its limit"));
     }
-    if said.is_empty() {
+    if stated.is_empty() {
         "nothing is limited".to_owned()
     } else {
-        said.join("; ")
+        stated.join("; ")
     }
 }
 
@@ -180,7 +180,7 @@ fn interfaces(pen: &Pen<'_>, found: &FrameAnalysis) -> (Group, Group) {
     let rim = (0.16 * bold).clamp(0.4, 0.9);
     for (contact, bearing) in found.contacts.iter().zip(bearings(scene, found)) {
         let line = Outline::line(contact.interface.ends.map(|p| pen.camera.place(p)));
-        let pair = told::pair(scene, contact.interface.bodies);
+        let pair = description::pair(scene, contact.interface.bodies);
         let Some(bearing) = bearing else {
             if pen.many() {
                 dashes.extend(line);

@@ -1,4 +1,4 @@
-//! How much of two polygons lies on top of each other: depth decides, area and place are told.
+//! How much of two polygons lies on top of each other: depth decides, area and place are reported.
 //!
 //! Invariant: two polygons that only touch, with noise up to `gap` deep, do not overlap, whatever the length of the
 //! touching edges. Depth is the separating-axis depth of convex pieces, so it does not depend on where the scene lies.

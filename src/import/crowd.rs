@@ -39,7 +39,7 @@ pub(super) fn problem(outlines: &Outlines) -> Option<Remark> {
     })
 }
 
-/// What is said of a drawing of so many outlines.
+/// What is reported of a drawing of so many outlines.
 pub(super) fn too_many(count: usize) -> Remark {
     Remark {
         element: String::new(),

@@ -52,7 +52,7 @@ impl Reader {
                 if about.kind == Some(Kind::Ignored) {
                     let note = format!(
                         "{} is left out: it asks for it by its name",
-                        told(at, &about.name)
+                        labelled(at, &about.name)
                     );
                     self.draft.notes.push(note);
                     return;
@@ -155,7 +155,7 @@ impl Reader {
             let number = value.as_f64();
             if number.is_none() {
                 self.draft.remark(
-                    told(at, &about.name),
+                    labelled(at, &about.name),
                     format!("its {key} is no number; not taken"),
                     "",
                 );
@@ -199,7 +199,7 @@ impl Reader {
         self.draft.parts.push(Part {
             kind: about.kind.unwrap_or(Kind::Block),
             name: about.name.clone(),
-            element: told(at, &about.name),
+            element: labelled(at, &about.name),
             form,
             fill: about.fill,
             values: about.values,
@@ -215,7 +215,7 @@ impl Reader {
     }
 
     fn remark(&mut self, at: &str, about: &About, message: &str) {
-        self.draft.remark(told(at, &about.name), message, "");
+        self.draft.remark(labelled(at, &about.name), message, "");
     }
 }
 
@@ -227,7 +227,7 @@ fn below(at: &str, key: &str) -> String {
     }
 }
 
-fn told(at: &str, name: &str) -> String {
+fn labelled(at: &str, name: &str) -> String {
     match (at, name) {
         ("", "") => "the outermost object".into(),
         (at, "") => at.to_owned(),

@@ -2,8 +2,8 @@
 //!
 //! Every closed outline becomes a block, unless a name around it begins with `ground` or `robot`; what begins with
 //! `ignore` or `guide` is left out. Curves are cut into chords, and what nearly touches is made to touch, so that
-//! interfaces are found. What cannot be taken is told, with the element it is about. Absent on purpose: friction between
-//! materials, limits of robots, loads and steps, which no drawing holds.
+//! interfaces are found. What cannot be taken is reported, with the element it is about. Absent on purpose: friction
+//! between materials, limits of robots, loads and steps, which no drawing holds.
 
 mod affine;
 mod crowd;

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::draft::Kind;
 use super::outline::Outlines;
 
-/// What bodies and robots are called in the scene and in what is told.
+/// What bodies and robots are called in the scene and in what is reported.
 pub(super) struct Names {
     /// One per body: a block's id, `ground[0]` for a part of the ground.
     pub(super) bodies: Vec<String>,

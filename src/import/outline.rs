@@ -174,14 +174,14 @@ impl Outlines {
                 "draw it closer to what it touches, or give a smaller --gap",
             );
         }
-        let told = |moved: &snap::Moved| Snapped {
+        let described = |moved: &snap::Moved| Snapped {
             body: names.bodies[moved.body].clone(),
             element: self.bodies[moved.body].element.clone(),
             corners: moved.corners,
             distance: moved.distance,
             to: moved.to.iter().map(|b| names.bodies[*b].clone()).collect(),
         };
-        let snapped = outcome.moved.iter().map(told).collect();
+        let snapped = outcome.moved.iter().map(described).collect();
         for (body, rings) in self.bodies.iter_mut().zip(outcome.bodies) {
             body.rings = rings;
         }
@@ -246,7 +246,7 @@ impl Outlines {
     }
 }
 
-/// The closed outlines of a part; of the others it is told that they are open.
+/// The closed outlines of a part; of the others it is reported that they are open.
 fn closed(
     draft: &mut Draft,
     part: &Part,

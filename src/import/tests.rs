@@ -91,7 +91,7 @@ fn everything_that_cannot_be_taken_is_told_at_once() {
          <g id='me'><use href='#me'/></g><circle id='robot' cx='19' cy='9' r='1'/>",
     );
     assert_eq!(ids(&imported), ["good"]);
-    let told: Vec<(&str, &str)> = imported
+    let described: Vec<(&str, &str)> = imported
         .remarks
         .iter()
         .map(|r| {
@@ -122,7 +122,7 @@ fn everything_that_cannot_be_taken_is_told_at_once() {
         ("polygon \"flat\"", "it encloses no area"),
         ("circle \"robot\"", "its centre (19, 1) m lies in no block"),
     ];
-    assert_eq!(told, expected);
+    assert_eq!(described, expected);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 //!
 //! Makes [`Interfaces`], everything that touches in a scene, once for all its frames. Invariant: the first body of an
 //! interface is a block, the normal points into it, and no contact is dropped in silence: what is too short or too far
-//! apart to count is told in [`Interfaces::notices`].
+//! apart to count is reported in [`Interfaces::notices`].
 
 mod corner;
 mod edge;

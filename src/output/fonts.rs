@@ -63,7 +63,7 @@ impl Fonts {
         lacking
     }
 
-    /// A text with the characters that no font has told by their code points, so that two names stay two names.
+    /// A text with the characters that no font has written as their code points, so that two names stay two names.
     ///
     /// ```
     /// use drystone::output::fonts::Fonts;

@@ -48,7 +48,7 @@ pub const MOST_MM: f64 = 5080.0;
 /// Points per inch.
 const POINTS_PER_INCH: f64 = 72.0;
 
-/// A drawing as a PDF of one page, `width_mm` wide or, where nothing is said, a 96th of an inch per pixel.
+/// A drawing as a PDF of one page, `width_mm` wide or, where nothing is given, a 96th of an inch per pixel.
 ///
 /// # Errors
 /// [`PdfError::Size`] where a side of the page would be shorter than [`LEAST_MM`] or longer than [`MOST_MM`].
@@ -86,11 +86,11 @@ pub fn write_in(
             scale: 1.0,
         }],
     };
-    let told = Told {
+    let heading = Heading {
         title: &drawing.title,
         description: &drawing.description,
     };
-    document(&[sheet], width / drawing.width, &told, fonts)
+    document(&[sheet], width / drawing.width, &heading, fonts)
 }
 
 /// A drawing in its place on a page.
@@ -117,7 +117,7 @@ pub struct Sheet<'d> {
 
 /// What a document says of itself.
 #[derive(Clone, Copy, Debug)]
-pub struct Told<'t> {
+pub struct Heading<'t> {
     /// Its title.
     pub title: &'t str,
     /// What is in it, in sentences.
@@ -128,23 +128,23 @@ pub struct Told<'t> {
 ///
 /// # Errors
 /// As [`write()`], for any of its pages.
-pub fn write_sheets(sheets: &[Sheet<'_>], told: &Told<'_>) -> Result<Vec<u8>, PdfError> {
+pub fn write_sheets(sheets: &[Sheet<'_>], heading: &Heading<'_>) -> Result<Vec<u8>, PdfError> {
     let natural = MM_PER_INCH / PIXELS_PER_INCH;
-    document(sheets, natural, told, &Fonts::default())
+    document(sheets, natural, heading, &Fonts::default())
 }
 
 /// A document of pages, a pixel being so many millimetres.
 fn document(
     sheets: &[Sheet<'_>],
     mm_per_pixel: f64,
-    told: &Told<'_>,
+    heading: &Heading<'_>,
     fonts: &Fonts,
 ) -> Result<Vec<u8>, PdfError> {
     let mut document = Document::new();
     document.set_metadata(
         Metadata::new()
-            .title(line(told.title))
-            .description(told.description.to_owned())
+            .title(line(heading.title))
+            .description(heading.description.to_owned())
             .language("en".to_owned())
             .creator("drystone".to_owned())
             .producer("drystone".to_owned()),
@@ -178,9 +178,9 @@ fn document(
             known = pen.fonts;
             surface.pop();
             surface.end_tagged();
-            let told = [line(&part.drawing.title), line(&part.drawing.description)].join(". ");
+            let heading = [line(&part.drawing.title), line(&part.drawing.description)].join(". ");
             tags.push(TagGroup::with_children(
-                Tag::Figure(Some(told)),
+                Tag::Figure(Some(heading)),
                 vec![figure.into()],
             ));
         }

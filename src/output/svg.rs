@@ -32,7 +32,7 @@ pub enum Words {
 /// What else there is to choose.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
-    /// Width in print, mm; where nothing is said a pixel is a 96th of an inch.
+    /// Width in print, mm; where nothing is given a pixel is a 96th of an inch.
     pub width_mm: Option<f64>,
     /// How words are written.
     pub words: Words,

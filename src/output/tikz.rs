@@ -13,7 +13,7 @@ use crate::drawing::{
 /// PostScript points per inch, of which TeX has its own name.
 const BIG_POINTS: f64 = 72.0;
 
-/// A drawing as a `tikzpicture`, `width_mm` wide or, where nothing is said, a 96th of an inch per pixel.
+/// A drawing as a `tikzpicture`, `width_mm` wide or, where nothing is given, a 96th of an inch per pixel.
 ///
 /// # Panics
 /// Where a number of the drawing is not finite: that is an error of ours, never of a scene.
@@ -117,23 +117,23 @@ impl Pen {
     }
 
     fn stroke(&self, stroke: &Stroke) -> String {
-        let mut said = format!(
+        let mut stated = format!(
             "draw={},line width={}bp",
             colour(stroke.colour),
             number(stroke.width * self.unit)
         );
         if stroke.join == Join::Miter {
-            said.push_str(",line join=miter,line cap=butt");
+            stated.push_str(",line join=miter,line cap=butt");
         }
         if !stroke.dash.is_empty() {
-            said.push_str(",dash pattern=");
+            stated.push_str(",dash pattern=");
             for (i, length) in stroke.dash.iter().enumerate() {
                 let what = if i % 2 == 0 { "on" } else { "off" };
                 // A `String` takes every character; this cannot fail.
-                let _ = write!(said, "{what} {}bp ", number(length * self.unit));
+                let _ = write!(stated, "{what} {}bp ", number(length * self.unit));
             }
         }
-        said
+        stated
     }
 
     fn words(&mut self, text: &Text) {

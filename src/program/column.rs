@@ -1,4 +1,5 @@
-//! [`Column`]: one force of amount ≥ 0 and the balance rows it enters. The only index arithmetic of the crate.
+//! [`Column`]: one force of amount ≥ 0 and the balance rows it enters. Where a force enters the
+//! balance rows is worked out here.
 //!
 //! Admissible contact forces are the generators of the friction cone of each application point: the normal alone and the
 //! normal with full friction either way, (n̂ ± μ t̂)/(1 + μ), each at cost 1 a unit. Every admissible contact force is a
@@ -250,7 +251,7 @@ pub fn columns(program: &Program) -> Vec<Column> {
     columns
 }
 
-/// Every sticking force of a program: the opposite twin of each of the source's columns
+/// Every sticking force of a program: the opposite partner of each of the source's columns
 /// ([Vallat23](crate::doc::references) §2.0.8), unbounded.
 ///
 /// Sticking friction is one force per interface, because both corners' act along the same line.

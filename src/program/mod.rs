@@ -3,7 +3,8 @@
 //! For every block three rows (force x, force y, moment about its own centroid over L), for every force a column
 //! ([`Column`]). Invariant: lengths are in parts of the median interface length L, forces such that the heaviest load is
 //! [`Scale::HEAVIEST`], moments about the block's own centroid, so that neither place nor units reach the solver.
-//! `column` holds the only index arithmetic, `scale` the only units, `pose` the forms handed to the solver.
+//! `column` says which rows a force enters, `scale` turns metres and newtons into pure numbers and back, `pose` makes the
+//! forms handed to the solver.
 
 mod column;
 mod pose;
@@ -27,7 +28,7 @@ pub struct Program {
     /// How many bodies; body k owns rows 3k, 3k+1, 3k+2.
     pub blocks: usize,
     /// What contacts and robots must give each body: minus its load vector, as (x, y, moment).
-    pub need: Vec<f64>,
+    pub loads: Vec<f64>,
     /// The contacts.
     pub contacts: Vec<Contact>,
     /// The grips.
@@ -71,9 +72,9 @@ impl Program {
             let centroid = assembly.bodies[body].centroid;
             (body, points.map(|p| (p - centroid) / scale.length))
         };
-        let mut need = Vec::with_capacity(3 * assembly.bodies.len());
+        let mut loads = Vec::with_capacity(3 * assembly.bodies.len());
         for body in &assembly.bodies {
-            need.extend([
+            loads.extend([
                 -body.load.force.x / scale.force,
                 -body.load.force.y / scale.force,
                 -body.load.moment / scale.moment(),
@@ -98,31 +99,31 @@ impl Program {
         });
         Program {
             blocks: assembly.bodies.len(),
-            need,
+            loads,
             contacts: contacts.collect(),
             grips: grips.collect(),
             scale,
         }
     }
 
-    /// A limit beyond so many times the sum of all loads is lavish.
-    const LAVISH: f64 = 10.0;
+    /// A limit beyond so many times the sum of all loads does not bind.
+    const NON_BINDING: f64 = 10.0;
 
     /// The program without the limits that can hardly matter, if there are such.
     ///
-    /// A limit costs three rows and an unknown, and one of 10⁹ loads enters the aim as a number that drowns all others.
-    /// An answer that breaks a limit left out here fails its proof and is sought again with all limits.
-    pub fn without_lavish_limits(&self) -> Option<Program> {
-        let sum: f64 = self.need.iter().map(|v| v.abs()).sum();
-        let lavish = |limit: f64| limit.is_finite() && limit > Self::LAVISH * sum;
-        let any = self.grips.iter().flat_map(|g| g.limits).any(lavish);
+    /// A limit costs three rows and an unknown, and one of 10⁹ loads enters the objective as a number that drowns all
+    /// others. An answer that breaks a limit left out here fails its proof and is sought again with all limits.
+    pub fn without_non_binding_limits(&self) -> Option<Program> {
+        let sum: f64 = self.loads.iter().map(|v| v.abs()).sum();
+        let non_binding = |limit: f64| limit.is_finite() && limit > Self::NON_BINDING * sum;
+        let any = self.grips.iter().flat_map(|g| g.limits).any(non_binding);
         any.then(|| {
             let mut program = self.clone();
             for limit in program
                 .grips
                 .iter_mut()
                 .flat_map(|g| &mut g.limits)
-                .filter(|l| lavish(**l))
+                .filter(|l| non_binding(**l))
             {
                 *limit = f64::INFINITY;
             }

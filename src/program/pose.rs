@@ -21,20 +21,21 @@ pub struct Conic {
     pub equalities: usize,
 }
 
-/// The kinematic twin: max needᵀy  s.t.  columnᵀy ≤ cost for every column; its dual amounts are the forces.
+/// The kinematic dual: max loadsᵀy  s.t.  columnᵀy ≤ cost for every column; its multipliers are the forces.
 ///
 /// Three unknowns per block and one row per column. A limited column gets one more unknown w ≥ 0: columnᵀy − w ≤ cost, at
-/// −limit·w in the aim. A pair of columns ± with cost 0 and no limit is one equality. Rows stand in the columns' order,
-/// so that the dual of row k is the amount of column k; a pair's equality carries the amount of the first less the second.
+/// −limit·w in the objective. A pair of columns ± with cost 0 and no limit is one equality. Rows stand in the columns'
+/// order, so that the dual of row k is the amount of column k; a pair's equality carries the amount of the first less the
+/// second.
 pub fn kinematic(
-    need: &[f64],
+    loads: &[f64],
     columns: &[Column],
     cost: impl Fn(&Column) -> f64,
 ) -> (Conic, Vec<usize>) {
     let mut conic = Conic {
-        unknowns: need.len(),
+        unknowns: loads.len(),
         quadratic: Vec::new(),
-        linear: need.iter().map(|v| -v).collect(),
+        linear: loads.iter().map(|v| -v).collect(),
         matrix: Vec::with_capacity(columns.len() * 6),
         bound: Vec::with_capacity(columns.len()),
         equalities: 0,
@@ -50,12 +51,15 @@ pub fn kinematic(
             },
             Some(next),
         ) => {
-            let twin = Force::Grip {
+            let partner = Force::Grip {
                 grip,
                 component,
                 sign: -1.0,
             };
-            sign > 0.0 && next == twin && columns[k].limit.is_infinite() && cost(&columns[k]) == 0.0
+            sign > 0.0
+                && next == partner
+                && columns[k].limit.is_infinite()
+                && cost(&columns[k]) == 0.0
         }
         _ => false,
     };
@@ -100,11 +104,11 @@ pub fn kinematic(
     (conic, row_of)
 }
 
-/// The twin of  max λ  s.t.  Σ amount·column = need + λ·toward:  max needᵀy  s.t.  columnᵀy ≤ 0, towardᵀy ≥ 1.
+/// The dual of  max λ  s.t.  Σ amount·column = loads + λ·toward:  max loadsᵀy  s.t.  columnᵀy ≤ 0, towardᵀy ≥ 1.
 ///
 /// The last row is the one of λ: its dual is the largest λ ≥ 0.
-pub fn most_of(need: &[f64], toward: &[f64], columns: &[Column]) -> (Conic, Vec<usize>) {
-    let (mut conic, row_of) = kinematic(need, columns, |_| 0.0);
+pub fn most_of(loads: &[f64], toward: &[f64], columns: &[Column]) -> (Conic, Vec<usize>) {
+    let (mut conic, row_of) = kinematic(loads, columns, |_| 0.0);
     let row = conic.bound.len();
     let entries = toward.iter().enumerate().filter(|(_, v)| **v != 0.0);
     conic.matrix.extend(entries.map(|(i, v)| (row, i, -v)));
@@ -112,13 +116,13 @@ pub fn most_of(need: &[f64], toward: &[f64], columns: &[Column]) -> (Conic, Vec<
     (conic, row_of)
 }
 
-/// The twin of  min Σ |what is left unbalanced|:  max needᵀy  s.t.  columnᵀy ≤ 0, −1 ≤ y ≤ 1.
+/// The dual of  min Σ |what is left unbalanced|:  max loadsᵀy  s.t.  columnᵀy ≤ 0, −1 ≤ y ≤ 1.
 ///
 /// It has an optimum whether the program stands or falls, and both stories in it: forces that leave least, and the motion
 /// of largest power.
-pub fn least_left(need: &[f64], columns: &[Column]) -> (Conic, Vec<usize>) {
-    let (mut conic, row_of) = kinematic(need, columns, |_| 0.0);
-    for row in 0..need.len() {
+pub fn least_left(loads: &[f64], columns: &[Column]) -> (Conic, Vec<usize>) {
+    let (mut conic, row_of) = kinematic(loads, columns, |_| 0.0);
+    for row in 0..loads.len() {
         for sign in [1.0, -1.0] {
             conic.matrix.push((conic.bound.len(), row, sign));
             conic.bound.push(1.0);
@@ -150,8 +154,8 @@ pub fn shortest(unknowns: usize, columns: &[(&Column, f64)], equalities: usize) 
     conic
 }
 
-/// The amounts of least Σ amount², of either sign, that give `need`.
-pub fn smallest(need: &[f64], columns: &[Column]) -> Conic {
+/// The amounts of least Σ amount², of either sign, that give `loads`.
+pub fn smallest(loads: &[f64], columns: &[Column]) -> Conic {
     let entries = columns.iter().enumerate();
     Conic {
         unknowns: columns.len(),
@@ -160,8 +164,8 @@ pub fn smallest(need: &[f64], columns: &[Column]) -> Conic {
         matrix: entries
             .flat_map(|(j, column)| column.entries().map(move |(row, value)| (row, j, value)))
             .collect(),
-        bound: need.to_vec(),
-        equalities: need.len(),
+        bound: loads.to_vec(),
+        equalities: loads.len(),
     }
 }
 
@@ -174,14 +178,14 @@ pub struct Correction<'a> {
     pub size: f64,
 }
 
-/// The forces of least Σ force² among the amounts ≥ 0 of the given columns that give `need`.
+/// The forces of least Σ force² among the amounts ≥ 0 of the given columns that give `loads`.
 ///
 /// With a `correction` the unknowns are changes to given amounts, and the squares are those of the changes of each column:
 /// the squares of forces leave columns that undo each other, such as a robot's push and pull, without bound, and where both
-/// may be changed the solver ends nowhere.
+/// may be changed the solver ends without a status.
 /// Else the squares are those of N1, N2, T of each contact and of each component of a grip, not of the generators, so the
 /// answer does not depend on how a cone is written.
-pub fn least_squares(need: &[f64], columns: &[Column], correction: Option<Correction>) -> Conic {
+pub fn least_squares(loads: &[f64], columns: &[Column], correction: Option<Correction>) -> Conic {
     let mut quadratic = Vec::new();
     if correction.is_some() {
         quadratic.extend((0..columns.len()).map(|j| (j, j, 1.0)));
@@ -197,9 +201,9 @@ pub fn least_squares(need: &[f64], columns: &[Column], correction: Option<Correc
             }
         }
     }
-    let rows = need.len();
+    let rows = loads.len();
     let mut matrix = Vec::with_capacity(columns.len() * 7);
-    let mut bound = need.to_vec();
+    let mut bound = loads.to_vec();
     for (j, column) in columns.iter().enumerate() {
         matrix.extend(column.entries().map(|(row, value)| (row, j, value)));
         let (floor, size) = correction.map_or((0.0, 1.0), |c| (c.amounts[j] / c.size, c.size));
@@ -223,17 +227,17 @@ pub fn least_squares(need: &[f64], columns: &[Column], correction: Option<Correc
 /// A second sum and the most it may come to.
 pub type Cap<'a> = (&'a dyn Fn(&Column) -> f64, f64);
 
-/// The forces themselves as unknowns: min Σ cost·amount  s.t.  they balance `need`, 0 ≤ amount ≤ limit.
+/// The forces themselves as unknowns: min Σ cost·amount  s.t.  they balance `loads`, 0 ≤ amount ≤ limit.
 ///
 /// With a [`Cap`] = (cost, most) a second sum is bounded, Σ cost·amount ≤ most: the second stage of a lexicographic program.
-/// Kept, like [`source`], to show what the kinematic twin saves.
+/// Kept, like [`source`], to show what the kinematic dual saves.
 pub fn force_form(
-    need: &[f64],
+    loads: &[f64],
     columns: &[Column],
     cost: impl Fn(&Column) -> f64,
     cap: Option<Cap>,
 ) -> Conic {
-    let mut conic = least_squares(need, columns, None);
+    let mut conic = least_squares(loads, columns, None);
     conic.quadratic.clear();
     conic.linear = columns.iter().map(cost).collect();
     if let Some((cost, most)) = cap {
@@ -317,10 +321,10 @@ pub(crate) fn product(a: &Force, b: &Force) -> Option<f64> {
 
 /// The source's soft program exactly as posed ([Vallat23](crate::doc::references) §2.0.7–8): six unknowns per
 /// interface and per grip, each with an
-/// opposite twin at cost β, all ≥ 0; rows A_eq x = b_eq, f⁺ + f⁻ ≤ μN per corner, robot unknowns ≤ limit.
+/// opposite partner at cost β, all ≥ 0; rows A_eq x = b_eq, f⁺ + f⁻ ≤ μN per corner, robot unknowns ≤ limit.
 ///
 /// It is kept to show what β costs in time and digits; nothing else rests on it. The unknowns stand interface by
-/// interface as N1, f1⁺, f1⁻, N2, f2⁺, f2⁻, then grip by grip as Fx±, Fy±, M±, then all twins.
+/// interface as N1, f1⁺, f1⁻, N2, f2⁺, f2⁻, then grip by grip as Fx±, Fy±, M±, then all partners.
 pub fn source(program: &Program, beta: f64) -> Conic {
     let mut posed: Vec<Column> = Vec::new();
     let mut cones: Vec<(usize, f64)> = Vec::new();
@@ -376,7 +380,7 @@ pub fn source(program: &Program, beta: f64) -> Conic {
             matrix.push((row, n + j, -value));
         }
     }
-    let mut bound = program.need.clone();
+    let mut bound = program.loads.clone();
     let equalities = bound.len();
     for (first, friction) in cones {
         let row = bound.len();

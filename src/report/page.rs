@@ -63,7 +63,7 @@ pub struct Report {
     pub pieces: Vec<Piece>,
     /// The files that are none.
     pub refused: Vec<Refused>,
-    /// What else is to be said above the scenes, a sentence each.
+    /// What else is to be reported above the scenes, a sentence each.
     pub notes: Vec<String>,
     /// Whether each piece compares two scenes.
     pub compares: bool,
@@ -110,19 +110,19 @@ impl Piece {
     }
 }
 
-/// The results of an entry; of a comparison an object of both and what is said of them.
+/// The results of an entry; of a comparison an object of both and what is reported of them.
 fn json(entry: &Entry) -> String {
     match entry.results.as_slice() {
         [one] => one.clone(),
         several => {
-            let said: Vec<String> = entry
+            let stated: Vec<String> = entry
                 .steps
                 .iter()
                 .map(|s| super::result::quoted(&s.sentence))
                 .collect();
             format!(
                 "{{\"changes\":[{}],\"scenes\":[{}]}}",
-                said.join(","),
+                stated.join(","),
                 several.join(",")
             )
         }
@@ -238,7 +238,7 @@ impl Piece {
 impl Refused {
     /// The problems, each as one line: where, what, and what to do about it.
     pub fn lines(&self) -> Vec<String> {
-        let told = self.problems.iter().map(|problem| {
+        let described = self.problems.iter().map(|problem| {
             let place = match (problem.line, problem.path.as_str()) {
                 (0, "") => String::new(),
                 (0, path) => format!("{path}: "),
@@ -252,6 +252,6 @@ impl Refused {
             };
             text::line(&format!("{place}{}{help}", problem.message))
         });
-        told.collect()
+        described.collect()
     }
 }

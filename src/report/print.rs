@@ -10,7 +10,7 @@ use crate::drawing::{
     Anchor, Colour, Drawing, Face, Item, Outline, PagePoint, Path, Stroke, Text, Theme,
 };
 use crate::output::fonts::Fonts;
-use crate::output::pdf::{self, Part, Sheet, Told};
+use crate::output::pdf::{self, Heading, Part, Sheet};
 use crate::text::line;
 use crate::wording::number::{percent, quantity};
 use crate::wording::verdict::plain;
@@ -68,7 +68,7 @@ impl Flow {
     }
 
     /// Makes sure of so much room below, on a new page where there is too little.
-    fn need(&mut self, height: f64) {
+    fn make_room(&mut self, height: f64) {
         if self.y + height > BOTTOM && self.y > EDGE {
             self.pages.push(Page::default());
             self.y = EDGE;
@@ -81,7 +81,7 @@ impl Flow {
         self.page().items.push(text.into());
     }
 
-    /// Words that our fonts have: others are told by their code points.
+    /// Words that our fonts have: others are written as their code points.
     fn legible(&self, words: &str) -> String {
         self.fonts.spelled(&line(words)).into_owned()
     }
@@ -89,14 +89,14 @@ impl Flow {
     fn words(&mut self, words: &str, face: Face, size: f64, colour: Colour) {
         let words = self.legible(words);
         for row in wrap(&words, face, size, ROOM) {
-            self.need(LINE * size);
+            self.make_room(LINE * size);
             self.put(&row, EDGE, face, size, colour, Anchor::Start);
             self.y += LINE * size;
         }
     }
 
     fn heading(&mut self, words: &str, size: f64) {
-        self.need(6.0 * size);
+        self.make_room(6.0 * size);
         self.y += 0.5 * size;
         self.words(words, Face::SerifBold, size, self.theme.ink);
         self.y += 0.25 * size;
@@ -118,7 +118,7 @@ impl Flow {
             .min(HIGHEST / drawing.height)
             .min(1.0);
         let (wide, high) = (scale * drawing.width, scale * drawing.height);
-        self.need(high + 3.0 * SMALL);
+        self.make_room(high + 3.0 * SMALL);
         let at = PagePoint::new(EDGE + (ROOM - wide) / 2.0, self.y);
         self.page().figures.push((drawing.clone(), at, scale));
         self.y += high + 4.0;
@@ -142,7 +142,7 @@ impl Flow {
             LINE * SMALL * lines.max().unwrap_or(1).max(1) as f64 + 4.0
         };
         let head = height(&heads, Face::SansBold);
-        self.need(3.0 * SIZE + head + 2.0 * LINE * SMALL);
+        self.make_room(3.0 * SIZE + head + 2.0 * LINE * SMALL);
         if !grid.caption.is_empty() {
             self.y += 0.4 * SIZE;
             self.words(&grid.caption, Face::SansBold, SIZE, self.theme.ink);
@@ -378,9 +378,9 @@ pub(super) fn written(
             }
         })
         .collect();
-    let told = Told {
+    let heading = Heading {
         title: &title,
         description,
     };
-    Ok(pdf::write_sheets(&sheets, &told)?)
+    Ok(pdf::write_sheets(&sheets, &heading)?)
 }

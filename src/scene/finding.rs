@@ -1,6 +1,6 @@
 //! [`Findings`]: what was found wrong so far, and which parts of the file nobody can speak about any more.
 //!
-//! A block whose polygon could not be read is not also said to have no polygon, or to overlap its neighbour.
+//! A block whose polygon could not be read is not also reported to have no polygon, or to overlap its neighbour.
 
 use super::path::{Path, Segment, Trail};
 use super::problem::{self, Wording};

@@ -91,8 +91,8 @@ impl Session {
         }
         let scene = Scene::new(file.clone())?;
         let grips = scene.frames[0].holds.iter().map(|hold| {
-            let said = file.robots[hold.robot.0].at.map(|_| hold.at);
-            (hold.robot, (scene.blocks[hold.block.0].id.clone(), said))
+            let given = file.robots[hold.robot.0].at.map(|_| hold.at);
+            (hold.robot, (scene.blocks[hold.block.0].id.clone(), given))
         });
         let mut session = Session {
             grips: grips.collect(),

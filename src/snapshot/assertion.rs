@@ -152,8 +152,10 @@ fn settings(folder: &Path) -> Result<Settings, Vec<String>> {
     let text = std::fs::read_to_string(&file)
         .map_err(|e| vec![format!("cannot read {}: {e}", file.display())])?;
     Settings::read(&text).map_err(|problems| {
-        let told = problems.into_iter();
-        told.map(|p| format!("{}:{p}", file.display())).collect()
+        let described = problems.into_iter();
+        described
+            .map(|p| format!("{}:{p}", file.display()))
+            .collect()
     })
 }
 

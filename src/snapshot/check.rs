@@ -19,8 +19,8 @@ use crate::output::file::Unwritten;
 use crate::output::png;
 use crate::output::svg;
 
-/// So many changes of one file are told in words.
-const TOLD: usize = 12;
+/// So many changes of one file are described in words.
+const MOST_LISTED: usize = 12;
 
 /// The folders of some files, each once.
 pub(crate) fn folders<'f>(files: impl IntoIterator<Item = &'f PathBuf>) -> Vec<PathBuf> {
@@ -364,9 +364,9 @@ impl Snapshot {
                 [one] => lines.push(format!("  {head}: {one}")),
                 several => {
                     lines.push(format!("  {head}:"));
-                    lines.extend(several.iter().take(TOLD).map(|w| format!("    {w}")));
-                    if several.len() > TOLD {
-                        lines.push(format!("    … and {} more", several.len() - TOLD));
+                    lines.extend(several.iter().take(MOST_LISTED).map(|w| format!("    {w}")));
+                    if several.len() > MOST_LISTED {
+                        lines.push(format!("    … and {} more", several.len() - MOST_LISTED));
                     }
                 }
             }

@@ -300,7 +300,7 @@ impl Search {
         self.candidates.push((path, base));
     }
 
-    /// What holds in a folder. `None` where that is wrong, which has been told then.
+    /// What holds in a folder. `None` where that is wrong, which has been reported then.
     fn settings_of(&mut self, folder: &Path) -> Option<Arc<Settings>> {
         let folder = if folder.as_os_str().is_empty() {
             Path::new(".")
@@ -320,11 +320,11 @@ impl Search {
                 }
                 Ok(text) => Settings::read(&text)
                     .map_err(|problems| {
-                        let told = problems.into_iter().map(|problem| Fault::Settings {
+                        let described = problems.into_iter().map(|problem| Fault::Settings {
                             path: path.clone(),
                             problem,
                         });
-                        self.faults.extend(told);
+                        self.faults.extend(described);
                     })
                     .ok(),
             },
@@ -387,14 +387,14 @@ impl Search {
             stems.insert(file.with_extension(""));
         }
         // What tells of itself that it was made for a scene; and its neighbours of the same name.
-        let told: Vec<&PathBuf> = self.others.iter().filter(|p| tells(p)).collect();
+        let described: Vec<&PathBuf> = self.others.iter().filter(|p| tells(p)).collect();
         let mut orphans = Vec::new();
         for path in &self.others {
             if expected.contains_key(&fold(path)) {
                 continue;
             }
             let stem = path.with_extension("");
-            let beside = told.iter().any(|t| t.with_extension("") == stem);
+            let beside = described.iter().any(|t| t.with_extension("") == stem);
             let of_a_scene = stems.iter().any(|s| {
                 let (own, s) = (
                     fold(&stem).to_string_lossy().into_owned(),

@@ -19,7 +19,7 @@ const SCRIPT: &str = include_str!("../../assets/snapshot/review.js");
 /// A drawing with more changes than this unfolds on request: the pictures tell most of it.
 const OPEN: usize = 12;
 /// So many changes of one file stand in the page.
-const TOLD: usize = 60;
+const MOST_LISTED: usize = 60;
 
 /// The page of a report. `folders` are those of the command line, for the commands to copy.
 ///
@@ -58,7 +58,7 @@ pub fn page(report: &Report, folders: &[std::path::PathBuf]) -> String {
                 @for (number, snapshot) in failing.iter().enumerate() {
                     section id=(format!("s{number}")) {
                         h2 { (line(&snapshot.name)) }
-                        @for finding in &snapshot.findings { (told(finding)) }
+                        @for finding in &snapshot.findings { (described(finding)) }
                         (command(&format!("drystone snapshot {places} --accept --only {}", shell(&snapshot.name)), "This one"))
                     }
                 }
@@ -85,7 +85,7 @@ fn command(words: &str, what: &str) -> Markup {
     }
 }
 
-fn told(finding: &Finding) -> Markup {
+fn described(finding: &Finding) -> Markup {
     let state = match finding.state {
         State::Missing => "new",
         State::Changed => "changed",
@@ -106,8 +106,8 @@ fn told(finding: &Finding) -> Markup {
 fn words(finding: &Finding) -> Markup {
     html! {
         ul {
-            @for words in finding.words.iter().take(TOLD) { li { (line(words)) } }
-            @if finding.words.len() > TOLD { li { "… and " (finding.words.len() - TOLD) " more" } }
+            @for words in finding.words.iter().take(MOST_LISTED) { li { (line(words)) } }
+            @if finding.words.len() > MOST_LISTED { li { "… and " (finding.words.len() - MOST_LISTED) " more" } }
         }
     }
 }

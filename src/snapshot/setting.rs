@@ -88,11 +88,11 @@ impl Settings {
     pub fn read(text: &str) -> Result<Settings, Vec<String>> {
         let (table, errors) = DeTable::parse_recoverable(text);
         if !errors.is_empty() {
-            let told = errors.iter().map(|e| {
+            let described = errors.iter().map(|e| {
                 let place = e.span().map_or(0, |span| span.start);
                 format!("{}: no TOML: {}", place_in(text, place), e.message())
             });
-            return Err(told.collect());
+            return Err(described.collect());
         }
         let mut reading = Reading {
             text,
@@ -107,8 +107,8 @@ impl Settings {
         if reading.problems.is_empty() {
             return Ok(reading.settings);
         }
-        let told = reading.problems.into_iter();
-        Err(told
+        let described = reading.problems.into_iter();
+        Err(described
             .map(|(at, words)| format!("{}: {words}", place_in(text, at)))
             .collect())
     }
@@ -236,11 +236,14 @@ impl Reading<'_> {
             match known(name) {
                 Some(one) => found.push(one),
                 None => {
-                    let said = self.text.get(entry.span()).unwrap_or_default();
-                    let said = crate::text::heading(said, 40);
+                    let stated = self.text.get(entry.span()).unwrap_or_default();
+                    let stated = crate::text::heading(stated, 40);
                     self.wrong(
                         entry.span().start,
-                        format!("{key}: there is no {said}; there are {}", names.join(", ")),
+                        format!(
+                            "{key}: there is no {stated}; there are {}",
+                            names.join(", ")
+                        ),
                     );
                 }
             }
@@ -271,11 +274,11 @@ impl Reading<'_> {
             _ => None,
         };
         if number.is_none_or(|n| n < least || n > most) {
-            let said = self.text.get(value.span()).unwrap_or_default();
-            let said = crate::text::heading(said, 40);
+            let stated = self.text.get(value.span()).unwrap_or_default();
+            let stated = crate::text::heading(stated, 40);
             self.wrong(
                 value.span().start,
-                format!("{key}: {said} is no whole number from {least} to {most}"),
+                format!("{key}: {stated} is no whole number from {least} to {most}"),
             );
             return None;
         }
@@ -283,16 +286,18 @@ impl Reading<'_> {
     }
 
     fn threshold(&mut self, value: &Found<'_>) {
-        let said = self.text.get(value.span()).unwrap_or_default();
-        match said.parse::<f64>() {
+        let stated = self.text.get(value.span()).unwrap_or_default();
+        match stated.parse::<f64>() {
             Ok(threshold) if (0.0..=1.0).contains(&threshold) => {
                 self.settings.tolerance.perceptual = Some(threshold);
             }
             _ => {
-                let said = crate::text::heading(said, 40);
+                let stated = crate::text::heading(stated, 40);
                 self.wrong(
                     value.span().start,
-                    format!("perceptual_threshold: {said} is no number from 0 to 1; 0.1 is usual"),
+                    format!(
+                        "perceptual_threshold: {stated} is no number from 0 to 1; 0.1 is usual"
+                    ),
                 );
             }
         }
@@ -341,14 +346,17 @@ mod tests {
     #[test]
     fn every_problem_is_told_in_its_place() {
         let text = "layers = []\nwidths = [640, 640, -3, 1.5]\nthemes = \"dark\"\ndigits = 99\n\nperceptual_threshold = 7\nignore = [1]\ncolour = 1\n";
-        let told = Settings::read(text).expect_err("wrong");
-        let places: Vec<&str> = told.iter().filter_map(|t| t.split(": ").next()).collect();
+        let described = Settings::read(text).expect_err("wrong");
+        let places: Vec<&str> = described
+            .iter()
+            .filter_map(|t| t.split(": ").next())
+            .collect();
         assert_eq!(
             places,
             [
                 "1:10", "2:10", "2:21", "2:25", "3:10", "4:10", "6:24", "7:11", "8:1"
             ],
-            "{told:#?}"
+            "{described:#?}"
         );
         assert!(Settings::read("kinds = [\"forces\"").expect_err("cut")[0].contains("no TOML"));
         assert_eq!(Settings::read(""), Ok(Settings::default()));

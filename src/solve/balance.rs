@@ -1,8 +1,9 @@
 //! The hard program: admissible forces of least sum that balance every block, or a motion that none can stop.
 
 use super::{
-    Amounts, Care, Choice, Effort, Face, Manner, Status, Twin, careful, largest, of_velocities,
-    once_within, refined, remainder, settled, tidy,
+    Amounts, Choice, Conditioning, Dual, Effort, Face, SolverSettings, Status, largest,
+    least_squares_amounts, of_velocities, once_within, refined, remainder, settled,
+    solved_with_retry,
 };
 use crate::program::{Program, columns, kinematic};
 
@@ -29,19 +30,20 @@ const MARGINS: [f64; 5] = [1.0, 1e-3, 1e3, 1e-6, 1e6];
 /// On the true face every balance costs the same, up to the solver's digits; a dearer one means a column too many.
 const SAME_COST: f64 = 2e-8;
 
-/// Very rough contacts cost the solver digits; within this share the cheapest balance is nearer the truth than its aim.
+/// Very rough contacts cost the solver digits; within this share the cheapest balance is nearer the truth than its
+/// objective.
 const NEAR_COST: f64 = 1e-6;
 
 /// The least squares may leave so much unbalanced, in parts of the largest load: half of what a proof lets pass.
 const BALANCED: f64 = 5e-8;
 
-/// From so many blocks on the quick way is given up early, and not tried again with full care.
+/// From so many blocks on the quick way is given up early, and not tried again with full conditioning.
 const MANY_BLOCKS: usize = 200;
 
 /// Iterations after which it is given up.
 ///
 /// Walls of 400 to 2 000 bricks take 6 to 60 where they stand or fall by more than a thousandth. Nearer to the edge the
-/// least force ends nowhere after 100, in either way, where the program without cost is solved in 30.
+/// least force ends without a status after 100, in either way, where the program without cost is solved in 30.
 const SHORT: usize = 60;
 
 /// Of many blocks, when so large a share of the columns in use may as well not be, the optimum is sought more sharply first.
@@ -54,7 +56,7 @@ const VAGUE: f64 = 0.05;
 const SHARP: f64 = 1e-3;
 
 /// Whether of many columns it is not clear that they belong to the optimum.
-fn is_vague(solved: &Twin) -> bool {
+fn is_vague(solved: &Dual) -> bool {
     let count = |margin: f64| {
         let active = solved.active(margin).into_iter();
         active.filter(|active| *active).count() as f64
@@ -62,39 +64,39 @@ fn is_vague(solved: &Twin) -> bool {
     solved.status == Status::Solved && count(1e3) - count(1e-3) > VAGUE * count(1.0)
 }
 
-/// Solves the hard program of [Vallat23](crate::doc::references) §2.0.7 through its kinematic twin.
-pub fn balance(program: &Program, care: Care) -> Balance {
-    balance_in(program, care.into())
+/// Solves the hard program of [Vallat23](crate::doc::references) §2.0.7 through its kinematic dual.
+pub fn balance(program: &Program, conditioning: Conditioning) -> Balance {
+    balance_in(program, conditioning.into())
 }
 
-/// Solves it in a manner of one's own.
-pub fn balance_in(program: &Program, manner: Manner) -> Balance {
+/// Solves it with given settings.
+pub fn balance_in(program: &Program, settings: SolverSettings) -> Balance {
     let mut effort = Effort::default();
-    let whole = Face::whole(&program.need, columns(program));
-    let (conic, row_of) = kinematic(&whole.need, &whole.columns, |c| c.cost);
-    let answer = if manner.care == Care::Quick && program.blocks >= MANY_BLOCKS {
-        once_within(&conic, manner, SHORT, &mut effort)
+    let whole = Face::whole(&program.loads, columns(program));
+    let (conic, row_of) = kinematic(&whole.loads, &whole.columns, |c| c.cost);
+    let answer = if settings.conditioning == Conditioning::Plain && program.blocks >= MANY_BLOCKS {
+        once_within(&conic, settings, SHORT, &mut effort)
     } else {
-        careful(&conic, manner, &mut effort)
+        solved_with_retry(&conic, settings, &mut effort)
     };
-    let mut solved = of_velocities(&whole.need, &whole.columns, &conic, &row_of, &answer);
-    let mut tidily = manner;
-    if program.blocks >= MANY_BLOCKS && manner.choice == Choice::Unique && is_vague(&solved) {
-        let sharp = Manner {
-            tolerance: SHARP * manner.tolerance,
-            ..manner
+    let mut solved = of_velocities(&whole.loads, &whole.columns, &conic, &row_of, &answer);
+    let mut face_settings = settings;
+    if program.blocks >= MANY_BLOCKS && settings.choice == Choice::Unique && is_vague(&solved) {
+        let sharp = SolverSettings {
+            tolerance: SHARP * settings.tolerance,
+            ..settings
         };
         let answer = once_within(&conic, sharp, SHORT, &mut effort);
         if answer.status == Status::Solved {
-            solved = of_velocities(&whole.need, &whole.columns, &conic, &row_of, &answer);
-            tidily.care = Care::Full;
+            solved = of_velocities(&whole.loads, &whole.columns, &conic, &row_of, &answer);
+            face_settings.conditioning = Conditioning::Full;
         }
     }
     match solved.status {
         Status::Solved => {
-            let size = largest(&program.need);
+            let size = largest(&program.loads);
             let mut found: Option<(f64, Face)> = None;
-            let margins = match manner.choice {
+            let margins = match settings.choice {
                 Choice::Any => &[][..],
                 Choice::Unique => &MARGINS[..],
             };
@@ -107,17 +109,19 @@ pub fn balance_in(program: &Program, manner: Manner) -> Balance {
                     continue;
                 }
                 sizes.push(of);
-                let Some(mut amounts) = tidy(&face.need, &face.columns, tidily, &mut effort) else {
+                let Some(mut amounts) =
+                    least_squares_amounts(&face.loads, &face.columns, face_settings, &mut effort)
+                else {
                     continue;
                 };
                 let cost = face.cost(&amounts);
-                let off = (cost - solved.aim).abs() / solved.aim.abs();
+                let off = (cost - solved.objective).abs() / solved.objective.abs();
                 let balanced = |amounts: &[f64]| {
-                    largest(&remainder(&face.need, &face.columns, amounts)) <= BALANCED * size
+                    largest(&remainder(&face.loads, &face.columns, amounts)) <= BALANCED * size
                 };
                 if off <= NEAR_COST && !balanced(&amounts) {
                     // The right columns, but long arches add up more rounding than a proof lets pass.
-                    amounts = settled(&face.need, &face.columns, amounts, manner, &mut effort);
+                    amounts = settled(&face.loads, &face.columns, amounts, settings, &mut effort);
                 }
                 if off > NEAR_COST || !balanced(&amounts) {
                     continue;
@@ -129,18 +133,18 @@ pub fn balance_in(program: &Program, manner: Manner) -> Balance {
                     break;
                 }
             }
-            let mut face = match (found, manner.choice) {
+            let mut face = match (found, settings.choice) {
                 (Some(best), _) => best.1,
                 (None, Choice::Unique) => whole.with(solved.amounts),
                 // One system of equations is cheaper than making good what the solver leaves, block by block.
                 (None, Choice::Any) => {
-                    let (need, amounts) = (&whole.need, solved.amounts);
-                    let amounts = settled(need, &whole.columns, amounts, manner, &mut effort);
+                    let (loads, amounts) = (&whole.loads, solved.amounts);
+                    let amounts = settled(loads, &whole.columns, amounts, settings, &mut effort);
                     whole.with(amounts)
                 }
             };
-            if manner.care == Care::Full {
-                face.amounts = refined(&face.need, &face.columns, face.amounts, &mut effort);
+            if settings.conditioning == Conditioning::Full {
+                face.amounts = refined(&face.loads, &face.columns, face.amounts, &mut effort);
             }
             let (forces, _) = face.gathered(program);
             Balance {
@@ -150,7 +154,7 @@ pub fn balance_in(program: &Program, manner: Manner) -> Balance {
                 effort,
             }
         }
-        // The twin's velocities are those against which loads work; the blocks move the other way.
+        // The dual's velocities are those against which loads work; the blocks move the other way.
         Status::Unbounded => Balance {
             forces: None,
             motion: Some(solved.y.iter().map(|v| -v).collect()),

@@ -47,10 +47,10 @@ pub enum Status {
     Solved,
     /// The rows contradict each other; z tells how.
     Infeasible,
-    /// The aim has no bound; x is the direction along which it grows.
+    /// The objective has no bound; x is the direction along which it grows.
     Unbounded,
     /// The solver gave up.
-    Unclear,
+    Unsolved,
 }
 
 /// What the solver gave back.
@@ -72,7 +72,7 @@ impl Answer {
     /// The answer of a solver that was not begun.
     fn none(problem: &Conic) -> Answer {
         Answer {
-            status: Status::Unclear,
+            status: Status::Unsolved,
             x: vec![0.0; problem.unknowns],
             z: vec![0.0; problem.bound.len()],
             s: vec![0.0; problem.bound.len()],
@@ -87,13 +87,13 @@ pub const TOLERANCE: f64 = 1e-9;
 /// The most iterations of one program.
 pub const ITERATIONS: usize = 100;
 
-/// How a program is solved: how precisely, how carefully, and whether the one picture is sought.
+/// How a program is solved: how precisely, with what conditioning, and whether the one picture is sought.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Manner {
+pub struct SolverSettings {
     /// The tolerance of feasibility and gap the solver is asked for.
     pub tolerance: f64,
-    /// How much it takes care.
-    pub care: Care,
+    /// How its linear systems are conditioned.
+    pub conditioning: Conditioning,
     /// Which of several balances is wanted.
     pub choice: Choice,
 }
@@ -107,23 +107,23 @@ pub enum Choice {
     Unique,
 }
 
-impl From<Care> for Manner {
+impl From<Conditioning> for SolverSettings {
     /// The default tolerance, and the unique balance.
-    fn from(care: Care) -> Manner {
-        Manner {
+    fn from(conditioning: Conditioning) -> SolverSettings {
+        SolverSettings {
             tolerance: TOLERANCE,
-            care,
+            conditioning,
             choice: Choice::Unique,
         }
     }
 }
 
-/// How much the solver takes care.
+/// How the solver conditions its linear systems.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Care {
+pub enum Conditioning {
     /// Neither equilibration nor refinement of its linear systems: two thirds of the time. Good for the many programs
     /// whose pure numbers are all near 1, and safe because an answer is believed only with its proof.
-    Quick,
+    Plain,
     /// The solver's own defaults.
     Full,
 }
@@ -132,15 +132,20 @@ pub enum Care {
 ///
 /// # Panics
 /// If the data hold a number that is not finite: scenes are checked at the door, so that is our own mistake.
-pub fn solve(problem: &Conic, tolerance: f64, care: Care) -> Answer {
-    solve_within(problem, tolerance, care, ITERATIONS)
+pub fn solve(problem: &Conic, tolerance: f64, conditioning: Conditioning) -> Answer {
+    solve_within(problem, tolerance, conditioning, ITERATIONS)
 }
 
 /// Solves a conic problem in a given number of iterations, or gives up.
 ///
 /// # Panics
 /// As [`solve`].
-pub fn solve_within(problem: &Conic, tolerance: f64, care: Care, iterations: usize) -> Answer {
+pub fn solve_within(
+    problem: &Conic,
+    tolerance: f64,
+    conditioning: Conditioning,
+    iterations: usize,
+) -> Answer {
     let finite = |list: &[f64]| list.iter().all(|v| v.is_finite());
     let entries = problem
         .matrix
@@ -173,8 +178,8 @@ pub fn solve_within(problem: &Conic, tolerance: f64, care: Care, iterations: usi
         direct_solve_method: "qdldl".to_string(),
         presolve_enable: false,
         max_iter: u32::try_from(iterations).unwrap_or(u32::MAX),
-        equilibrate_enable: care == Care::Full,
-        iterative_refinement_enable: care == Care::Full,
+        equilibrate_enable: conditioning == Conditioning::Full,
+        iterative_refinement_enable: conditioning == Conditioning::Full,
         tol_gap_abs: tolerance,
         tol_gap_rel: tolerance,
         tol_feas: tolerance,
@@ -197,11 +202,11 @@ pub fn solve_within(problem: &Conic, tolerance: f64, care: Care, iterations: usi
         SolverStatus::Solved => Status::Solved,
         SolverStatus::PrimalInfeasible => Status::Infeasible,
         SolverStatus::DualInfeasible => Status::Unbounded,
-        _ => Status::Unclear,
+        _ => Status::Unsolved,
     };
     let sound = finite(&solution.x) && finite(&solution.z) && finite(&solution.s);
     Answer {
-        status: if sound { status } else { Status::Unclear },
+        status: if sound { status } else { Status::Unsolved },
         x: solution.x,
         z: solution.z,
         s: solution.s,

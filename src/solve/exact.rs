@@ -11,9 +11,9 @@ const MOST_ROWS: usize = 120;
 /// Pivots below this mean that the columns depend on each other, so that there is a choice.
 const LEAST_PIVOT: f64 = 1e-7;
 
-/// The only amounts of the columns that give `need`, where the columns are independent and the amounts not negative.
-pub(super) fn only(need: &[f64], columns: &[Column]) -> Option<Vec<f64>> {
-    let (rows, n) = (need.len(), columns.len());
+/// The only amounts of the columns that give `loads`, where the columns are independent and the amounts not negative.
+pub(super) fn only(loads: &[f64], columns: &[Column]) -> Option<Vec<f64>> {
+    let (rows, n) = (loads.len(), columns.len());
     if n > rows || rows > MOST_ROWS {
         return None;
     }
@@ -24,7 +24,7 @@ pub(super) fn only(need: &[f64], columns: &[Column]) -> Option<Vec<f64>> {
             table[row * width + j] = value;
         }
     }
-    for (row, value) in need.iter().enumerate() {
+    for (row, value) in loads.iter().enumerate() {
         table[row * width + n] = *value;
     }
     for j in 0..n {
@@ -49,7 +49,7 @@ pub(super) fn only(need: &[f64], columns: &[Column]) -> Option<Vec<f64>> {
             }
         }
     }
-    let scale = need.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    let scale = loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     let mut amounts = vec![0.0; n];
     for j in (0..n).rev() {
         let known: f64 = (j + 1..n).map(|k| table[j * width + k] * amounts[k]).sum();
@@ -63,12 +63,12 @@ pub(super) fn only(need: &[f64], columns: &[Column]) -> Option<Vec<f64>> {
     (rest && pressing).then(|| amounts.iter().map(|a| a.max(0.0)).collect())
 }
 
-/// The amounts ≥ 0 of least Σ force² that give `need`, where a few rounds of dropping negative ones find them.
+/// The amounts ≥ 0 of least Σ force² that give `loads`, where a few rounds of dropping negative ones find them.
 ///
 /// Only for columns whose squares do not mix, such as normal forces alone. The multipliers of the balance prove the answer:
 /// λ_j = g_jᵀy / p_j where that is positive, and g_jᵀy ≤ 0 for every column dropped.
-pub(super) fn least(need: &[f64], columns: &[Column]) -> Option<Vec<f64>> {
-    let rows = need.len();
+pub(super) fn least(loads: &[f64], columns: &[Column]) -> Option<Vec<f64>> {
+    let rows = loads.len();
     if rows > MOST_ROWS
         || columns
             .windows(2)
@@ -80,7 +80,7 @@ pub(super) fn least(need: &[f64], columns: &[Column]) -> Option<Vec<f64>> {
         .iter()
         .filter_map(|c| product(&c.force, &c.force))
         .collect();
-    let scale = need.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    let scale = loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     let mut used = vec![true; columns.len()];
     for _ in 0..ROUNDS {
         let mut gram = vec![0.0; rows * rows];
@@ -96,7 +96,7 @@ pub(super) fn least(need: &[f64], columns: &[Column]) -> Option<Vec<f64>> {
                 }
             }
         }
-        let y = semidefinite(gram, need)?;
+        let y = semidefinite(gram, loads)?;
         let amounts: Vec<f64> = columns
             .iter()
             .zip(&squares)
@@ -115,7 +115,7 @@ pub(super) fn least(need: &[f64], columns: &[Column]) -> Option<Vec<f64>> {
                 .zip(&used)
                 .all(|(a, used)| *used || *a <= 1e-9 * scale);
             let allowed = kept.iter().zip(columns).all(|(a, c)| *a <= c.limit);
-            let mut rest = need.to_vec();
+            let mut rest = loads.to_vec();
             columns
                 .iter()
                 .zip(&kept)

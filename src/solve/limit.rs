@@ -1,12 +1,14 @@
 //! How far a load or a limit can go: one linear program each, no search.
 //!
-//! The kinematic twin of `max λ  s.t.  Σ amount·column = need + λ·toward` has one row more than the hard program,
+//! The kinematic dual of `max λ  s.t.  Σ amount·column = loads + λ·toward` has one row more than the hard program,
 //! towardᵀy ≥ 1, whose dual amount is λ; its velocities are the collapse mechanism at the limit. A robot's least
 //! sufficient limit is the least amount of its own component while every other force is free of cost. Source: the
 //! static and kinematic theorems of limit analysis, Livesley 1978.
 
 use super::slanted::Slanted;
-use super::{Amounts, Care, Effort, Face, Status, TOLERANCE, largest, settled, solve, twin};
+use super::{
+    Amounts, Conditioning, Effort, Face, Status, TOLERANCE, dual, largest, settled, solve,
+};
 use crate::program::{Column, Force, Program, columns, most_of};
 
 /// The end of what a program allows.
@@ -19,7 +21,7 @@ pub enum Limit {
     /// Every value from some on does.
     Unbounded,
     /// The solver gave up.
-    Unclear,
+    Unsolved,
 }
 
 /// What a program found at its limit.
@@ -44,13 +46,13 @@ impl From<Limit> for Extreme {
 }
 
 /// From so many blocks on the finest tolerance is out of reach: a wall of 410 bricks takes 50 iterations at the second and
-/// ends nowhere at the first, and the second is exact to 10⁻⁷.
+/// ends without a status at the first, and the second is exact to 10⁻⁷.
 const MANY_BLOCKS: usize = 200;
 
 /// Tolerances tried one after the other.
 const TOLERANCES: [f64; 3] = [TOLERANCE, 10.0 * TOLERANCE, 100.0 * TOLERANCE];
 
-/// The largest λ ≥ 0 for which admissible forces give `program.need + λ·toward`.
+/// The largest λ ≥ 0 for which admissible forces give `program.loads + λ·toward`.
 ///
 /// Both are posed with a largest entry of 1: on a wall of 420 bricks loads of 300 end after a hundred iterations at
 /// 0.48159 where loads of 1 are solved, at 0.48162.
@@ -59,21 +61,21 @@ pub fn most(program: &Program, toward: &[f64]) -> Extreme {
     if size == 0.0 {
         return Limit::Unbounded.into();
     }
-    let load = match largest(&program.need) {
+    let load = match largest(&program.loads) {
         0.0 => 1.0,
         load => load,
     };
     let scaled = |list: &[f64], by: f64| -> Vec<f64> { list.iter().map(|v| v / by).collect() };
-    let (need, along) = (scaled(&program.need, load), scaled(toward, size));
+    let (loads, along) = (scaled(&program.loads, load), scaled(toward, size));
     let columns = Slanted::of(&columns_in(program, load)).columns;
-    let (conic, row_of) = most_of(&need, &along, &columns);
+    let (conic, row_of) = most_of(&loads, &along, &columns);
     let finest = usize::from(program.blocks >= MANY_BLOCKS);
     for tolerance in TOLERANCES.into_iter().skip(finest) {
-        let answer = solve(&conic, tolerance, Care::Full);
+        let answer = solve(&conic, tolerance, Conditioning::Full);
         match (answer.status, answer.z.last()) {
             (Status::Solved, Some(amount)) => {
                 let amount = amount.max(0.0);
-                let total = need.iter().zip(&along).map(|(n, t)| n + amount * t);
+                let total = loads.iter().zip(&along).map(|(n, t)| n + amount * t);
                 let total: Vec<f64> = total.collect();
                 let given = row_of.iter().enumerate().map(|(k, row)| match *row {
                     usize::MAX => (-answer.z[row_of[k - 1]]).max(0.0),
@@ -86,7 +88,7 @@ pub fn most(program: &Program, toward: &[f64]) -> Extreme {
                 return Extreme {
                     limit: Limit::At(amount * load / size),
                     forces: Some(face.gathered(program).0),
-                    motion: Some(answer.x[..need.len()].iter().map(|v| -v).collect()),
+                    motion: Some(answer.x[..loads.len()].iter().map(|v| -v).collect()),
                 };
             }
             (Status::Infeasible, _) => return Limit::Unbounded.into(),
@@ -94,13 +96,13 @@ pub fn most(program: &Program, toward: &[f64]) -> Extreme {
             _ => {}
         }
     }
-    Limit::Unclear.into()
+    Limit::Unsolved.into()
 }
 
 /// Amounts with the smallest change that undoes what a solver left unbalanced of them.
-pub(super) fn rebalanced(need: &[f64], columns: &[Column], amounts: Vec<f64>) -> Vec<f64> {
-    let manner = Care::Quick.into();
-    settled(need, columns, amounts, manner, &mut Effort::default())
+pub(super) fn rebalanced(loads: &[f64], columns: &[Column], amounts: Vec<f64>) -> Vec<f64> {
+    let settings = Conditioning::Plain.into();
+    settled(loads, columns, amounts, settings, &mut Effort::default())
 }
 
 /// The columns of a program whose forces are counted in parts of `unit`.
@@ -118,21 +120,21 @@ pub fn least(program: &Program, grip: usize, component: usize) -> Extreme {
     free.grips[grip].limits[component] = f64::INFINITY;
     let own = |force: &Force| matches!(force, Force::Grip { grip: g, component: c, .. } if *g == grip && *c == component);
     let columns = columns(&free);
-    let solved = twin(
-        &free.need,
+    let solved = dual(
+        &free.loads,
         &columns,
-        Care::Full,
+        Conditioning::Full,
         &mut Effort::default(),
         |c| f64::from(u8::from(own(&c.force))),
     );
     match solved.status {
-        // The aim counts what limited forces give at their limits, so the component's own amounts are summed instead.
+        // The objective counts what limited forces give at their limits, so the component's own amounts are summed instead.
         Status::Solved => {
-            let amounts = rebalanced(&free.need, &columns, solved.amounts.clone());
+            let amounts = rebalanced(&free.loads, &columns, solved.amounts.clone());
             let owned = columns.iter().zip(&solved.amounts);
             let owned = owned.filter(|(c, _)| own(&c.force));
             let at = owned.map(|(_, amount)| amount).sum();
-            let face = Face::whole(&free.need, columns.clone()).with(amounts);
+            let face = Face::whole(&free.loads, columns.clone()).with(amounts);
             Extreme {
                 limit: Limit::At(at),
                 forces: Some(face.gathered(&free).0),
@@ -140,6 +142,6 @@ pub fn least(program: &Program, grip: usize, component: usize) -> Extreme {
             }
         }
         Status::Unbounded => Limit::Never.into(),
-        _ => Limit::Unclear.into(),
+        _ => Limit::Unsolved.into(),
     }
 }

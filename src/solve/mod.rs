@@ -8,13 +8,14 @@
 
 mod balance;
 mod conic;
+mod correction;
 mod exact;
-mod leftover;
 mod limit;
 mod nearest;
-mod opening;
+mod polish;
 pub(crate) mod ray;
 mod refine;
+mod residual;
 mod slanted;
 mod stick;
 mod tangent;
@@ -22,20 +23,22 @@ mod wedge;
 
 pub use balance::{Balance, balance, balance_in};
 pub(crate) use conic::Until;
-pub use conic::{Answer, Care, Choice, ITERATIONS, Manner, Status, TOLERANCE, solve, solve_within};
-pub use leftover::{Leftover, leftover};
+pub use conic::{
+    Answer, Choice, Conditioning, ITERATIONS, SolverSettings, Status, TOLERANCE, solve,
+    solve_within,
+};
 pub use limit::{Extreme, Limit, least, most};
 pub use nearest::{Nearest, generators};
-pub use opening::opened;
+pub use polish::polished;
 pub use refine::{corrected, relative};
+pub use residual::{Residual, least_residual};
 pub use stick::{Stuck, stick, stick_in};
 pub use tangent::Tangent;
 pub use wedge::{Reach, Squeeze, reach};
 
 use crate::geometry::{Vector, cross, quarter_turn};
-use crate::program::{
-    Column, Conic, Correction, Force, Program, force_form, kinematic, least_squares, smallest,
-};
+use crate::program::{Column, Conic, Force, Program, force_form, kinematic, least_squares};
+use correction::{refined, settled};
 
 /// Amounts of the forces of a program, pure numbers.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,9 +73,9 @@ impl Amounts {
         contacts + self.grip.iter().flatten().map(|v| v.abs()).sum::<f64>()
     }
 
-    /// Worst of what the forces leave unbalanced of a program's need, pure numbers.
+    /// Worst of what the forces leave unbalanced of a program's loads, pure numbers.
     pub fn unbalanced(&self, program: &Program) -> f64 {
-        let mut rest = program.need.clone();
+        let mut rest = program.loads.clone();
         let mut act = |block: usize, force: Vector, moment: f64| {
             for (row, value) in [force.x, force.y, moment].into_iter().enumerate() {
                 rest[3 * block + row] -= value;
@@ -152,9 +155,9 @@ impl Effort {
     }
 }
 
-/// A solved kinematic twin.
+/// A solved kinematic dual.
 #[derive(Clone, Debug)]
-pub struct Twin {
+pub struct Dual {
     /// How it ended; `Unbounded` means that `y` is a motion nothing stops.
     pub status: Status,
     /// The virtual velocities against which loads work.
@@ -164,12 +167,12 @@ pub struct Twin {
     /// Slack of each column: by how much it is too dear to be used.
     pub slack: Vec<f64>,
     /// What one more unit of each column's limit would save.
-    pub worth: Vec<f64>,
-    /// The least cost, as the twin knows it.
-    pub aim: f64,
+    pub multipliers: Vec<f64>,
+    /// The least cost, as the dual knows it.
+    pub objective: f64,
 }
 
-impl Twin {
+impl Dual {
     /// Whether each column belongs to the face of optima: its slack is at most `margin` times its amount.
     pub fn active(&self, margin: f64) -> Vec<bool> {
         self.amounts
@@ -184,17 +187,17 @@ impl Twin {
 #[derive(Clone)]
 struct Face {
     /// What the columns must give, beside what the full ones do.
-    need: Vec<f64>,
+    loads: Vec<f64>,
     columns: Vec<Column>,
     amounts: Vec<f64>,
     full: Vec<Column>,
 }
 
 impl Face {
-    fn whole(need: &[f64], columns: Vec<Column>) -> Face {
+    fn whole(loads: &[f64], columns: Vec<Column>) -> Face {
         let amounts = vec![0.0; columns.len()];
         Face {
-            need: need.to_vec(),
+            loads: loads.to_vec(),
             columns,
             amounts,
             full: Vec::new(),
@@ -206,11 +209,11 @@ impl Face {
         Face { amounts, ..self }
     }
 
-    /// The face's part on which the optima of a solved twin of it lie.
+    /// The face's part on which the optima of a solved dual of it lie.
     ///
-    /// A limited column whose limit is worth more than it leaves unused is full; only then is every balance on the face
-    /// an optimum.
-    fn narrowed(&self, solved: &Twin, margin: f64) -> Face {
+    /// A limited column whose bound has a multiplier above what it leaves unused is full; only then is every balance on
+    /// the face an optimum.
+    fn narrowed(&self, solved: &Dual, margin: f64) -> Face {
         let mut face = Face {
             columns: Vec::new(),
             amounts: Vec::new(),
@@ -219,8 +222,8 @@ impl Face {
         let active = solved.active(margin);
         for (k, column) in self.columns.iter().enumerate() {
             let amount = solved.amounts[k];
-            if column.limit.is_finite() && solved.worth[k] > column.limit - amount {
-                column.add_to(&mut face.need, -column.limit);
+            if column.limit.is_finite() && solved.multipliers[k] > column.limit - amount {
+                column.add_to(&mut face.loads, -column.limit);
                 face.full.push(*column);
             } else if active[k] {
                 face.columns.push(*column);
@@ -274,35 +277,35 @@ impl Face {
     }
 }
 
-/// Solves the kinematic twin of some columns, again with full care where the quick way ends nowhere.
-pub fn twin(
-    need: &[f64],
+/// Solves the kinematic dual of some columns, again with full conditioning where the quick way ends without a status.
+pub fn dual(
+    loads: &[f64],
     columns: &[Column],
-    manner: impl Into<Manner>,
+    settings: impl Into<SolverSettings>,
     effort: &mut Effort,
     cost: impl Fn(&Column) -> f64,
-) -> Twin {
-    let (conic, row_of) = kinematic(need, columns, cost);
-    let answer = careful(&conic, manner, effort);
-    of_velocities(need, columns, &conic, &row_of, &answer)
+) -> Dual {
+    let (conic, row_of) = kinematic(loads, columns, cost);
+    let answer = solved_with_retry(&conic, settings, effort);
+    of_velocities(loads, columns, &conic, &row_of, &answer)
 }
 
-/// The optimum of a kinematic form, told in columns.
+/// The optimum of a kinematic form, in terms of columns.
 fn of_velocities(
-    need: &[f64],
+    loads: &[f64],
     columns: &[Column],
     conic: &Conic,
     row_of: &[usize],
     answer: &Answer,
-) -> Twin {
+) -> Dual {
     let n = columns.len();
-    let mut solved = Twin {
+    let mut solved = Dual {
         status: answer.status,
-        y: vec![0.0; need.len()],
+        y: vec![0.0; loads.len()],
         amounts: vec![0.0; n],
         slack: vec![0.0; n],
-        worth: vec![0.0; n],
-        aim: 0.0,
+        multipliers: vec![0.0; n],
+        objective: 0.0,
     };
     if answer.x.is_empty() {
         return solved;
@@ -318,13 +321,13 @@ fn of_velocities(
             solved.slack[k] = answer.s[*row];
         }
     }
-    solved.y.copy_from_slice(&answer.x[..need.len()]);
+    solved.y.copy_from_slice(&answer.x[..loads.len()]);
     // Limited columns own the unknowns after the velocities, in their order.
     let limited = (0..n).filter(|k| columns[*k].limit.is_finite());
-    for (k, worth) in limited.zip(&answer.x[need.len()..]) {
-        solved.worth[k] = worth.max(0.0);
+    for (k, multiplier) in limited.zip(&answer.x[loads.len()..]) {
+        solved.multipliers[k] = multiplier.max(0.0);
     }
-    solved.aim = -conic
+    solved.objective = -conic
         .linear
         .iter()
         .zip(&answer.x)
@@ -338,27 +341,27 @@ fn of_velocities(
 /// Its rows are the balance, its multipliers the velocities. Near the edge of standing it takes about half the iterations
 /// of the kinematic form, of which each is a third dearer, and tells less sharply which columns belong to the optimum.
 fn in_forces(
-    need: &[f64],
+    loads: &[f64],
     columns: &[Column],
-    manner: impl Into<Manner>,
+    settings: impl Into<SolverSettings>,
     effort: &mut Effort,
     cost: impl Fn(&Column) -> f64,
-) -> Twin {
-    let conic = force_form(need, columns, cost, None);
-    let answer = once(&conic, manner.into(), effort);
+) -> Dual {
+    let conic = force_form(loads, columns, cost, None);
+    let answer = once(&conic, settings.into(), effort);
     let n = columns.len();
-    let mut solved = Twin {
+    let mut solved = Dual {
         // No forces balance exactly where nothing bounds the velocities.
         status: match answer.status {
             Status::Infeasible => Status::Unbounded,
             Status::Unbounded => Status::Infeasible,
             other => other,
         },
-        y: vec![0.0; need.len()],
+        y: vec![0.0; loads.len()],
         amounts: vec![0.0; n],
         slack: vec![0.0; n],
-        worth: vec![0.0; n],
-        aim: 0.0,
+        multipliers: vec![0.0; n],
+        objective: 0.0,
     };
     if answer.x.is_empty() {
         return solved;
@@ -367,29 +370,33 @@ fn in_forces(
         *y = -multiplier;
     }
     // A column's row of x ≥ 0 is followed by that of its limit, if it has one.
-    let mut row = need.len();
+    let mut row = loads.len();
     for (k, column) in columns.iter().enumerate() {
         solved.amounts[k] = answer.x[k].max(0.0);
         solved.slack[k] = answer.z[row];
         row += 1;
         if column.limit.is_finite() {
-            solved.worth[k] = answer.z[row].max(0.0);
+            solved.multipliers[k] = answer.z[row].max(0.0);
             row += 1;
         }
     }
     let costs = conic.linear.iter().zip(&answer.x).map(|(q, x)| q * x);
-    solved.aim = costs.sum();
+    solved.objective = costs.sum();
     solved
 }
 
-/// Solves, and solves again with full care where the quick way ends nowhere.
-fn careful(conic: &Conic, manner: impl Into<Manner>, effort: &mut Effort) -> Answer {
-    let manner = manner.into();
-    let answer = once(conic, manner, effort);
-    if answer.status == Status::Unclear && manner.care == Care::Quick {
-        let full = Manner {
-            care: Care::Full,
-            ..manner
+/// Solves, and solves again with full conditioning where the quick way ends without a status.
+fn solved_with_retry(
+    conic: &Conic,
+    settings: impl Into<SolverSettings>,
+    effort: &mut Effort,
+) -> Answer {
+    let settings = settings.into();
+    let answer = once(conic, settings, effort);
+    if answer.status == Status::Unsolved && settings.conditioning == Conditioning::Plain {
+        let full = SolverSettings {
+            conditioning: Conditioning::Full,
+            ..settings
         };
         return once(conic, full, effort);
     }
@@ -397,13 +404,18 @@ fn careful(conic: &Conic, manner: impl Into<Manner>, effort: &mut Effort) -> Ans
 }
 
 /// Solves in one way only.
-fn once(conic: &Conic, manner: Manner, effort: &mut Effort) -> Answer {
-    once_within(conic, manner, ITERATIONS, effort)
+fn once(conic: &Conic, settings: SolverSettings, effort: &mut Effort) -> Answer {
+    once_within(conic, settings, ITERATIONS, effort)
 }
 
 /// Solves in one way only, in a given number of iterations.
-fn once_within(conic: &Conic, manner: Manner, iterations: usize, effort: &mut Effort) -> Answer {
-    let answer = solve_within(conic, manner.tolerance, manner.care, iterations);
+fn once_within(
+    conic: &Conic,
+    settings: SolverSettings,
+    iterations: usize,
+    effort: &mut Effort,
+) -> Answer {
+    let answer = solve_within(conic, settings.tolerance, settings.conditioning, iterations);
     *effort = effort.and(Effort {
         iterations: answer.iterations,
         programs: 1,
@@ -414,19 +426,24 @@ fn once_within(conic: &Conic, manner: Manner, iterations: usize, effort: &mut Ef
 /// The amounts of least Σ force² on given columns, if there are such.
 ///
 /// Where the balance leaves no choice they come from elimination, exact to rounding; else from a quadratic program.
-fn tidy(need: &[f64], columns: &[Column], manner: Manner, effort: &mut Effort) -> Option<Vec<f64>> {
+fn least_squares_amounts(
+    loads: &[f64],
+    columns: &[Column],
+    settings: SolverSettings,
+    effort: &mut Effort,
+) -> Option<Vec<f64>> {
     if columns.is_empty() {
         return Some(Vec::new());
     }
-    if let Some(amounts) = exact::only(need, columns).or_else(|| exact::least(need, columns)) {
+    if let Some(amounts) = exact::only(loads, columns).or_else(|| exact::least(loads, columns)) {
         return Some(amounts);
     }
-    let answer = careful(&least_squares(need, columns, None), manner, effort);
+    let answer = solved_with_retry(&least_squares(loads, columns, None), settings, effort);
     (answer.status == Status::Solved).then(|| answer.x.iter().map(|v| v.max(0.0)).collect())
 }
 
-fn remainder(need: &[f64], columns: &[Column], amounts: &[f64]) -> Vec<f64> {
-    let mut rest: Vec<f64> = need.to_vec();
+fn remainder(loads: &[f64], columns: &[Column], amounts: &[f64]) -> Vec<f64> {
+    let mut rest: Vec<f64> = loads.to_vec();
     for (column, amount) in columns.iter().zip(amounts) {
         column.add_to(&mut rest, -amount);
     }
@@ -435,68 +452,4 @@ fn remainder(need: &[f64], columns: &[Column], amounts: &[f64]) -> Vec<f64> {
 
 fn largest(list: &[f64]) -> f64 {
     list.iter().fold(0.0, |m: f64, v| m.max(v.abs()))
-}
-
-/// Amounts with the smallest change that undoes what they leave unbalanced: one system of equations, no inequality. One
-/// that would fall below 0 is cut there, so that what it cost shows in the balance.
-fn settled(
-    need: &[f64],
-    columns: &[Column],
-    amounts: Vec<f64>,
-    manner: Manner,
-    effort: &mut Effort,
-) -> Vec<f64> {
-    let rest = remainder(need, columns, &amounts);
-    let size = largest(&rest);
-    if size == 0.0 {
-        return amounts;
-    }
-    let blown: Vec<f64> = rest.iter().map(|v| v / size).collect();
-    let answer = careful(&smallest(&blown, columns), manner, effort);
-    if answer.status != Status::Solved {
-        return amounts;
-    }
-    let better = amounts.iter().zip(&answer.x);
-    better.map(|(a, d)| (a + size * d).max(0.0)).collect()
-}
-
-/// Amounts whose balance is exact to rounding, if they can be had near the given ones.
-/// What is left unbalanced is blown up to size 1 and solved for as a correction, which keeps every amount ≥ 0; each round
-/// gains the solver's nine digits. Without it a feather under a mountain drowns in the mountain's rounding.
-fn refined(
-    need: &[f64],
-    columns: &[Column],
-    mut amounts: Vec<f64>,
-    effort: &mut Effort,
-) -> Vec<f64> {
-    for _ in 0..2 {
-        let rest = remainder(need, columns, &amounts);
-        let size = largest(&rest);
-        if size <= 1e-14 * largest(need) {
-            break;
-        }
-        let blown: Vec<f64> = rest.iter().map(|v| v / size).collect();
-        let correction = Correction {
-            amounts: &amounts,
-            size,
-        };
-        let answer = careful(
-            &least_squares(&blown, columns, Some(correction)),
-            Care::Full,
-            effort,
-        );
-        if answer.status != Status::Solved {
-            break;
-        }
-        let better: Vec<f64> = amounts
-            .iter()
-            .zip(&answer.x)
-            .map(|(a, d)| (a + d * size).max(0.0))
-            .collect();
-        if largest(&remainder(need, columns, &better)) >= size {
-            break;
-        }
-        amounts = better;
-    }
-    amounts
 }

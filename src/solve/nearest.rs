@@ -1,14 +1,15 @@
-//! The balance nearest to a need: admissible amounts that leave least unbalanced, min ½|A·x − need|² s.t. 0 ≤ x ≤ limit.
+//! The balance nearest to given loads: admissible amounts that leave least unbalanced, min ½|A·x − loads|² s.t. 0 ≤ x ≤
+//! limit.
 //!
 //! It tells both stories at once. Where nothing is left the amounts are forces that balance; where something is, what is
-//! left, r = need − A·x, is a motion that no admissible force can object to and along which the loads do work: for the
-//! nearest point of a cone Aᵀr ≤ 0 and needᵀr = |r|² (Moreau's two polar cones). No cost enters, so the forces are some
+//! left, r = loads − A·x, is a motion that no admissible force can object to and along which the loads do work: for the
+//! nearest point of a cone Aᵀr ≤ 0 and loadsᵀr = |r|² (Moreau's two polar cones). No cost enters, so the forces are some
 //! that balance and not the least.
 //!
 //! Solved by the active-set method of [LawsonHanson74](crate::doc::references), chapter 23: a set of used columns, grown by
 //! the one that most wants in and shrunk where an amount would leave its bounds, with the Cholesky factor of their Gram
 //! matrix kept up to date. A used set is a first guess for a changed program at hardly any cost, since the factor does not
-//! depend on the need, nor on rows and columns that are new. Nothing here is believed without its proof.
+//! depend on the loads, nor on rows and columns that are new. Nothing here is believed without its proof.
 
 use super::Amounts;
 use crate::program::{Column, Force, Program, columns};
@@ -16,11 +17,11 @@ use crate::program::{Column, Force, Program, columns};
 /// A column wants in where it gains more than this share of its own size times what is left.
 const WANTS: f64 = 1e-11;
 
-/// What is left below this share of the need is nothing: far less than a proof asks for, and more than the rounding of the
+/// What is left below this share of the loads is nothing: far less than a proof asks for, and more than the rounding of the
 /// amounts of some hundred bodies, which would keep columns changing places for ever.
 const NOTHING: f64 = 1e-12;
 
-/// And what wants in with less than this share of the need does so for that rounding.
+/// And what wants in with less than this share of the loads does so for that rounding.
 const ROUNDING: f64 = 1e-13;
 
 /// A column whose part across the used ones is smaller than this share of it is a sum of them.
@@ -66,12 +67,12 @@ impl Nearest {
         self.full = self.full.iter().filter_map(|k| number(*k)).collect();
     }
 
-    /// Finds the nearest balance, starting from the set at hand. Returns what is left of the need, or `None` where it does
+    /// Finds the nearest balance, starting from the set at hand. Returns what is left of the loads, or `None` where it does
     /// not come to an end.
     ///
     /// The columns must be those from which the set was made, up to their numbers and up to new ones.
-    pub fn find(&mut self, need: &[f64], columns: &[Column]) -> Option<Vec<f64>> {
-        let size = need.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    pub fn find(&mut self, loads: &[f64], columns: &[Column]) -> Option<Vec<f64>> {
+        let size = loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
         let norms: Vec<f64> = columns.iter().map(norm).collect();
         // Columns that were tried and found to be sums of the used ones, until the set changes.
         let mut barred = vec![false; columns.len()];
@@ -80,10 +81,10 @@ impl Nearest {
         self.full.iter().for_each(|k| place[*k] = State::Full);
         let mut changes = CHANGES * columns.len() + 16;
         if !self.used.is_empty() {
-            self.settle(need, columns, &mut place, &mut changes)?;
+            self.settle(loads, columns, &mut place, &mut changes)?;
         }
         loop {
-            let rest = self.rest(need, columns);
+            let rest = self.rest(loads, columns);
             let left = rest.iter().map(|v| v * v).sum::<f64>().sqrt();
             if left <= NOTHING * size {
                 return Some(rest);
@@ -116,7 +117,7 @@ impl Nearest {
             }
             self.full.retain(|f| *f != k);
             place[k] = State::Used;
-            let settled = self.settle(need, columns, &mut place, &mut changes)?;
+            let settled = self.settle(loads, columns, &mut place, &mut changes)?;
             if settled == Settled::Moved || place[k] == State::Used {
                 barred.fill(false);
             }
@@ -145,14 +146,14 @@ impl Nearest {
     /// Moves the amounts to the least squares of the used set, taking columns out whose amounts meet a bound on the way.
     fn settle(
         &mut self,
-        need: &[f64],
+        loads: &[f64],
         columns: &[Column],
         place: &mut [State],
         changes: &mut usize,
     ) -> Option<Settled> {
         let mut settled = Settled::Stayed;
         loop {
-            let wanted = self.least_squares(need, columns);
+            let wanted = self.least_squares(loads, columns);
             // How far towards it every amount stays within its bounds, and the one that meets its own first.
             let mut step: Option<(f64, usize)> = None;
             for (place, (now, then)) in self.amounts.iter().zip(&wanted).enumerate() {
@@ -195,8 +196,8 @@ impl Nearest {
     }
 
     /// The amounts of the used set, of either sign, that leave least; once refined.
-    fn least_squares(&self, need: &[f64], columns: &[Column]) -> Vec<f64> {
-        let mut rest = need.to_vec();
+    fn least_squares(&self, loads: &[f64], columns: &[Column]) -> Vec<f64> {
+        let mut rest = loads.to_vec();
         for k in &self.full {
             columns[*k].add_to(&mut rest, -columns[*k].limit);
         }
@@ -213,8 +214,8 @@ impl Nearest {
         amounts
     }
 
-    fn rest(&self, need: &[f64], columns: &[Column]) -> Vec<f64> {
-        let mut rest = need.to_vec();
+    fn rest(&self, loads: &[f64], columns: &[Column]) -> Vec<f64> {
+        let mut rest = loads.to_vec();
         for (k, amount) in self.used.iter().zip(&self.amounts) {
             columns[*k].add_to(&mut rest, -amount);
         }
@@ -315,7 +316,7 @@ mod tests {
         let arms = [Vector::new(1.0, -0.5), Vector::new(-1.0, -0.5)];
         Program {
             blocks: 1,
-            need: vec![-push, 10.0, 10.0 * x],
+            loads: vec![-push, 10.0, 10.0 * x],
             contacts: vec![Contact {
                 kind: ContactKind::Edge,
                 on: (0, arms),
@@ -335,7 +336,7 @@ mod tests {
     fn found(program: &Program) -> (Vec<f64>, Amounts) {
         let columns = generators(program);
         let mut nearest = Nearest::default();
-        let rest = nearest.find(&program.need, &columns).expect("an end");
+        let rest = nearest.find(&program.loads, &columns).expect("an end");
         (rest, nearest.gathered(program, &columns))
     }
 
@@ -354,7 +355,7 @@ mod tests {
             columns.iter().all(|c| c.dot(&rest) < 1e-9),
             "no force objects"
         );
-        let work: f64 = rest.iter().zip(&program.need).map(|(r, b)| r * b).sum();
+        let work: f64 = rest.iter().zip(&program.loads).map(|(r, b)| r * b).sum();
         assert!(work > 1.0, "the loads work: {work}");
     }
 
@@ -382,10 +383,10 @@ mod tests {
         let program = block(0.25, 1.0, vec![]);
         let columns = generators(&program);
         let mut nearest = Nearest::default();
-        nearest.find(&program.need, &columns).expect("an end");
+        nearest.find(&program.loads, &columns).expect("an end");
         let first = nearest.numbers().next().expect("used");
         nearest.renumber(|k| (k != first).then_some(k));
-        let rest = nearest.find(&program.need, &columns).expect("an end");
+        let rest = nearest.find(&program.loads, &columns).expect("an end");
         assert!(rest.iter().all(|v| v.abs() < 1e-10), "{rest:?}");
     }
 }

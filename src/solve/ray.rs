@@ -16,7 +16,7 @@ const DEPENDENT: f64 = 1e-8;
 
 /// The motion on an extreme ray of the cone, of the same power as the first; `None` where the first has no power.
 ///
-/// `start` need not lie in the cone exactly: rows that it violates by a solver's error count as tight.
+/// `start` does not have to lie in the cone exactly: rows that it violates by a solver's error count as tight.
 pub(crate) fn extreme(rows: &[Row], power: &[(usize, f64)], start: &[f64]) -> Option<Vec<f64>> {
     let size = norm(start);
     let given = dot(power, start);

@@ -10,7 +10,7 @@
 //!
 //! What is left unbalanced is summed with twice the digits, since it is a small difference of large forces.
 
-use super::{Amounts, Care, Effort, Status, careful};
+use super::{Amounts, Conditioning, Effort, Status, solved_with_retry};
 use crate::geometry::{Sum, Vector, quarter_turn};
 use crate::program::{Column, Conic, Correction, Force, Program, columns, least_squares};
 
@@ -23,16 +23,16 @@ const FIRMNESS: f64 = 1e8;
 /// Amounts beyond so many sizes of the change cannot become negative by it.
 const AMPLE: f64 = 1e4;
 
-/// What the forces leave unbalanced of a program's need, and Σ |force| on each block.
+/// What the forces leave unbalanced of a program's loads, and Σ |force| on each block.
 fn rest(program: &Program, amounts: &Amounts) -> (Vec<f64>, Vec<f64>) {
-    let mut sums: Vec<Sum> = vec![Sum::default(); program.need.len()];
-    for (sum, need) in sums.iter_mut().zip(&program.need) {
-        sum.add(*need);
+    let mut sums: Vec<Sum> = vec![Sum::default(); program.loads.len()];
+    for (sum, load) in sums.iter_mut().zip(&program.loads) {
+        sum.add(*load);
     }
     let mut total: Vec<f64> = program
-        .need
+        .loads
         .chunks_exact(3)
-        .map(|need| libm::hypot(need[0], need[1]))
+        .map(|load| libm::hypot(load[0], load[1]))
         .collect();
     let mut act = |block: usize, arm: Vector, direction: Vector, amount: f64| {
         let row = 3 * block;
@@ -192,7 +192,7 @@ pub fn relative(program: &Program, amounts: &Amounts, effort: &mut Effort) -> Op
         if !is_finite(&conic) {
             break;
         }
-        let answer = careful(&conic, Care::Full, effort);
+        let answer = solved_with_retry(&conic, Conditioning::Full, effort);
         if answer.status != Status::Solved {
             break;
         }
@@ -232,17 +232,17 @@ pub fn corrected(program: &Program, amounts: &Amounts, effort: &mut Effort) -> O
         if size <= f64::EPSILON * most || size == 0.0 {
             break;
         }
-        let blown: Vec<f64> = left.iter().map(|v| v / size).collect();
+        let scaled: Vec<f64> = left.iter().map(|v| v / size).collect();
         let ample: Vec<f64> = weights.iter().map(|w| w.min(AMPLE * size)).collect();
         let correction = Correction {
             amounts: &ample,
             size,
         };
-        let conic = least_squares(&blown, &list, Some(correction));
+        let conic = least_squares(&scaled, &list, Some(correction));
         if !is_finite(&conic) {
             break;
         }
-        let answer = careful(&conic, Care::Full, effort);
+        let answer = solved_with_retry(&conic, Conditioning::Full, effort);
         if answer.status != Status::Solved {
             break;
         }
@@ -269,7 +269,7 @@ mod tests {
         let head = [Vector::new(0.5, 0.5), Vector::new(-0.5, 0.5)];
         Program {
             blocks: weights.len(),
-            need: weights.iter().flat_map(|w| [0.0, *w, 0.0]).collect(),
+            loads: weights.iter().flat_map(|w| [0.0, *w, 0.0]).collect(),
             contacts: (0..weights.len())
                 .map(|k| Contact {
                     on: (k, foot),
@@ -328,7 +328,7 @@ mod tests {
         }
         // Pushed up, it has no balance.
         let mut lifted = program.clone();
-        lifted.need[1] = -1.0;
+        lifted.loads[1] = -1.0;
         assert!(corrected(&lifted, &start, &mut effort).is_none());
     }
 }

@@ -3,7 +3,7 @@
 //! Where admissible forces have no price a normal force alone is the sum of the two rays beside it, (n̂ + μ t̂)/(1 + μ) and
 //! (n̂ − μ t̂)/(1 + μ), and its row follows from theirs. Without it a third of the rows is gone.
 
-use super::Twin;
+use super::Dual;
 use crate::program::{Column, Force};
 
 /// The columns that are left, and where they stood.
@@ -32,12 +32,12 @@ impl Slanted {
         full
     }
 
-    /// An optimum told in all columns: half of what two rays share is written as the normal force alone.
-    pub fn told_of_all(&self, all: &[Column], solved: Twin) -> Twin {
-        let mut full = Twin {
+    /// An optimum in terms of all columns: half of what two rays share is written as the normal force alone.
+    pub fn in_all_columns(&self, all: &[Column], solved: Dual) -> Dual {
+        let mut full = Dual {
             amounts: self.amounts_of_all(all, &solved.amounts),
             slack: self.amounts_of_all(all, &solved.slack),
-            worth: self.amounts_of_all(all, &solved.worth),
+            multipliers: self.amounts_of_all(all, &solved.multipliers),
             ..solved
         };
         for k in (0..all.len()).filter(|k| is_middle(all, *k)) {

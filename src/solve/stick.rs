@@ -12,8 +12,8 @@
 use super::limit::columns_in;
 use super::slanted::Slanted;
 use super::{
-    Amounts, Care, Effort, Face, Manner, Status, Twin, in_forces, largest, of_velocities, once,
-    refined, tidy, twin,
+    Amounts, Conditioning, Dual, Effort, Face, SolverSettings, Status, dual, in_forces, largest,
+    least_squares_amounts, of_velocities, once, refined,
 };
 use crate::program::{Column, Program, kinematic, sticking_columns};
 
@@ -26,7 +26,7 @@ const HARDLY_ANY: usize = 100;
 /// What an admissible force costs beside a unit of sticking, 1/β: nothing, if the first stage can be solved so.
 ///
 /// Where wedged blocks can press each other without end the first stage's velocities have no room to move in, and the
-/// solver may end nowhere. With a price they have.
+/// solver may end without a status. With a price they have.
 const PRICES: [f64; 2] = [1e-6, 1e-4];
 
 /// How little an amount may be, in parts of the largest, to be left out of the sticking. The finer value is for the case
@@ -81,26 +81,26 @@ pub struct Stuck {
 }
 
 /// Solves the soft program.
-pub fn stick(program: &Program, care: Care) -> Stuck {
-    stick_in(program, care.into())
+pub fn stick(program: &Program, conditioning: Conditioning) -> Stuck {
+    stick_in(program, conditioning.into())
 }
 
-/// Solves it in a manner of one's own.
+/// Solves it with given settings.
 ///
-/// Of many blocks it is posed with a largest load of 1. With loads of 300 a wall of 410 bricks just past its edge ends nowhere,
-/// six times after a hundred iterations; with loads of 1 it is solved in 69.
-pub fn stick_in(program: &Program, manner: Manner) -> Stuck {
+/// Of many blocks it is posed with a largest load of 1. With loads of 300 a wall of 410 bricks just past its edge ends
+/// without a status, six times after a hundred iterations; with loads of 1 it is solved in 69.
+pub fn stick_in(program: &Program, settings: SolverSettings) -> Stuck {
     let mut effort = Effort::default();
     let size = Size::of(program);
-    let load = match largest(&program.need) {
+    let load = match largest(&program.loads) {
         load if size == Size::Many && load > 0.0 => load,
         _ => 1.0,
     };
-    let need: Vec<f64> = program.need.iter().map(|v| v / load).collect();
+    let loads: Vec<f64> = program.loads.iter().map(|v| v / load).collect();
     let mut all = columns_in(program, load);
     all.extend(sticking_columns(program));
-    let whole = Face::whole(&need, all);
-    let (first, priced) = least_sticking(&whole, size, manner, &mut effort);
+    let whole = Face::whole(&loads, all);
+    let (first, priced) = least_sticking(&whole, size, settings, &mut effort);
     let motion = Some(first.y.iter().map(|v| -v).collect());
     if first.status != Status::Solved {
         let none = Amounts::none(program);
@@ -114,9 +114,9 @@ pub fn stick_in(program: &Program, manner: Manner) -> Stuck {
             effort,
         };
     }
-    let mut face = chosen(&whole, &first, size, manner, &mut effort);
-    if manner.care == Care::Full {
-        face.amounts = refined(&face.need, &face.columns, face.amounts, &mut effort);
+    let mut face = chosen(&whole, &first, size, settings, &mut effort);
+    if settings.conditioning == Conditioning::Full {
+        face.amounts = refined(&face.loads, &face.columns, face.amounts, &mut effort);
     }
     let (mut forces, mut sticking) = face.gathered(program);
     forces.multiply(load);
@@ -132,9 +132,14 @@ pub fn stick_in(program: &Program, manner: Manner) -> Stuck {
 }
 
 /// The first stage: the least sticking, and whether admissible forces had to be priced for it.
-fn least_sticking(whole: &Face, size: Size, manner: Manner, effort: &mut Effort) -> (Twin, bool) {
+fn least_sticking(
+    whole: &Face,
+    size: Size,
+    settings: SolverSettings,
+    effort: &mut Effort,
+) -> (Dual, bool) {
     let priced = |price: f64, effort: &mut Effort| {
-        twin(&whole.need, &whole.columns, manner, effort, |c| {
+        dual(&whole.loads, &whole.columns, settings, effort, |c| {
             if c.force.sticks() {
                 1.0
             } else {
@@ -143,12 +148,12 @@ fn least_sticking(whole: &Face, size: Size, manner: Manner, effort: &mut Effort)
         })
     };
     let mut last = match size {
-        Size::Many => without_middles(whole, manner, effort),
+        Size::Many => without_middles(whole, settings, effort),
         Size::Few => priced(0.0, effort),
     };
     let mut dear = false;
     for price in PRICES {
-        if last.status != Status::Unclear {
+        if last.status != Status::Unsolved {
             break;
         }
         last = priced(price, effort);
@@ -158,37 +163,43 @@ fn least_sticking(whole: &Face, size: Size, manner: Manner, effort: &mut Effort)
 }
 
 /// The least sticking where forces have no price.
-fn without_middles(whole: &Face, manner: Manner, effort: &mut Effort) -> Twin {
+fn without_middles(whole: &Face, settings: SolverSettings, effort: &mut Effort) -> Dual {
     let slanted = Slanted::of(&whole.columns);
     let cost = |c: &Column| f64::from(u8::from(c.force.sticks()));
-    let (conic, row_of) = kinematic(&whole.need, &slanted.columns, cost);
-    let answer = once(&conic, manner, effort);
-    let mut solved = of_velocities(&whole.need, &slanted.columns, &conic, &row_of, &answer);
-    if solved.status == Status::Unclear {
-        solved = in_forces(&whole.need, &slanted.columns, manner, effort, cost);
+    let (conic, row_of) = kinematic(&whole.loads, &slanted.columns, cost);
+    let answer = once(&conic, settings, effort);
+    let mut solved = of_velocities(&whole.loads, &slanted.columns, &conic, &row_of, &answer);
+    if solved.status == Status::Unsolved {
+        solved = in_forces(&whole.loads, &slanted.columns, settings, effort, cost);
     }
-    slanted.told_of_all(&whole.columns, solved)
+    slanted.in_all_columns(&whole.columns, solved)
 }
 
 /// Among all balances of least sticking the one that is shown: of least force, then with fewest points that stick.
 ///
-/// Near the edge of standing of many blocks the columns of the optimum cannot be told from the others, and the least force
+/// Near the edge of standing of many blocks the columns of the optimum cannot be distinguished from the others, and the least force
 /// falls by a tenth while the sticking grows by a millionth. There the balance of the first stage is kept: its sticking is
 /// the least, its force is not.
-fn chosen(whole: &Face, first: &Twin, size: Size, manner: Manner, effort: &mut Effort) -> Face {
+fn chosen(
+    whole: &Face,
+    first: &Dual,
+    size: Size,
+    settings: SolverSettings,
+    effort: &mut Effort,
+) -> Face {
     let least = sticking_sum(whole, &first.amounts);
     let (same, margins) = match size {
         Size::Many => (SAME_OF_MANY, &MARGINS[..1]),
         Size::Few => (SAME, &MARGINS[..]),
     };
-    let slight = 1e-9 * largest(&whole.need);
+    let slight = 1e-9 * largest(&whole.loads);
     let unchanged = |face: &Face, amounts: &[f64]| {
         (sticking_sum(face, amounts) - least).abs() <= same * least + slight
     };
     let mut face = None;
     for margin in margins {
         let narrow = whole.narrowed(first, *margin);
-        let second = twin(&narrow.need, &narrow.columns, manner, effort, |c| c.cost);
+        let second = dual(&narrow.loads, &narrow.columns, settings, effort, |c| c.cost);
         if second.status == Status::Solved && unchanged(&narrow, &second.amounts) {
             let narrower = narrow.narrowed(&second, 1.0);
             face = Some(if unchanged(&narrower, &narrower.amounts) {
@@ -206,8 +217,8 @@ fn chosen(whole: &Face, first: &Twin, size: Size, manner: Manner, effort: &mut E
         None => found(),
     };
     for little in LITTLE {
-        let few = concentrated(&face, little, &unchanged, size, manner, effort);
-        let amounts = tidy(&few.need, &few.columns, manner, effort);
+        let few = concentrated(&face, little, &unchanged, size, settings, effort);
+        let amounts = least_squares_amounts(&few.loads, &few.columns, settings, effort);
         if let Some(amounts) = amounts.filter(|amounts| unchanged(&few, amounts)) {
             return few.with(amounts);
         }
@@ -221,7 +232,7 @@ fn concentrated(
     little: f64,
     unchanged: &impl Fn(&Face, &[f64]) -> bool,
     size: Size,
-    manner: Manner,
+    settings: SolverSettings,
     effort: &mut Effort,
 ) -> Face {
     let mut face = face.clone();
@@ -235,7 +246,7 @@ fn concentrated(
                 column.cost = 1e-2 * most / (amount + 1e-3 * most);
             }
         }
-        let solved = twin(&face.need, &face.columns, manner, effort, |c| {
+        let solved = dual(&face.loads, &face.columns, settings, effort, |c| {
             if c.force.sticks() { c.cost } else { 0.0 }
         });
         if solved.status != Status::Solved || !unchanged(&face, &solved.amounts) {

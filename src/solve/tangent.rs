@@ -1,17 +1,17 @@
 //! [`Tangent`]: the least that forces leave unbalanced, and how that changes with the contacts.
 //!
-//! V = max needᵀy  s.t.  columnᵀy ≤ 0, −1 ≤ y ≤ 1 is above 0 where a program falls and 0 where it stands. At its optimum
+//! V = max loadsᵀy  s.t.  columnᵀy ≤ 0, −1 ≤ y ≤ 1 is above 0 where a program falls and 0 where it stands. At its optimum
 //! the forces and the motion bound V of a sibling, whose contacts are rougher or whose application points lie elsewhere, to
 //! first order: V less what the same normal forces, with all the friction they then have, do along the same motion. That is
 //! linear in the friction coefficient and in the kernel, so its zero is the next value to try: Newton's step on V.
 
 use super::limit::{columns_in, rebalanced};
 use super::slanted::Slanted;
-use super::{Amounts, Care, Effort, Face, Status, careful, largest};
+use super::{Amounts, Conditioning, Effort, Face, Status, largest, solved_with_retry};
 use crate::geometry::{Vector, quarter_turn};
 use crate::program::{Column, Force, Program, least_left};
 
-/// The optimum of the program of the least leftover.
+/// The optimum of the program of the least residual.
 #[derive(Clone, Debug)]
 pub struct Tangent {
     /// V: Σ |what is left unbalanced|, in parts of the largest load.
@@ -25,16 +25,16 @@ pub struct Tangent {
 }
 
 impl Tangent {
-    /// Solves it; `None` where the solver ends nowhere.
+    /// Solves it; `None` where the solver ends without a status.
     pub fn of(program: &Program) -> Option<Tangent> {
-        let load = match largest(&program.need) {
+        let load = match largest(&program.loads) {
             0.0 => return None,
             load => load,
         };
-        let need: Vec<f64> = program.need.iter().map(|v| v / load).collect();
+        let loads: Vec<f64> = program.loads.iter().map(|v| v / load).collect();
         let columns = Slanted::of(&columns_in(program, load)).columns;
-        let (conic, row_of) = least_left(&need, &columns);
-        let answer = careful(&conic, Care::Quick, &mut Effort::default());
+        let (conic, row_of) = least_left(&loads, &columns);
+        let answer = solved_with_retry(&conic, Conditioning::Plain, &mut Effort::default());
         if answer.status != Status::Solved {
             return None;
         }
@@ -43,12 +43,12 @@ impl Tangent {
             usize::MAX => (-answer.z[row_of[k - 1]]).max(0.0),
             row => answer.z[row].max(0.0),
         });
-        let aim = conic.linear.iter().zip(&answer.x).map(|(q, x)| q * x);
+        let objective = conic.linear.iter().zip(&answer.x).map(|(q, x)| q * x);
         let mut tangent = Tangent {
-            left: -aim.sum::<f64>(),
+            left: -objective.sum::<f64>(),
             amounts: amounts.collect(),
             columns,
-            y: answer.x[..need.len()].to_vec(),
+            y: answer.x[..loads.len()].to_vec(),
             load,
             done: 0.0,
         };
@@ -68,10 +68,10 @@ impl Tangent {
 
     /// The forces, changed as little as balances what they leave.
     pub fn forces(&self, program: &Program) -> Amounts {
-        let need: Vec<f64> = program.need.iter().map(|v| v / self.load).collect();
-        let mut amounts = rebalanced(&need, &self.columns, self.amounts.clone());
+        let loads: Vec<f64> = program.loads.iter().map(|v| v / self.load).collect();
+        let mut amounts = rebalanced(&loads, &self.columns, self.amounts.clone());
         amounts.iter_mut().for_each(|amount| *amount *= self.load);
-        let face = Face::whole(&need, self.columns.clone()).with(amounts);
+        let face = Face::whole(&loads, self.columns.clone()).with(amounts);
         face.gathered(program).0
     }
 

@@ -10,7 +10,7 @@ use super::double::Double;
 use super::reference::{EXACT, Optimum, add, along, entries};
 use super::skyline::Skyline;
 use crate::program::{Column, Force, Program, least_squares};
-use crate::solve::{Care, Status, solve};
+use crate::solve::{Conditioning, Status, solve};
 
 /// Where a force belongs: its contact, or its grip behind all contacts.
 type Place = usize;
@@ -34,13 +34,13 @@ pub(super) fn largest_of_unique(
     }
     let face: Vec<Column> = optimum.face.iter().map(|j| columns[*j]).collect();
     for tolerance in [1e-9, 1e-11, 1e-7] {
-        let conic = least_squares(&program.need, &face, None);
-        let answer = solve(&conic, tolerance, Care::Full);
+        let conic = least_squares(&program.loads, &face, None);
+        let answer = solve(&conic, tolerance, Conditioning::Full);
         if answer.status != Status::Solved {
             continue;
         }
         // Every column has a row −x ≤ 0, and one more where it is limited.
-        let mut row = program.need.len();
+        let mut row = program.loads.len();
         let mut multiplier = Vec::with_capacity(face.len());
         for column in &face {
             multiplier.push(answer.z[row]);
@@ -127,10 +127,10 @@ fn certified(program: &Program, face: &[Column], axes: &[Axis], total: Double) -
     let terms = axes
         .iter()
         .map(|axis| (one / axis.square, axis.entries.as_slice()));
-    let matrix = Skyline::of(program.need.len(), terms);
-    let need: Vec<Double> = program.need.iter().map(|v| Double::from(*v)).collect();
-    let mut w = vec![Double::ZERO; need.len()];
-    let mut rest = need.clone();
+    let matrix = Skyline::of(program.loads.len(), terms);
+    let loads: Vec<Double> = program.loads.iter().map(|v| Double::from(*v)).collect();
+    let mut w = vec![Double::ZERO; loads.len()];
+    let mut rest = loads.clone();
     let amounts = |w: &[Double]| -> Vec<Double> {
         axes.iter()
             .map(|axis| along(&axis.entries, w) / axis.square)
@@ -140,7 +140,7 @@ fn certified(program: &Program, face: &[Column], axes: &[Axis], total: Double) -
         for (w, d) in w.iter_mut().zip(matrix.solve(&rest)) {
             *w = *w + d;
         }
-        rest = need.clone();
+        rest = loads.clone();
         for (axis, amount) in axes.iter().zip(amounts(&w)) {
             add(&mut rest, &axis.entries, -amount);
         }

@@ -4,7 +4,8 @@ use super::Task;
 use crate::analysis::{Accuracy, Analysis, Options, Proof, Verdict};
 use crate::program::{Column, Program, Scale, columns, force_form, source, sticking_columns};
 use crate::solve::{
-    Amounts, Care, Choice, Effort, Manner, Status, balance_in, solve, stick_in, twin,
+    Amounts, Choice, Conditioning, Effort, SolverSettings, Status, balance_in, dual, solve,
+    stick_in,
 };
 
 /// A way of solving.
@@ -14,9 +15,9 @@ pub enum Method {
     Source(u8),
     /// The hard program and, where it has no solution, the lexicographic one, with forces as unknowns.
     ForceForm,
-    /// The kinematic twin alone.
+    /// The kinematic dual alone.
     Kinematic,
-    /// The twin, and the unique forces on its face of optima; fewest failure points.
+    /// The dual, and the unique forces on its face of optima; fewest failure points.
     Unique,
     /// All that `check` does at a level: proofs, and second looks where a proof fails.
     Level(Accuracy),
@@ -200,8 +201,8 @@ fn effort(iterations: usize) -> Effort {
 }
 
 /// What some amounts leave unbalanced.
-fn imbalance(need: &[f64], columns: &[Column], amounts: &[f64]) -> f64 {
-    let mut rest = need.to_vec();
+fn imbalance(loads: &[f64], columns: &[Column], amounts: &[f64]) -> f64 {
+    let mut rest = loads.to_vec();
     for (column, amount) in columns.iter().zip(amounts) {
         column.add_to(&mut rest, -amount);
     }
@@ -211,7 +212,7 @@ fn imbalance(need: &[f64], columns: &[Column], amounts: &[f64]) -> f64 {
 /// The source's soft program: it reports what sticks, and stands where nothing does.
 fn as_posed(program: &Program, beta: f64, tolerance: f64) -> Outcome {
     let conic = source(program, beta);
-    let answer = solve(&conic, tolerance, Care::Full);
+    let answer = solve(&conic, tolerance, Conditioning::Full);
     let effort = effort(answer.iterations);
     match answer.status {
         Status::Infeasible => return Outcome::falls(None, 0, effort),
@@ -261,13 +262,13 @@ fn sticking_cost(column: &Column) -> f64 {
 
 /// Forces as unknowns, no large number.
 fn force(program: &Program, tolerance: f64) -> Outcome {
-    let need = &program.need;
+    let loads = &program.loads;
     let admissible = columns(program);
     let cost = |c: &Column| c.cost;
     let hard = solve(
-        &force_form(need, &admissible, cost, None),
+        &force_form(loads, &admissible, cost, None),
         tolerance,
-        Care::Full,
+        Conditioning::Full,
     );
     let mut iterations = hard.iterations;
     if hard.status == Status::Solved {
@@ -276,9 +277,9 @@ fn force(program: &Program, tolerance: f64) -> Outcome {
     let mut all = admissible;
     all.extend(sticking_columns(program));
     let first = solve(
-        &force_form(need, &all, sticking_cost, None),
+        &force_form(loads, &all, sticking_cost, None),
         tolerance,
-        Care::Full,
+        Conditioning::Full,
     );
     iterations += first.iterations;
     let certain = hard.status == Status::Infeasible;
@@ -292,9 +293,9 @@ fn force(program: &Program, tolerance: f64) -> Outcome {
     let least = sum(&first.x);
     let most = least * (1.0 + tolerance) + tolerance;
     let second = solve(
-        &force_form(need, &all, cost, Some((&sticking_cost, most))),
+        &force_form(loads, &all, cost, Some((&sticking_cost, most))),
         tolerance,
-        Care::Full,
+        Conditioning::Full,
     );
     iterations += second.iterations;
     let x = if second.status == Status::Solved {
@@ -319,29 +320,31 @@ fn standing(program: &Program, columns: &[Column], x: &[f64], effort: Effort) ->
         own.push(x);
         amounts.add(column.force, x);
     }
-    Outcome::stands(&amounts, imbalance(&program.need, columns, &own), effort)
+    Outcome::stands(&amounts, imbalance(&program.loads, columns, &own), effort)
 }
 
-fn manner(tolerance: f64, choice: Choice) -> Manner {
-    Manner {
+fn settings(tolerance: f64, choice: Choice) -> SolverSettings {
+    SolverSettings {
         tolerance,
-        care: Care::Quick,
+        conditioning: Conditioning::Plain,
         choice,
     }
 }
 
-/// The twin alone: hard, and where that has no solution the least sticking.
+/// The dual alone: hard, and where that has no solution the least sticking.
 fn kinematic(program: &Program, tolerance: f64) -> Outcome {
-    let manner = manner(tolerance, Choice::Any);
+    let settings = settings(tolerance, Choice::Any);
     let mut effort = Effort::default();
     let admissible = columns(program);
-    let hard = twin(&program.need, &admissible, manner, &mut effort, |c| c.cost);
+    let hard = dual(&program.loads, &admissible, settings, &mut effort, |c| {
+        c.cost
+    });
     if hard.status == Status::Solved {
         return standing(program, &admissible, &hard.amounts, effort);
     }
     let mut all = admissible;
     all.extend(sticking_columns(program));
-    let soft = twin(&program.need, &all, manner, &mut effort, sticking_cost);
+    let soft = dual(&program.loads, &all, settings, &mut effort, sticking_cost);
     let sticks = || {
         all.iter()
             .zip(&soft.amounts)
@@ -364,15 +367,15 @@ fn kinematic(program: &Program, tolerance: f64) -> Outcome {
     }
 }
 
-/// The twin, then the unique forces; all that `check` does but the proof.
+/// The dual, then the unique forces; all that `check` does but the proof.
 fn unique(program: &Program, tolerance: f64) -> Outcome {
-    let manner = manner(tolerance, Choice::Unique);
-    let hard = balance_in(program, manner);
+    let settings = settings(tolerance, Choice::Unique);
+    let hard = balance_in(program, settings);
     if let Some(amounts) = hard.forces {
         let off = amounts.unbalanced(program);
         return Outcome::stands(&amounts, off, hard.effort);
     }
-    let soft = stick_in(program, manner);
+    let soft = stick_in(program, settings);
     let effort = hard.effort.and(soft.effort);
     let certain = hard.motion.is_some();
     if soft.balanced == Some(true) {

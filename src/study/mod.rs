@@ -166,12 +166,12 @@ fn truth(programs: &[Program]) -> Truth {
         .max()
         .unwrap_or(Verdict::Stable);
     let decided = references.iter().all(|r| r.1.verdict != Verdict::Undecided);
-    let told = || references.iter().filter(|r| r.1.verdict == verdict);
+    let described = || references.iter().filter(|r| r.1.verdict == verdict);
     let newtons = |p: &Program, v: Option<f64>| v.map(|v| v * p.scale.force);
-    let total = told()
+    let total = described()
         .map(|(p, r)| newtons(p, r.total))
         .try_fold(0.0, |sum, v| v.map(|v| sum + v));
-    let largest = told()
+    let largest = described()
         .map(|(p, r)| newtons(p, r.largest))
         .try_fold(0.0, |most: f64, v| v.map(|v| most.max(v)));
     let falls = verdict == Verdict::Unstable;
@@ -185,7 +185,7 @@ fn truth(programs: &[Program]) -> Truth {
         total: if decided { total } else { None },
         largest: if decided && !falls { largest } else { None },
         gap: references.iter().map(|r| r.1.gap).fold(0.0, f64::max),
-        within_band: falls && told().all(|(_, r)| barely(r)),
+        within_band: falls && described().all(|(_, r)| barely(r)),
     }
 }
 

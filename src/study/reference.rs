@@ -11,7 +11,7 @@ use super::least::largest_of_unique;
 use super::skyline::Skyline;
 use crate::analysis::Verdict;
 use crate::program::{Column, Force, Program, columns, sticking_columns};
-use crate::solve::{Care, Choice, Effort, Manner, Status, twin};
+use crate::solve::{Choice, Conditioning, Effort, SolverSettings, Status, dual};
 
 /// What is true of one program, pure numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,7 +57,7 @@ impl Reference {
             gap: 0.0,
         };
         let admissible = columns(program);
-        if let Some(optimum) = optimum(&program.need, &admissible, |c| c.cost) {
+        if let Some(optimum) = optimum(&program.loads, &admissible, |c| c.cost) {
             let value = optimum.value;
             return Reference {
                 verdict: Verdict::Stable,
@@ -69,8 +69,8 @@ impl Reference {
         let mut all = admissible;
         all.extend(sticking_columns(program));
         let sticks = |c: &Column| if c.force.sticks() { 1.0 } else { 0.0 };
-        if let Some(optimum) = optimum(&program.need, &all, sticks) {
-            let largest = program.need.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+        if let Some(optimum) = optimum(&program.loads, &all, sticks) {
+            let largest = program.loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
             let least = optimum.value.near();
             return match least > EXACT * largest {
                 // A small sum of large forces is known to fall before it is known to twelve digits.
@@ -89,7 +89,7 @@ impl Reference {
             };
         }
         Reference {
-            verdict: match falls_whatever_sticks(&program.need, &all) {
+            verdict: match falls_whatever_sticks(&program.loads, &all) {
                 true => Verdict::Unstable,
                 false => Verdict::Undecided,
             },
@@ -99,40 +99,46 @@ impl Reference {
 }
 
 /// Whether there is a motion against which not even sticking can do anything.
-fn falls_whatever_sticks(need: &[f64], all: &[Column]) -> bool {
+fn falls_whatever_sticks(loads: &[f64], all: &[Column]) -> bool {
     let sticks = |c: &Column| if c.force.sticks() { 1.0 } else { 0.0 };
-    let solved = twin(need, all, Care::Full, &mut Effort::default(), sticks);
+    let solved = dual(
+        loads,
+        all,
+        Conditioning::Full,
+        &mut Effort::default(),
+        sticks,
+    );
     let y: Vec<Double> = solved.y.iter().map(|v| Double::from(*v)).collect();
     let size = y.iter().fold(0.0, |m: f64, v| m.max(v.abs().near()));
     let violation = all
         .iter()
         .map(|c| along(&entries(c), &y).near())
         .fold(0.0, f64::max);
-    let power = power(need, &y).near();
-    let largest = need.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    let power = power(loads, &y).near();
+    let largest = loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     solved.status == Status::Unbounded && power / largest > 1e6 * violation && power > 1e-9 * size
 }
 
 /// The optimum of min Σ cost·amount over balances, certified, if one of the guesses leads to it.
 pub(super) fn optimum(
-    need: &[f64],
+    loads: &[f64],
     columns: &[Column],
     cost: impl Fn(&Column) -> f64 + Copy,
 ) -> Option<Optimum> {
     let sparse: Vec<Vec<(usize, Double)>> = columns.iter().map(entries).collect();
     for tolerance in TOLERANCES {
-        let manner = Manner {
+        let settings = SolverSettings {
             tolerance,
-            care: Care::Full,
+            conditioning: Conditioning::Full,
             choice: Choice::Any,
         };
-        let solved = twin(need, columns, manner, &mut Effort::default(), cost);
+        let solved = dual(loads, columns, settings, &mut Effort::default(), cost);
         if solved.status != Status::Solved {
             continue;
         }
         for margin in MARGINS {
             let guess = Guess {
-                need,
+                loads,
                 columns,
                 sparse: &sparse,
                 costs: columns.iter().map(cost).collect(),
@@ -150,7 +156,7 @@ pub(super) fn optimum(
 
 /// A guess at the face of optima.
 struct Guess<'a> {
-    need: &'a [f64],
+    loads: &'a [f64],
     columns: &'a [Column],
     sparse: &'a [Vec<(usize, Double)>],
     costs: Vec<f64>,
@@ -168,12 +174,12 @@ impl Guess<'_> {
         let all = 0..self.columns.len();
         let limited: Vec<usize> = all.clone().filter(|j| full(*j)).collect();
         let face: Vec<usize> = all.filter(|j| self.active[*j] && !full(*j)).collect();
-        let mut need: Vec<Double> = self.need.iter().map(|v| Double::from(*v)).collect();
-        let most = self.need.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+        let mut loads: Vec<Double> = self.loads.iter().map(|v| Double::from(*v)).collect();
+        let most = self.loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
         for j in &limited {
             let limit = Double::from(self.columns[*j].limit);
             for (row, value) in &self.sparse[*j] {
-                need[*row] = need[*row] - limit * *value;
+                loads[*row] = loads[*row] - limit * *value;
             }
         }
         let largest = self.amounts.iter().fold(most, |m, v| m.max(*v));
@@ -185,15 +191,15 @@ impl Guess<'_> {
             .iter()
             .zip(&face)
             .map(|(w, j)| (*w, self.sparse[*j].as_slice()));
-        let matrix = Skyline::of(need.len(), terms);
+        let matrix = Skyline::of(loads.len(), terms);
         let mut x: Vec<Double> = face
             .iter()
             .map(|j| Double::from(self.amounts[*j]))
             .collect();
         let mut y: Vec<Double> = self.y.iter().map(|v| Double::from(*v)).collect();
-        let mut rest = need.clone();
+        let mut rest = loads.clone();
         for _ in 0..4 {
-            rest = need.clone();
+            rest = loads.clone();
             for (j, x) in face.iter().zip(&x) {
                 add(&mut rest, &self.sparse[*j], -*x);
             }
@@ -201,7 +207,7 @@ impl Guess<'_> {
             for ((j, x), weight) in face.iter().zip(&mut x).zip(&weights) {
                 *x = *x + *weight * along(&self.sparse[*j], &w);
             }
-            let mut right = vec![Double::ZERO; need.len()];
+            let mut right = vec![Double::ZERO; loads.len()];
             for (j, weight) in face.iter().zip(&weights) {
                 add(&mut right, &self.sparse[*j], *weight * self.slack(*j, &y));
             }
@@ -212,7 +218,7 @@ impl Guess<'_> {
         let forces = face.iter().zip(&x).fold(Double::ZERO, |sum, (j, x)| {
             sum + Double::from(self.costs[*j]) * *x
         });
-        let (mut forces, mut bound) = (forces, power(self.need, &y));
+        let (mut forces, mut bound) = (forces, power(self.loads, &y));
         let speed = y.iter().fold(1.0, |m: f64, v| m.max(v.abs().near()));
         for j in &limited {
             let limit = Double::from(self.columns[*j].limit);
@@ -265,7 +271,7 @@ impl Guess<'_> {
     /// Whether a costless column's opposite is on the face too, so that its amount may have either sign.
     fn either_way(&self, j: usize, face: &[usize]) -> bool {
         let grip = |j: usize| matches!(self.columns[j].force, Force::Grip { .. });
-        let twin = |k: &usize| {
+        let partner = |k: &usize| {
             grip(*k)
                 && self.columns[*k].limit.is_infinite()
                 && self.sparse[*k]
@@ -273,7 +279,7 @@ impl Guess<'_> {
                     .zip(&self.sparse[j])
                     .all(|(a, b)| a.0 == b.0 && a.1 == -b.1)
         };
-        grip(j) && self.costs[j] == 0.0 && face.iter().any(twin)
+        grip(j) && self.costs[j] == 0.0 && face.iter().any(partner)
     }
 }
 
@@ -296,8 +302,9 @@ pub(super) fn add(sum: &mut [Double], entries: &[(usize, Double)], amount: Doubl
     }
 }
 
-fn power(need: &[f64], y: &[Double]) -> Double {
-    need.iter()
+fn power(loads: &[f64], y: &[Double]) -> Double {
+    loads
+        .iter()
         .zip(y)
         .fold(Double::ZERO, |sum, (n, y)| sum + Double::from(*n) * *y)
 }

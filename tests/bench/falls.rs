@@ -23,7 +23,7 @@ use drystone::analysis::{Ask, Options, Verdict};
 use drystone::effect::{Situation, assemble};
 use drystone::interface::Interfaces;
 use drystone::program::{Conic, Program, Scale, source};
-use drystone::solve::{Care, Status, TOLERANCE, solve};
+use drystone::solve::{Conditioning, Status, TOLERANCE, solve};
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
 
@@ -74,7 +74,7 @@ fn told(name: &str, blocks: usize, file: &Value, angle: f64) {
     let hard = [program(&stands), program(&falls)].map(|program| hard(&program));
     let analysis = Analysis::of(&falls);
     let frame = &analysis.frames[0];
-    let said = solve(&hard[1], TOLERANCE, Care::Full).status;
+    let said = solve(&hard[1], TOLERANCE, Conditioning::Full).status;
     let work: [&dyn Fn(); 5] = [
         &|| examined(&stands, &Options::default()),
         &|| examined(&falls, &Options::default()),
@@ -99,7 +99,7 @@ fn told(name: &str, blocks: usize, file: &Value, angle: f64) {
             Status::Solved => "solved",
             Status::Infeasible => "infeasible",
             Status::Unbounded => "unbounded",
-            Status::Unclear => "nothing",
+            Status::Unsolved => "nothing",
         }
     );
 }
@@ -109,7 +109,7 @@ fn examined(scene: &Scene, options: &Options) {
 }
 
 fn posed(conic: &Conic) {
-    black_box(solve(black_box(conic), TOLERANCE, Care::Full));
+    black_box(solve(black_box(conic), TOLERANCE, Conditioning::Full));
 }
 
 /// Median times of some work in milliseconds, each in its turn.

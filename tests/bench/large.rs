@@ -11,7 +11,7 @@ use drystone::interface::Interfaces;
 use drystone::program::{Program, Scale};
 use drystone::proof::{self, Forces, Held, Pressed};
 use drystone::scene::format::{BlockEntry, GroundEntry, Pair, SceneFile};
-use drystone::solve::{Care, balance};
+use drystone::solve::{Conditioning, balance};
 use drystone::{Analysis, Scene, figure, output};
 
 #[global_allocator]
@@ -64,7 +64,7 @@ fn d_solve(bencher: Bencher, case: Case) {
     let found = Interfaces::of(&scene);
     let programs = programs(&components(&scene, &found).1);
     bencher.bench_local(|| -> usize {
-        let solved = programs.iter().map(|p| balance(p, Care::Quick));
+        let solved = programs.iter().map(|p| balance(p, Conditioning::Plain));
         solved.map(|found| found.effort.iterations).sum()
     });
 }

@@ -11,7 +11,7 @@ use drystone::effect::{Situation, assemble};
 use drystone::interface::Interfaces;
 use drystone::program::{Program, Scale, source};
 use drystone::scene::format::SceneFile;
-use drystone::solve::{Care, TOLERANCE, balance, solve};
+use drystone::solve::{Conditioning, TOLERANCE, balance, solve};
 use drystone::starter::Wall;
 use drystone::{Analysis, Scene, figure, output};
 
@@ -36,14 +36,20 @@ fn check(bencher: Bencher, blocks: usize) {
 #[divan::bench(args = WALLS)]
 fn our_program(bencher: Bencher, blocks: usize) {
     let program = program(&wall(blocks));
-    bencher.bench_local(|| balance(black_box(&program), Care::Quick));
+    bencher.bench_local(|| balance(black_box(&program), Conditioning::Plain));
 }
 
 /// With the solver's own settings.
 #[divan::bench(args = WALLS)]
 fn the_sources_soft_program(bencher: Bencher, blocks: usize) {
     let program = program(&wall(blocks));
-    bencher.bench_local(|| solve(&source(black_box(&program), BETA), TOLERANCE, Care::Full));
+    bencher.bench_local(|| {
+        solve(
+            &source(black_box(&program), BETA),
+            TOLERANCE,
+            Conditioning::Full,
+        )
+    });
 }
 
 #[divan::bench(args = [10, 100, 1000, 10_050])]

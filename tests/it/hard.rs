@@ -330,9 +330,9 @@ fn what_is_not_called_for_is_not_simulated() {
     assert!(worst_imbalance < 1e-9);
 }
 
-/// A limit of 10¹² loads is a number in the aim that drowns all others.
+/// A limit of 10¹² loads is a number in the objective that drowns all others.
 #[test]
-fn lavish_limits_change_nothing() {
+fn non_binding_limits_change_nothing() {
     let path = format!("{}/assets/thesis/figure-4.json", env!("CARGO_MANIFEST_DIR"));
     let mut file: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
     let totals = |file: &Value| {

@@ -46,3 +46,4 @@ mod statics;
 mod strangers;
 mod structure;
 mod wedging;
+mod words;

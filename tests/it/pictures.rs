@@ -226,12 +226,12 @@ fn between_two_blocks_arrows_are_opposite_and_the_ground_has_none() {
     for arrow in &arrows {
         assert!(matches!(arrow.on, drystone::scene::BodyId::Block(_)));
         if let ArrowKind::Contact(from @ drystone::scene::BodyId::Block(_)) = arrow.kind {
-            let twin = arrows.iter().find(|a| {
+            let partner = arrows.iter().find(|a| {
                 a.on == from && a.kind == ArrowKind::Contact(arrow.on) && a.at == arrow.at
             });
-            let twin = twin.expect("the other block has its own arrow");
-            assert_eq!(twin.force, -arrow.force);
-            assert_ne!(twin.colour, arrow.colour);
+            let partner = partner.expect("the other block has its own arrow");
+            assert_eq!(partner.force, -arrow.force);
+            assert_ne!(partner.colour, arrow.colour);
             pairs += 1;
         }
     }

@@ -55,7 +55,7 @@ pub(super) struct Falling {
 impl Case<'_> {
     /// Makes forces good for every body for itself.
     pub fn made_good(&self, program: &Program, amounts: &Amounts, effort: &mut Effort) -> Outcome {
-        let most = program.need.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+        let most = program.loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
         if amounts.unbalanced(program) > WHOLE * most {
             return Outcome::Open;
         }

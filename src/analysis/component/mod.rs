@@ -7,22 +7,22 @@ mod description;
 mod failure;
 mod forces;
 mod guess;
-mod hunch;
+mod candidate;
 mod ladder;
 mod local;
 mod motion;
 mod question;
 mod rung;
 
+pub(super) use candidate::Candidate;
 pub(super) use guess::Guesses;
-pub(super) use hunch::Hunch;
 pub(super) use question::{Ends, guessed, judged, learn, only_by_wedging};
 
 use super::{Ask, Failure, Options, Verdict};
 use crate::assembly::Assembly;
 use crate::program::{Count, Program, Scale, columns, sticking_columns};
 use crate::proof::{Demand, Forces, Motion, Proof, fastest};
-use crate::solve::{Amounts, Effort, Manner};
+use crate::solve::{Amounts, Effort, SolverSettings};
 use ladder::Decision;
 pub use rung::Method;
 pub(super) use rung::Place;
@@ -53,7 +53,7 @@ struct Case<'a> {
     assembly: &'a Assembly,
     scale: Scale,
     /// The solver's settings, in the order in which they are tried.
-    settings: Vec<Manner>,
+    settings: Vec<SolverSettings>,
     demand: Demand,
     /// Whether what belongs to a verdict is found after it.
     described: bool,
@@ -70,7 +70,7 @@ pub(super) fn solved(assembly: &Assembly, options: Options) -> Findings {
         return Findings { count, ..found };
     }
     // Limits that can hardly matter are left out first; where they do matter after all, everything is done again.
-    if let Some(generous) = program.without_lavish_limits() {
+    if let Some(generous) = program.without_non_binding_limits() {
         let decision = case.described(&generous, case.decided(&generous));
         if decision.verdict != Verdict::Undecided && program.allows(&decision.amounts.grip) {
             return Findings {
@@ -92,7 +92,7 @@ impl<'a> Case<'a> {
         Case {
             assembly,
             scale: Scale::of_assembly(assembly),
-            settings: options.manners(),
+            settings: options.solver_settings(),
             demand: options.accuracy.demand(),
             described: options.verdict_only == Ask::No,
             place: Place::Anywhere,

@@ -5,7 +5,7 @@ use crate::assembly::LoadVector;
 use crate::geometry::Vector;
 use crate::program::Program;
 use crate::proof::{self, Motion, Proof, fastest};
-use crate::solve::{Effort, opened};
+use crate::solve::{Effort, polished};
 
 /// Forces of so many times the sum of all loads are what a motion must rule out at least.
 const THRUST: f64 = 10.0;
@@ -28,7 +28,7 @@ impl Case<'_> {
         }
         if proof.rules_out().is_finite() {
             let unit: Vec<f64> = y.iter().map(|v| v / speed).collect();
-            (_, motion) = self.moved(&opened(program, &unit, effort)?);
+            (_, motion) = self.moved(&polished(program, &unit, effort)?);
             proof = self.mechanism(&motion);
         }
         self.convinces(&motion, &proof).then_some((motion, proof))

@@ -61,7 +61,7 @@ const ALONE: Options = Options {
 
 fn decided(case: &Case, program: &Program) -> Decision {
     // A motion that less limited robots cannot stop is a mechanism all the same.
-    if let Some(generous) = program.without_lavish_limits() {
+    if let Some(generous) = program.without_non_binding_limits() {
         let decision = case.decided(&generous);
         let allowed = || program.allows(&decision.amounts.grip);
         match decision.verdict {
@@ -134,7 +134,7 @@ pub(in crate::analysis) fn only_by_wedging<'a>(
                 let wedged = Wedged::of(assembly, case.scale, &squeeze);
                 return (Some(true), Wedging::Only(shown), Some(wedged));
             }
-            Reach::Unclear(doubt) => answer = (None, Wedging::Open(doubt.to_string()), None),
+            Reach::Undecided(doubt) => answer = (None, Wedging::Open(doubt.to_string()), None),
         }
     }
     answer

@@ -3,11 +3,11 @@
 //! Makes one [`Margins`] per frame. A margin of a frame is the worst of its components'. What is linear in the unknown (a
 //! load, a robot's limit) is one linear program; friction, the kernel and the turn of gravity beside loads that do not
 //! turn are searched for. Either way the value is believed only when the changed frame stands just inside it and falls
-//! just beyond it, by the same proofs as every verdict; the mechanism told is the one just beyond.
+//! just beyond it, by the same proofs as every verdict; the mechanism reported is the one just beyond.
 //!
 //! More friction and a smaller kernel only add admissible forces, and the loads that a structure carries form a convex
 //! set, so along friction, kernel, load and limit there is one edge. Along an arc of turning gravity there can be several:
-//! the first one, seen from the frame as it is, is told.
+//! the first one, seen from the frame as it is, is reported.
 
 mod edge;
 mod kind;

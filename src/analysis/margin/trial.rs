@@ -144,7 +144,7 @@ impl<'a> Trial<'a> {
         TRIALS.fetch_add(1, Ordering::Relaxed);
     }
 
-    /// Where the least leftover would vanish, if it went on as it does at one value, of which the tangent is.
+    /// Where the least residual would vanish, if it went on as it does at one value, of which the tangent is.
     pub fn root(
         &self,
         tangent: &Tangent,
@@ -241,7 +241,7 @@ impl<'a> Trial<'a> {
         let heaviest = here.heaviest().max(there.heaviest());
         let scale = Scale::of(self.given.length, heaviest);
         let [here, there] = [here, there].map(|assembly| Program::of(&assembly, scale));
-        let toward = there.need.iter().zip(&here.need).map(|(a, b)| a - b);
+        let toward = there.loads.iter().zip(&here.loads).map(|(a, b)| a - b);
         let toward = toward.collect();
         (here, toward)
     }

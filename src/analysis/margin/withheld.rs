@@ -68,18 +68,18 @@ mod tests {
                 torque: Margin::None,
             }],
         };
-        let told = found.withheld(|_| "r".to_string());
+        let described = found.withheld(|_| "r".to_string());
         let expected = [
             "the largest tilt in degrees to the left is withheld",
             "the largest kernel is withheld",
             "the least fy in newtons of robot r is withheld",
         ];
-        assert_eq!(told.len(), expected.len());
-        for (told, expected) in told.iter().zip(expected) {
-            assert!(told.starts_with(expected), "{told}");
+        assert_eq!(described.len(), expected.len());
+        for (described, expected) in described.iter().zip(expected) {
+            assert!(described.starts_with(expected), "{described}");
             assert!(
-                told.contains("stands at 0.250000, and at 0.500000 it was not"),
-                "{told}"
+                described.contains("stands at 0.250000, and at 0.500000 it was not"),
+                "{described}"
             );
         }
         assert_eq!(withheld.at(), None);

@@ -68,16 +68,16 @@ impl Output {
     /// Writes a line, or says that nobody reads on.
     pub fn write(&mut self, line: &[u8]) -> Result<ControlFlow<()>, Complaint> {
         let written = self.stream.write_all(line);
-        self.told(written)
+        self.reported(written)
     }
 
     /// Sees to it that what was written can be read.
     pub fn flush(&mut self) -> Result<ControlFlow<()>, Complaint> {
         let flushed = self.stream.flush();
-        self.told(flushed)
+        self.reported(flushed)
     }
 
-    fn told(&self, written: io::Result<()>) -> Result<ControlFlow<()>, Complaint> {
+    fn reported(&self, written: io::Result<()>) -> Result<ControlFlow<()>, Complaint> {
         match written {
             Ok(()) => Ok(ControlFlow::Continue(())),
             // A reader that closes the pipe has read enough: that is no failure of ours.

@@ -7,16 +7,16 @@ use std::time::{Duration, Instant};
 use crate::cli::ending::Ending;
 use crate::cli::terminal::Terminal;
 
-/// On a terminal it is told every so often where nothing is said.
+/// On a terminal it is reported every so often where nothing is given.
 const OFTEN: Duration = Duration::from_secs(2);
 
 /// The pace of a batch.
 pub(super) struct Pace<'t> {
     terminal: &'t Terminal,
     start: Instant,
-    /// How often it is told; never where absent.
+    /// How often it is reported; never where absent.
     every: Option<Duration>,
-    told: Instant,
+    reported: Instant,
     /// Bytes of all inputs, and those read so far and before this run began.
     all: Option<u64>,
     read: Arc<AtomicU64>,
@@ -42,7 +42,7 @@ impl<'t> Pace<'t> {
             terminal,
             start: now,
             every: every.map(Duration::from_secs_f64).or(watched),
-            told: now,
+            reported: now,
             all,
             read,
             read_before: 0,
@@ -72,8 +72,8 @@ impl<'t> Pace<'t> {
         };
         self.counts[kind] += 1;
         let now = Instant::now();
-        if self.every.is_some_and(|every| now - self.told >= every) {
-            self.told = now;
+        if self.every.is_some_and(|every| now - self.reported >= every) {
+            self.reported = now;
             let words = self.words((now - self.start).as_secs_f64());
             self.terminal.note(&words);
         }
@@ -130,7 +130,7 @@ fn span(seconds: f64) -> String {
     }
 }
 
-/// How often it is told.
+/// How often it is reported.
 pub(super) fn seconds(typed: &str) -> Result<f64, String> {
     match typed.parse::<f64>() {
         Ok(seconds) if (0.01..=86_400.0).contains(&seconds) => Ok(seconds),

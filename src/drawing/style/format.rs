@@ -1,7 +1,7 @@
 //! Style files: a theme, or what is to differ from one, as a person writes it down in JSON or TOML.
 //!
 //! The keys are the names of the fields of [`Theme`], with `theme` for the one that is started from. Everything may be left
-//! out. All that is wrong is told at once.
+//! out. All that is wrong is reported at once.
 
 mod value;
 
@@ -65,7 +65,7 @@ impl Theme {
         let Value::Table(entries) = value else {
             reading.note(
                 "",
-                format!("{} is no style", value.said()),
+                format!("{} is no style", value.stated()),
                 "give a table of keys and values".into(),
             );
             return Err(Problems(reading.problems));
@@ -284,7 +284,7 @@ impl Reading {
         let Value::Text(name) = value else {
             return self.note(
                 path,
-                format!("{} is no {sort}", value.said()),
+                format!("{} is no {sort}", value.stated()),
                 known.join(", "),
             );
         };
@@ -293,7 +293,7 @@ impl Reading {
         }
         let near = nearest(name, known).map(|near| format!("; the nearest is {near}"));
         let help = format!("known are {}{}", known.join(", "), near.unwrap_or_default());
-        self.note(path, format!("{} is no {sort}", value.said()), help);
+        self.note(path, format!("{} is no {sort}", value.stated()), help);
     }
 
     fn colour(&mut self, path: &str, value: &Value) -> Option<Colour> {
@@ -303,7 +303,11 @@ impl Reading {
         };
         if colour.is_none() {
             let help = "give #rrggbb or #rgb in quotes, such as \"#d55e00\" or \"#d50\"";
-            self.note(path, format!("{} is no colour", value.said()), help.into());
+            self.note(
+                path,
+                format!("{} is no colour", value.stated()),
+                help.into(),
+            );
         }
         colour
     }
@@ -314,7 +318,7 @@ impl Reading {
             let help = "give a list of colours, such as [\"#0072b2\", \"#56b4e9\"]";
             self.note(
                 path,
-                format!("{} is no list of colours", value.said()),
+                format!("{} is no list of colours", value.stated()),
                 help.into(),
             );
             return None;
@@ -352,7 +356,7 @@ impl Reading {
             let help = format!("give a table with some of {}", keys.join(", "));
             self.note(
                 path,
-                format!("{} is no table of {path}", value.said()),
+                format!("{} is no table of {path}", value.stated()),
                 help,
             );
             return numbers;
@@ -371,7 +375,7 @@ impl Reading {
                 }
                 _ => {
                     let help = format!("give a number of {unit} from {least} to {most}");
-                    self.note(&path, format!("{} cannot be drawn", value.said()), help);
+                    self.note(&path, format!("{} cannot be drawn", value.stated()), help);
                 }
             }
         }

@@ -86,7 +86,7 @@ const ALL: &[Sight] = &[
 /// The numbers of the table at [`Theme`], which this keeps true: a colour that is changed changes them, for better or worse.
 #[test]
 fn colours_that_can_meet_are_as_far_apart_as_told() {
-    let told = [
+    let described = [
         (Theme::thesis(), FULL, [13.1, 24.9, 35.5, 33.1, 38.8]),
         (
             Theme::paper(),
@@ -96,10 +96,10 @@ fn colours_that_can_meet_are_as_far_apart_as_told() {
         (Theme::colourblind(), ALL, [12.1, 17.9, 12.5, 27.0, 35.7]),
         (Theme::dark(), FULL, [23.6, 17.7, 34.7, 30.0, 38.2]),
     ];
-    for (theme, sights, told) in told {
+    for (theme, sights, described) in described {
         let found = least_of(&theme, sights);
-        for (found, told) in found.iter().zip(told) {
-            assert!((found - told).abs() < 0.051, "{found:?} {theme:?}");
+        for (found, described) in found.iter().zip(described) {
+            assert!((found - described).abs() < 0.051, "{found:?} {theme:?}");
         }
     }
 }
@@ -227,7 +227,7 @@ fn every_theme_reads_back_from_what_is_written_of_it() {
             Ok(theme.clone()),
             "{text}"
         );
-        // Everything is told: the theme it is read upon makes no difference.
+        // Everything is reported: the theme it is read upon makes no difference.
         for base in Theme::NAMES {
             let base = Theme::named(base);
             assert_eq!(
@@ -308,7 +308,7 @@ fn all_that_is_wrong_is_told_at_once_with_its_place() {
             "page"
         ]
     );
-    let told = problems.to_string();
+    let described = problems.to_string();
     for words in [
         "the nearest is dark",
         "the nearest known key is `failure`",
@@ -320,7 +320,7 @@ fn all_that_is_wrong_is_told_at_once_with_its_place() {
         "from 0.005 to 0.5",
         "given twice",
     ] {
-        assert!(told.contains(words), "{words}\n{told}");
+        assert!(described.contains(words), "{words}\n{described}");
     }
 }
 
@@ -339,10 +339,10 @@ fn texts_that_are_no_style_are_refused_in_words() {
             "no JSON",
         ),
     ] {
-        let told = Theme::read(text, notation, None)
+        let described = Theme::read(text, notation, None)
             .expect_err(text)
             .to_string();
-        assert!(told.contains(words), "{text}: {told}");
+        assert!(described.contains(words), "{text}: {described}");
     }
     let deep = "[".repeat(100_000);
     assert!(Theme::read(&deep, Notation::Json, None).is_err());

@@ -65,7 +65,7 @@ pub(super) struct Corner {
 /// so that the two together act where the interface's resultant does. An end that is alone bears all.
 pub(super) fn corners(contact: &Contact, block: BlockId) -> [Corner; 2] {
     let own = contact.interface.bodies[0] == BodyId::Block(block);
-    // Friction is told along (−n_y, n_x) on the first body; for the second both that direction and the force turn over.
+    // Friction is reported along (−n_y, n_x) on the first body; for the second both that direction and the force turn over.
     let friction = contact.friction_force;
     let pressed: f64 = contact.normal_forces.iter().sum();
     let share = |k: usize| {

@@ -127,13 +127,13 @@ impl Sheet<'_> {
         notes
     }
 
-    pub(super) fn told(&self) -> String {
+    pub(super) fn described(&self) -> String {
         let arrows: Vec<&str> = self.arrows.iter().map(|a| a.title.as_str()).collect();
-        let mut said = self.table().said();
+        let mut stated = self.table().stated();
         if self.guides() {
             let places = value::places(self.analysis, self.block, &self.contacts);
-            said.extend(places.iter().map(|p| p.iter().map(Piece::said).collect()));
+            stated.extend(places.iter().map(|p| p.iter().map(Piece::stated).collect()));
         }
-        format!("{}. {}.", arrows.join(". "), said.join("; "))
+        format!("{}. {}.", arrows.join(". "), stated.join("; "))
     }
 }

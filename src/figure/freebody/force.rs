@@ -62,7 +62,7 @@ impl Force {
         format!(
             "{} {} on block {on}: {amount}",
             self.what,
-            self.symbol.said()
+            self.symbol.stated()
         )
     }
 }
@@ -118,7 +118,7 @@ impl Arrow {
     }
 }
 
-/// How much is told of the forces of interfaces.
+/// How much is reported of the forces of interfaces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Detail {
     /// Normal and friction force at each corner, each by its own name: of a block on one interface.
@@ -129,7 +129,7 @@ pub(super) enum Detail {
     Resultants,
 }
 
-/// How much is told of the forces of so many interfaces.
+/// How much is reported of the forces of so many interfaces.
 pub(super) fn detail(count: usize, options: &Options) -> Detail {
     match (options.corners, count) {
         (_, 0..=1) => Detail::Parts,
@@ -455,7 +455,7 @@ pub(super) fn arrows(
                         Detail::Parts => own,
                         _ => common,
                     };
-                    let title = format!("{what} {} on block {name}", symbol.said());
+                    let title = format!("{what} {} on block {name}", symbol.stated());
                     arrows.push(Arrow {
                         symbol: (detail == Detail::Parts || part == 0).then_some(symbol),
                         title,
@@ -478,7 +478,7 @@ pub(super) fn arrows(
             let symbol = Symbol::new("s", Accent::Hat, &below);
             let clear = camera.metres(FRICTION + 1.2 * shorter * THIN);
             arrows.push(Arrow {
-                title: format!("Unit normal {} into block {name}", symbol.said()),
+                title: format!("Unit normal {} into block {name}", symbol.stated()),
                 symbol: Some(symbol),
                 at: super::around::aside(analysis.scene, contact, block, clear, single),
                 along: turned(normal, THIN),

@@ -206,7 +206,7 @@ impl<'a> Sheet<'a> {
             width: self.width.ceil(),
             height: (end + MARGIN).ceil(),
             title,
-            description: self.told(),
+            description: self.described(),
             background: Some(theme.page),
             items,
         }
@@ -265,7 +265,7 @@ impl<'a> Sheet<'a> {
     fn guide_lines(&self, ink: &mut Ink, wishes: &mut Vec<(Symbol, Wish)>) -> Group {
         let theme = &self.options.theme;
         let mut group = Group::of_class("guides");
-        let mut told = vec![(
+        let mut described = vec![(
             "c",
             String::new(),
             self.analysis.scene.blocks[self.block.0].centroid,
@@ -273,12 +273,12 @@ impl<'a> Sheet<'a> {
         for contact in &self.contacts {
             let count = distinct(contact).len();
             for (k, corner) in corners(contact, self.block).iter().enumerate().take(count) {
-                told.push(("p", (k + 1).to_string(), corner.at));
+                described.push(("p", (k + 1).to_string(), corner.at));
             }
         }
         let dash = || Stroke::new(theme.faint, 1.0).dashed([5.0, 4.0]);
         let (left, floor) = (self.picture.at.x, self.floor());
-        for (letter, number, point) in told {
+        for (letter, number, point) in described {
             let p = self.camera.place(point);
             let ends = [
                 (PagePoint::new(left, p.y), "y"),
@@ -483,7 +483,7 @@ impl<'a> Sheet<'a> {
     }
 }
 
-/// Coordinates are told where they stay readable: of a block on one edge, held by nobody.
+/// Coordinates are reported where they stay readable: of a block on one edge, held by nobody.
 fn guided(analysis: &Analysis<'_>, frame: usize, block: BlockId, contacts: &[&Contact]) -> bool {
     let holds = &analysis.scene.frames[frame].holds;
     contacts.len() == 1 && !holds.iter().any(|h| h.block == block)

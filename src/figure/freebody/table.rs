@@ -125,7 +125,7 @@ impl Table {
     }
 
     /// Every row in words.
-    pub(super) fn said(&self) -> Vec<String> {
+    pub(super) fn stated(&self) -> Vec<String> {
         let (force, moment) = (self.heads[0].1, self.heads[3].1);
         let row = |row: &Row| {
             let [amount, x, y, turning] = &row.numbers;
@@ -133,7 +133,7 @@ impl Table {
             match &row.symbol {
                 Some(symbol) => format!(
                     "{} = {amount} {force}: {parts}, {}",
-                    symbol.said(),
+                    symbol.stated(),
                     row.from
                 ),
                 None => format!("sum: {parts}"),

@@ -47,9 +47,9 @@ impl Piece {
         (items, self.width(size))
     }
 
-    pub(super) fn said(&self) -> String {
+    pub(super) fn stated(&self) -> String {
         match self {
-            Piece::Symbol(symbol) => symbol.said(),
+            Piece::Symbol(symbol) => symbol.stated(),
             Piece::Words(words) => words.replace(NO_BREAK, " "),
             Piece::Gap => " ".to_owned(),
         }

@@ -64,12 +64,12 @@ mod tests {
 
     #[test]
     fn amounts_counts_and_parts_of_words_name_nothing() {
-        let said = "missing: a pull of 2.5\u{a0}kN between 19.17 and 3, friction of 12 N between 4 and b-2; 5 more";
+        let text = "missing: a pull of 2.5\u{a0}kN between 19.17 and 3, friction of 12 N between 4 and b-2; 5 more";
         for name in ["19.17", "3", "4", "b-2"] {
-            assert!(names(said, name), "{name}");
+            assert!(names(text, name), "{name}");
         }
         for name in ["2.5", "19", "17", "12", "5", "pull of a", ""] {
-            assert!(!names(said, name), "{name}");
+            assert!(!names(text, name), "{name}");
         }
         assert!(!names("3 of 5 shared forces changed by over 5 %", "5"));
         assert!(!names("gravity is turned by 12° to the left", "12"));

@@ -7,7 +7,7 @@ use crate::drawing::arrow::{head, straight, turning};
 use crate::drawing::{Colour, Group, Item, Outline, Path, Stroke};
 use crate::figure::arrow::{ArrowKind, ForceArrow, LEAST_SEEN, TurnArrow, TurnKind, from_arrow};
 use crate::figure::by_colour::ByColour;
-use crate::figure::told;
+use crate::figure::description;
 use crate::geometry::Vector;
 use crate::scene::BodyId;
 
@@ -31,7 +31,7 @@ impl Pen<'_> {
         marks
             .arrows
             .iter()
-            .filter(|a| told::dotted(a, self.seen(a)))
+            .filter(|a| description::dotted(a, self.seen(a)))
     }
 
     fn dot(&self, arrow: &ForceArrow) -> Group {
@@ -43,7 +43,7 @@ impl Pen<'_> {
             Path::filled(outline, arrow.colour).cased(theme.casing, 0.6)
         };
         Group::of_class("small")
-            .titled(told::arrow(self.stage, arrow))
+            .titled(description::arrow(self.stage, arrow))
             .with(dot)
     }
 
@@ -160,7 +160,7 @@ impl Pen<'_> {
             .iter()
             .filter(|a| a.kind.is_failure() == missing && self.seen(a))
         {
-            let title = told::arrow(self.stage, arrow);
+            let title = description::arrow(self.stage, arrow);
             let mut force = Group::of_class("force")
                 .titled(title)
                 .with(self.arrow(arrow));
@@ -174,7 +174,7 @@ impl Pen<'_> {
             .iter()
             .filter(|t| matches!(t.kind, TurnKind::Missing(_)) == missing && self.turn_seen(t))
         {
-            let title = told::turn(self.stage, turn);
+            let title = description::turn(self.stage, turn);
             group.items.push(
                 Group::of_class("torque")
                     .titled(title)
@@ -191,7 +191,7 @@ impl Pen<'_> {
         let loads = self.stage.marks[self.number].arrows.iter();
         let loads = loads.filter(|a| a.kind == ArrowKind::Load);
         for arrow in loads.filter(|a| self.seen(a)) {
-            let force = Group::of_class("force").titled(told::arrow(self.stage, arrow));
+            let force = Group::of_class("force").titled(description::arrow(self.stage, arrow));
             group.items.push(force.with(self.arrow(arrow)).into());
         }
         let small = self.dots().filter(|a| a.kind == ArrowKind::Load);

@@ -173,8 +173,8 @@ mod tests {
             ("<polygon/>", "it has no points"),
             ("<path d='M0 0 L'/>", "its path data"),
         ] {
-            let told = shape(element).expect_err("no shape");
-            assert!(told.starts_with(why), "{told}");
+            let described = shape(element).expect_err("no shape");
+            assert!(described.starts_with(why), "{described}");
         }
     }
 }

@@ -1,7 +1,7 @@
 //! SVG as Inkscape, Illustrator and people write it, into a [`Draft`].
 //!
 //! Walks the tree with what each element inherits: its place, its looks, and what the names around it say it is. What is
-//! drawn and cannot be a body is told, once each; what is not drawn is passed over.
+//! drawn and cannot be a body is reported, once each; what is not drawn is passed over.
 
 mod element;
 mod figure;
@@ -32,8 +32,8 @@ const DEEPEST: usize = 100;
 const MOST: usize = 500_000;
 /// So many rules are held against elements, once for each rule and element.
 const MOST_MATCHES: usize = 150_000_000;
-/// So many elements of one kind are told one by one.
-const TOLD: usize = 20;
+/// So many elements of one kind are listed one by one.
+const MOST_LISTED: usize = 20;
 
 /// What an SVG draws, in metres, y up.
 ///
@@ -79,7 +79,7 @@ pub(super) fn read(text: &str, scale: Option<f64>, frame: Option<usize>) -> Resu
         draft: Draft::default(),
         seen: 0,
         more: 0,
-        told: BTreeMap::new(),
+        remarked: BTreeMap::new(),
     };
     if let Some(title) = root.children().find(|n| is(*n, "title")) {
         walk.draft.title = words(title);
@@ -130,7 +130,7 @@ struct Walk<'a, 'd> {
     /// Shapes that were not taken any more.
     more: usize,
     /// How often each thing was remarked on.
-    told: BTreeMap<&'static str, usize>,
+    remarked: BTreeMap<&'static str, usize>,
 }
 
 impl<'a, 'd> Walk<'a, 'd> {
@@ -143,9 +143,9 @@ impl<'a, 'd> Walk<'a, 'd> {
                 self.draft.notes.push(note);
                 scale
             }
-            (None, Some((unit, said))) => {
+            (None, Some((unit, stated))) => {
                 let note = format!(
-                    "a unit of the drawing is {} m, since it is {said}",
+                    "a unit of the drawing is {} m, since it is {stated}",
                     entry::digits(unit)
                 );
                 self.draft.notes.push(note);
@@ -361,7 +361,7 @@ impl<'a, 'd> Walk<'a, 'd> {
         let part = Part {
             kind: around.kind.unwrap_or(Kind::Block),
             name,
-            element: self.told_as(node, around),
+            element: self.element_label(node, around),
             form: Form::Tracks(mapped, around.style.rule),
             fill,
             values: Values::default(),
@@ -394,7 +394,7 @@ impl<'a, 'd> Walk<'a, 'd> {
     }
 
     /// How a person finds what is drawn here: a copy by the copy.
-    fn told_as(&self, node: Node<'a, 'd>, around: &Around) -> String {
+    fn element_label(&self, node: Node<'a, 'd>, around: &Around) -> String {
         match &around.copy {
             Some(copy) => copy.element.clone(),
             None => self.lines.element(node),
@@ -402,10 +402,10 @@ impl<'a, 'd> Walk<'a, 'd> {
     }
 
     fn skip(&mut self, node: Node<'a, 'd>, around: &Around, why: &str) {
-        let times = self.told.entry("skip").or_default();
+        let times = self.remarked.entry("skip").or_default();
         *times += 1;
-        if *times <= TOLD {
-            let note = format!("{} is left out: it {why}", self.told_as(node, around));
+        if *times <= MOST_LISTED {
+            let note = format!("{} is left out: it {why}", self.element_label(node, around));
             self.draft.notes.push(note);
         }
     }
@@ -418,23 +418,23 @@ impl<'a, 'd> Walk<'a, 'd> {
         message: &str,
         help: &str,
     ) {
-        let times = self.told.entry(sort).or_default();
+        let times = self.remarked.entry(sort).or_default();
         *times += 1;
-        if *times <= TOLD {
-            let element = self.told_as(node, around);
+        if *times <= MOST_LISTED {
+            let element = self.element_label(node, around);
             self.draft.remark(element, message, help);
         }
     }
 
     /// What was remarked on too often to be told each time is counted.
     fn count_untold(&mut self) {
-        for (sort, times) in &self.told {
-            if *times > TOLD && *sort == "skip" {
+        for (sort, times) in &self.remarked {
+            if *times > MOST_LISTED && *sort == "skip" {
                 self.draft.notes.push(format!(
                     "{} more elements are left out likewise",
-                    times - TOLD
+                    times - MOST_LISTED
                 ));
-            } else if *times > TOLD {
+            } else if *times > MOST_LISTED {
                 let message = match *sort {
                     "deep" => "groups too deep in each other",
                     "many" => "elements too many",
@@ -449,7 +449,7 @@ impl<'a, 'd> Walk<'a, 'd> {
                     "broken" => "outlines that cannot be read",
                     _ => "unknown elements",
                 };
-                let message = format!("{} more {message}", times - TOLD);
+                let message = format!("{} more {message}", times - MOST_LISTED);
                 self.draft.remark("", message, "");
             }
         }

@@ -23,7 +23,7 @@ pub(super) struct Style {
 /// What fills an element.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Fill {
-    /// Nobody said, and SVG would take black.
+    /// Nobody stated, and SVG would take black.
     Unsaid,
     None,
     Colour([u8; 3]),
@@ -52,8 +52,8 @@ impl Style {
             masked: false,
             ..*self
         };
-        let own = said(node, sheet);
-        // `currentColor` in a fill means the colour of the same element, wherever it is said.
+        let own = declarations(node, sheet);
+        // `currentColor` in a fill means the colour of the same element, wherever it is stated.
         for (name, value) in own.iter().filter(|d| d.0 == "color") {
             style.set(name, value, self);
         }
@@ -112,7 +112,7 @@ fn bytes(colour: Color) -> [u8; 3] {
 }
 
 /// Everything said of an element, what counts more coming later.
-fn said<'v>(node: Node<'v, '_>, sheet: &'v StyleSheet<'_>) -> Vec<(&'v str, &'v str)> {
+fn declarations<'v>(node: Node<'v, '_>, sheet: &'v StyleSheet<'_>) -> Vec<(&'v str, &'v str)> {
     let mut plain: Vec<(&str, &str)> = node
         .attributes()
         .filter(|a| a.namespace().is_none() && a.name() != "style")

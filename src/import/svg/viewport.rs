@@ -49,11 +49,11 @@ pub(super) fn page(root: Node<'_, '_>) -> Page {
             (w, h) => w.or(h),
         };
         if let Some(scale) = scale.filter(|s| s.is_finite() && *s > 0.0) {
-            unit = Some((neat(scale), told(root, per_width.is_some())));
+            unit = Some((neat(scale), described(root, per_width.is_some())));
         }
     } else if metres(0).or(metres(1)).is_some() {
         // Without a view box a unit is a pixel of 1/96 in.
-        unit = Some((0.0254 / 96.0, told(root, metres(0).is_some())));
+        unit = Some((0.0254 / 96.0, described(root, metres(0).is_some())));
     }
     let shown = view.unwrap_or(ViewBox::new(0.0, 0.0, 0.0, 0.0));
     Page {
@@ -69,7 +69,7 @@ pub(super) fn page(root: Node<'_, '_>) -> Page {
 }
 
 /// The size that told the scale, in words.
-fn told(root: Node<'_, '_>, by_width: bool) -> String {
+fn described(root: Node<'_, '_>, by_width: bool) -> String {
     let (name, way) = if by_width {
         ("width", "wide")
     } else {

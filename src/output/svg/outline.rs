@@ -85,13 +85,13 @@ impl Steps {
 
     fn put(&mut self, letter: char, numbers: &[i64]) {
         // A letter need not be said twice; after a move, though, it would mean a line.
-        let said = letter == self.letter && !matches!(letter, 'M' | 'z');
-        if !said {
+        let stated = letter == self.letter && !matches!(letter, 'M' | 'z');
+        if !stated {
             self.data.push(letter);
             self.letter = letter;
         }
         for (place, number) in numbers.iter().enumerate() {
-            if (said || place > 0) && *number >= 0 {
+            if (stated || place > 0) && *number >= 0 {
                 self.data.push(' ');
             }
             put(&mut self.data, *number);

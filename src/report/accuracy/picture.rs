@@ -77,7 +77,7 @@ fn drawing(lines: &[Summary], frames: usize) -> Drawing {
 /// The picture in sentences: the default, and how many verdicts each method gets wrong there.
 fn described(lines: &[Summary], frames: usize) -> String {
     let at = |line: &&Summary| default(line.tolerance);
-    let told = lines.iter().filter(at).map(|line| {
+    let described = lines.iter().filter(at).map(|line| {
         format!(
             "{}: {:.2} times the time of standard, {} of {frames} verdicts wrong",
             line.method.name(),
@@ -85,8 +85,8 @@ fn described(lines: &[Summary], frames: usize) -> String {
             line.wrong
         )
     });
-    let told: Vec<String> = told.collect();
-    format!("At the default tolerance, {}.", told.join("; "))
+    let described: Vec<String> = described.collect();
+    format!("At the default tolerance, {}.", described.join("; "))
 }
 
 fn default(tolerance: f64) -> bool {

@@ -88,23 +88,23 @@ fn needed(name: &str, unit: &str, margin: &Margin, have: f64) -> Option<Bullet> 
         return None;
     }
     let gap = if unit.is_empty() { "" } else { " " };
-    let need = known(margin);
-    let top = [Some(have), need]
+    let needed = known(margin);
+    let top = [Some(have), needed]
         .into_iter()
         .flatten()
         .filter(|v| v.is_finite())
         .fold(0.0, f64::max);
     let top = if top > 0.0 { 1.25 * top } else { 1.0 };
     let unbounded = *margin == Margin::Unbounded;
-    let safe = need.or(unbounded.then_some(0.0)).map(|from| (from, top));
+    let safe = needed.or(unbounded.then_some(0.0)).map(|from| (from, top));
     let has = if have.is_finite() {
         format!("has {}{gap}{unit}", digits(have))
     } else {
         "has no limit".into()
     };
-    let reserve = match need {
-        Some(need) if need <= 0.0 || have.is_infinite() => 1.0,
-        Some(need) if have > 0.0 => (1.0 - need / have).max(0.0),
+    let reserve = match needed {
+        Some(needed) if needed <= 0.0 || have.is_infinite() => 1.0,
+        Some(needed) if have > 0.0 => (1.0 - needed / have).max(0.0),
         Some(_) => 0.0,
         None if unbounded => 1.0,
         None => 0.0,

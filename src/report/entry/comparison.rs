@@ -56,7 +56,7 @@ pub fn compared(sides: [Side<'_, '_>; 2], wanted: &Wanted) -> Entry {
         ));
     }
     let mut steps = Vec::new();
-    let mut said = Vec::new();
+    let mut stated = Vec::new();
     for number in 0..counts[0].max(counts[1]) {
         let drawn = [0, 1].map(|side: usize| figures[side].get_mut(number).and_then(Option::take));
         let step = match drawn {
@@ -66,7 +66,7 @@ pub fn compared(sides: [Side<'_, '_>; 2], wanted: &Wanted) -> Entry {
                 alone(side, number, drawing, only_in(counts, number))
             }
         };
-        said.push(step.sentence.clone());
+        stated.push(step.sentence.clone());
         steps.push(step);
     }
     let mut row = Row::of(is.file.name, is.analysis);
@@ -82,7 +82,7 @@ pub fn compared(sides: [Side<'_, '_>; 2], wanted: &Wanted) -> Entry {
         format!("{} → {}", titles[0], titles[1])
     };
     row.name = format!("{} → {}", names[0], names[1]);
-    row.fails = said.first().cloned().unwrap_or_default();
+    row.fails = stated.first().cloned().unwrap_or_default();
     let entries = sides.map(|side| Entry {
         row: row.clone(),
         remarks: Vec::new(),
@@ -156,19 +156,19 @@ fn both(sides: [Side<'_, '_>; 2], number: usize, drawings: [Drawing; 2], wanted:
     let [then, now] = sides.map(|side| &side.analysis.frames[number]);
     let shape = Shapes::of(sides, number);
     let forces = forces(sides, number);
-    let mut said = vec![match (then.verdict, now.verdict) {
+    let mut stated = vec![match (then.verdict, now.verdict) {
         (a, b) if a == b => format!("both: {}", plain(a)),
         (a, b) => format!("first: {}; second: {}", plain(a), plain(b)),
     }];
-    said.extend(shape.said());
-    said.push(match forces.iter().filter(|f| f.changed()).count() {
+    stated.extend(shape.stated());
+    stated.push(match forces.iter().filter(|f| f.changed()).count() {
         0 => "no force changed by over 5 %".to_owned(),
         n => format!(
             "{n} of {} changed by over 5 %",
             counted(forces.len(), "shared force")
         ),
     });
-    let sentence = said.join("; ");
+    let sentence = stated.join("; ");
     let mut step = bare(
         is.analysis.scene,
         number,
@@ -179,8 +179,8 @@ fn both(sides: [Side<'_, '_>; 2], number: usize, drawings: [Drawing; 2], wanted:
         ("First", then, was.analysis.scene),
         ("Second", now, is.analysis.scene),
     ] {
-        let told = line(&verdict::sentence(scene, found));
-        step.remarks.push(format!("{side}: {told}"));
+        let described = line(&verdict::sentence(scene, found));
+        step.remarks.push(format!("{side}: {described}"));
     }
     step.grids = [
         totals(then, now),
@@ -265,21 +265,21 @@ impl Shapes {
         shapes
     }
 
-    fn said(&self) -> Vec<String> {
+    fn stated(&self) -> Vec<String> {
         let changed: Vec<String> = self.changed.iter().map(|c| c.0.clone()).collect();
         let kinds = [
             ("gone", &self.gone),
             ("new", &self.new),
             ("changed", &changed),
         ];
-        let told = kinds.into_iter().filter(|k| !k.1.is_empty());
-        let mut said: Vec<String> = told
+        let described = kinds.into_iter().filter(|k| !k.1.is_empty());
+        let mut stated: Vec<String> = described
             .map(|(how, names)| format!("{how}: {}", listed(&shortened(names.clone(), MOST_NAMED))))
             .collect();
-        if said.is_empty() {
-            said.push("the same blocks in the same places".into());
+        if stated.is_empty() {
+            stated.push("the same blocks in the same places".into());
         }
-        said
+        stated
     }
 
     fn grid(&self) -> Grid {

@@ -62,7 +62,7 @@ pub struct File<'f> {
 pub struct Entry {
     /// Its line in the table of all scenes.
     pub row: Row,
-    /// What is to be said of the scene as a whole.
+    /// What is to be reported of the scene as a whole.
     pub remarks: Vec<String>,
     /// Its steps, one per frame.
     pub steps: Vec<Step>,

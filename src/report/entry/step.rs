@@ -100,7 +100,7 @@ pub(super) fn all(analysis: &Analysis<'_>, wanted: &Wanted) -> Vec<Step> {
     steps
 }
 
-/// What is told of a frame, without its figures.
+/// What is reported of a frame, without its figures.
 fn of(scene: &Scene, number: usize, found: &FrameAnalysis, wanted: &Wanted) -> Step {
     let several = scene.frames.len() > 1;
     let title = line(&scene.frames[number].title);
@@ -289,20 +289,27 @@ fn cost(found: &FrameAnalysis, timing: Timing) -> Grid {
         "What was simulated, and what was left out",
         &["effect", "simulated", "why", "#unknowns"],
     );
-    for told in &found.effects {
-        let meaning = effect::meaning(told.effect);
+    for described in &found.effects {
+        let meaning = effect::meaning(described.effect);
         let name = if meaning.is_empty() {
-            told.effect.to_owned()
+            described.effect.to_owned()
         } else {
-            format!("{}: {meaning}", told.effect)
+            format!("{}: {meaning}", described.effect)
         };
-        let simulated = if told.simulated { "yes" } else { "left out" };
-        let unknowns = match (told.simulated, told.unknowns) {
+        let simulated = if described.simulated {
+            "yes"
+        } else {
+            "left out"
+        };
+        let unknowns = match (described.simulated, described.unknowns) {
             (false, 0) | (true, 0) => "none".to_owned(),
             (true, n) => n.to_string(),
             (false, n) => format!("{n} saved"),
         };
-        grid.add("", [name, simulated.to_owned(), line(&told.why), unknowns]);
+        grid.add(
+            "",
+            [name, simulated.to_owned(), line(&described.why), unknowns],
+        );
     }
     let solve = &found.solve;
     let unknowns: usize = found

@@ -66,8 +66,8 @@ pub(super) fn split(report: &Report, summary: &str) -> Vec<Made> {
             }
             section #scenes aria-label="Scenes" data-open="true" { (PreEscaped(piece.text())) }
         };
-        let said = format!("scene {} of {}", number + 1, names.len());
-        let page = page(report, &piece.row.title, &said, &main);
+        let stated = format!("scene {} of {}", number + 1, names.len());
+        let page = page(report, &piece.row.title, &stated, &main);
         files.push((names[number].clone(), page.into_bytes()));
     }
     files

@@ -116,23 +116,23 @@ fn end(margin: &Margin) -> End {
     }
 }
 
-fn sides<T>(of: &Either, told: impl Fn(&Margin) -> T) -> Sides<T> {
+fn sides<T>(of: &Either, described: impl Fn(&Margin) -> T) -> Sides<T> {
     Sides {
-        left: told(&of.left),
-        right: told(&of.right),
+        left: described(&of.left),
+        right: described(&of.right),
     }
 }
 
 fn robots<'a, T>(
     scene: &'a Scene,
     found: &Found,
-    told: impl Fn(&Margin) -> T,
+    described: impl Fn(&Margin) -> T,
 ) -> Named<'a, Limits<T>> {
     let robots = found.robots.iter().map(|robot| {
         let limits = Limits {
-            fx: told(&robot.fx),
-            fy: told(&robot.fy),
-            torque: told(&robot.torque),
+            fx: described(&robot.fx),
+            fy: described(&robot.fy),
+            torque: described(&robot.torque),
         };
         (scene.robots[robot.robot.0].id.as_str(), limits)
     });

@@ -1,4 +1,4 @@
-//! What is said of keys and values that are not what a scene file holds.
+//! What is reported of keys and values that are not what a scene file holds.
 
 use super::{Code, Wording, choice, say, shortened};
 use crate::scene::name::nearest;

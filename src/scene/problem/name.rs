@@ -1,4 +1,4 @@
-//! What is said of names and ids.
+//! What is reported of names and ids.
 
 use super::{Code, Wording, say, shortened};
 use crate::scene::name::nearest;

@@ -1,4 +1,4 @@
-//! What is said of what is allowed and seldom meant.
+//! What is reported of what is allowed and seldom meant.
 
 use super::{Code, Wording, digits, pair, say, shortened};
 

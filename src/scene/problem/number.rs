@@ -1,4 +1,4 @@
-//! What is said of numbers and colours.
+//! What is reported of numbers and colours.
 
 use super::{Code, Wording, digits, say, shortened};
 

@@ -1,4 +1,4 @@
-//! What is said of outlines, cells and overlaps.
+//! What is reported of outlines, cells and overlaps.
 
 use std::fmt;
 

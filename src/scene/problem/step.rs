@@ -1,4 +1,4 @@
-//! What is said of steps that cannot be played.
+//! What is reported of steps that cannot be played.
 
 use super::{Code, Wording, say, shortened};
 

@@ -1,4 +1,4 @@
-//! What is said of a text that is no JSON.
+//! What is reported of a text that is no JSON.
 
 use super::{Code, Wording, say, shortened};
 

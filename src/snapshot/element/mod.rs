@@ -1,8 +1,8 @@
 //! [`changes`]: what became of the elements of an SVG: which appeared, vanished, moved, turned, took another colour or other words.
 //!
-//! Made for the SVG that we write, and right for any other: what is told is always so, but a shape that another program
-//! writes as other elements is told as other elements. Names made from a drawing's content (`id`) are left out, and numbers are
-//! compared within a fortieth of a pixel, since a hundredth is where they are rounded.
+//! Made for the SVG that we write, and right for any other: what is reported is always so, but a shape that another program
+//! writes as other elements is reported as other elements. Names made from a drawing's content (`id`) are left out, and
+//! numbers are compared within a fortieth of a pixel, since a hundredth is where they are rounded.
 
 mod pairing;
 mod shape;
@@ -14,7 +14,7 @@ pub use tree::NoSvg;
 
 /// So far may a place be from the one expected, pixels.
 const NEAR: f64 = 0.025;
-/// A change that so many elements share is told once.
+/// A change that so many elements share is reported once.
 const SHARED: usize = 4;
 
 /// Something that happened to an element.
@@ -47,12 +47,12 @@ pub fn changes(expected: &str, found: &str) -> Result<Vec<String>, NoSvg> {
     let (old, new) = (tree::read(expected)?, tree::read(found)?);
     let mut events = Vec::new();
     compare(&old, &new, "the page", &mut events);
-    Ok(told(events))
+    Ok(described(events))
 }
 
-/// Events in words, those that many elements share told once.
-fn told(events: Vec<Event>) -> Vec<String> {
-    let mut told: Vec<String> = Vec::new();
+/// Events in words, those that many elements share reported once.
+fn described(events: Vec<Event>) -> Vec<String> {
+    let mut described: Vec<String> = Vec::new();
     let mut done: Vec<&str> = Vec::new();
     for event in &events {
         if done.contains(&event.what.as_str()) {
@@ -60,18 +60,18 @@ fn told(events: Vec<Event>) -> Vec<String> {
         }
         let alike: Vec<&Event> = events.iter().filter(|e| e.what == event.what).collect();
         if alike.len() < SHARED {
-            told.push(format!("{}: {}", event.whose, event.what));
+            described.push(format!("{}: {}", event.whose, event.what));
             continue;
         }
         done.push(&event.what);
-        told.push(format!(
+        described.push(format!(
             "{} elements, such as {}: {}",
             alike.len(),
             event.whose,
             event.what
         ));
     }
-    told
+    described
 }
 
 /// Compares two elements that stand for the same thing. `within` is what a person would call the place they are in.
@@ -250,9 +250,9 @@ mod tests {
             let text = |k: usize| format!("<text x=\"{}\" y=\"{}\">word {k}</text>", x, 9 * k);
             page(&(0..9).map(text).collect::<String>())
         };
-        let told = changes(&texts(3), &texts(4)).expect("both are SVG");
+        let described = changes(&texts(3), &texts(4)).expect("both are SVG");
         assert_eq!(
-            told,
+            described,
             ["9 elements, such as text \"word 0\": moved by 1 px to the right"]
         );
     }

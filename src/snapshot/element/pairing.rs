@@ -21,7 +21,7 @@ pub(super) fn pairs<'e>(old: &'e [Element], new: &'e [Element]) -> Vec<Pair<'e>>
 
 /// What two elements that may stand for the same thing have in common, ever less of it.
 fn key(element: &Element, stage: usize) -> u64 {
-    // Within one run only: nothing of it is told.
+    // Within one run only: nothing of it is reported.
     let mut hasher = DefaultHasher::new();
     match stage {
         0 => element.hash(&mut hasher),
@@ -45,7 +45,7 @@ fn key(element: &Element, stage: usize) -> u64 {
 
 fn between<'e>(old: &'e [Element], new: &'e [Element], stage: usize, pairs: &mut Vec<Pair<'e>>) {
     if stage == 3 || old.is_empty() || new.is_empty() {
-        leftover(old, new, pairs);
+        pair_rest(old, new, pairs);
         return;
     }
     let keys = |list: &[Element]| list.iter().map(|e| key(e, stage)).collect::<Vec<u64>>();
@@ -59,7 +59,7 @@ fn between<'e>(old: &'e [Element], new: &'e [Element], stage: usize, pairs: &mut
 }
 
 /// Pairs of one kind where there are as many of it; the rest came or went.
-fn leftover<'e>(old: &'e [Element], new: &'e [Element], pairs: &mut Vec<Pair<'e>>) {
+fn pair_rest<'e>(old: &'e [Element], new: &'e [Element], pairs: &mut Vec<Pair<'e>>) {
     let kind = |e: &Element| (e.tag.clone(), e.class.clone());
     let of = |list: &'e [Element], k: &(String, String)| -> Vec<&'e Element> {
         list.iter().filter(|e| kind(e) == *k).collect()

@@ -16,7 +16,7 @@ pub struct Change {
 
 /// What a block is that falls.
 const FALLING: &str = "falling";
-/// So many blocks that begin or cease to fall are told one by one.
+/// So many blocks that begin or cease to fall are listed one by one.
 const ONE_BY_ONE: usize = 4;
 
 /// Before everything else: a verdict.
@@ -229,7 +229,7 @@ fn came_or_went(key: &Key, fact: &Fact, place: &str, way: Way) -> Change {
             } else {
                 THERE
             };
-            let first = fact.values.first().map(told).unwrap_or_default();
+            let first = fact.values.first().map(described).unwrap_or_default();
             let is = match way {
                 Way::Gone => "is gone:",
                 Way::New => "is new:",
@@ -243,7 +243,7 @@ fn came_or_went(key: &Key, fact: &Fact, place: &str, way: Way) -> Change {
     }
 }
 
-fn told(value: &Value) -> String {
+fn described(value: &Value) -> String {
     let numbers: Vec<String> = value.numbers.iter().map(|n| short(n)).collect();
     let parts = [value.name.clone(), numbers.join(", "), value.unit.clone()];
     let parts: Vec<String> = parts.into_iter().filter(|p| !p.is_empty()).collect();
@@ -256,7 +256,7 @@ fn values(old: &[Value], new: &[Value]) -> Option<(String, f64)> {
     let mut weight: f64 = 0.0;
     for now in new {
         let Some(before) = old.iter().find(|v| v.name == now.name) else {
-            words.push(format!("{} is new", told(now)));
+            words.push(format!("{} is new", described(now)));
             continue;
         };
         if let Some(by) = differ(before, now) {
@@ -266,7 +266,7 @@ fn values(old: &[Value], new: &[Value]) -> Option<(String, f64)> {
     }
     for before in old {
         if !new.iter().any(|v| v.name == before.name) {
-            words.push(format!("{} is gone", told(before)));
+            words.push(format!("{} is gone", described(before)));
         }
     }
     (!words.is_empty()).then(|| (words.join(", "), weight))
@@ -281,7 +281,7 @@ fn change(old: &Value, new: &Value) -> String {
     };
     if old.numbers.is_empty() || new.numbers.is_empty() || old.unit != new.unit {
         let bare = |v: &Value| {
-            told(&Value {
+            described(&Value {
                 name: String::new(),
                 ..v.clone()
             })

@@ -15,7 +15,7 @@
 //!
 //! Numbers are rounded to so many digits of the largest load of a block, and compared within one and a half of the last digit:
 //! noise of a solution is below that, a change by a hundredth far above it. Where nothing is proved, in frames that are
-//! undecided, no forces are told.
+//! undecided, no forces are reported.
 
 mod compare;
 mod read;
@@ -69,17 +69,17 @@ impl Facts {
     ///
     /// ```
     /// use drystone::{Analysis, Scene, snapshot::fact::{DIGITS, Facts}};
-    /// let told = |load: f64| {
+    /// let described = |load: f64| {
     ///     let scene = Scene::from_json(&format!(r#"{{ "drystone": 1, "friction": 0.5,
     ///         "ground": [{{ "polygon": [[0, 0], [9, 0], [9, -1], [0, -1]] }}],
     ///         "blocks": [{{ "id": "a", "polygon": [[1, 0], [4, 0], [4, 2], [1, 2]], "weight": 3 }}],
     ///         "loads": [{{ "block": "a", "force": [0, {}], "at": [2.5, 2] }}] }}"#, -load)).expect("sound");
     ///     Facts::of(&Analysis::of(&scene), DIGITS)
     /// };
-    /// let changes = told(0.0).changes(&told(1.2));
+    /// let changes = described(0.0).changes(&described(1.2));
     /// let words: Vec<&str> = changes.iter().map(|change| change.words.as_str()).collect();
     /// assert!(words.contains(&"interface a–ground: N 3 → 4.2 N, N at its ends 1.5, 1.5 → 2.1, 2.1 N"), "{words:?}");
-    /// assert!(told(1.2).changes(&told(1.2 + 1e-9)).is_empty());
+    /// assert!(described(1.2).changes(&described(1.2 + 1e-9)).is_empty());
     /// ```
     pub fn of(analysis: &Analysis<'_>, digits: usize) -> Facts {
         write::of(analysis, digits)

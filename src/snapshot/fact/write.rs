@@ -141,7 +141,7 @@ fn contact(scene: &Scene, contact: &Contact, proved: bool, places: &Places) -> F
     }
 }
 
-/// The forces at two points in an order that does not depend on which of the points is told first. No edge of a usual
+/// The forces at two points in an order that does not depend on which of the points is reported first. No edge of a usual
 /// structure has the slope at which the two would tie.
 fn in_order(at: [Point; 2], forces: [f64; 2]) -> [f64; 2] {
     let along = |p: Point| p.x + 0.381_966_011_25 * p.y;

@@ -154,11 +154,11 @@ impl Picture {
         if let Some(animation) = info.animation_control.filter(|a| a.num_frames > 1) {
             return Err(Unreadable::Animation(animation.num_frames));
         }
-        let said = |keyword: &str| {
+        let stated = |keyword: &str| {
             let mut texts = info.uncompressed_latin1_text.iter();
             texts.find(|t| t.keyword == keyword).map(|t| t.text.clone())
         };
-        let (subject, rounding) = (said(SUBJECT), said(ROUNDING));
+        let (subject, rounding) = (stated(SUBJECT), stated(ROUNDING));
         let colours = info.palette.as_deref().unwrap_or_default();
         let rounding = rounding.map(|text| palette::rounding(&text, colours));
         let size = reader.output_buffer_size();
@@ -200,7 +200,7 @@ impl Picture {
         &self.rgba
     }
 
-    /// Whether its table is full, as that of a picture whose colours were rounded, and no rounding is told.
+    /// Whether its table is full, as that of a picture whose colours were rounded, and no rounding is reported.
     pub(super) fn lost_its_note(&self) -> bool {
         let mut colours: Vec<[u8; 4]> = self
             .rgba

@@ -2,9 +2,9 @@
 //!
 //! Our pictures are flat: a few colours cover nearly all of a page, and many hundreds stand along smoothed edges. The first are
 //! kept as they are, so that a changed colour is seen however small the change; the others are gathered in boxes, the box with the
-//! widest channel being cut in half until the table is full, which keeps the largest rounding small. Rounding is told per
-//! colour in the file, as two hexadecimal digits each: a comparison that did not know it would have to be blind by as much
-//! everywhere.
+//! widest channel being cut in half until the table is full, which keeps the largest rounding small. Rounding is reported
+//! per colour in the file, as two hexadecimal digits each: a comparison that did not know it would have to be blind by as
+//! much everywhere.
 
 use std::collections::BTreeMap;
 
@@ -173,8 +173,8 @@ pub(super) fn encode(
     encoder.set_compression(png::Compression::High);
     encoder.set_depth(png::BitDepth::Eight);
     if let Some(subject) = subject {
-        let said = encoder.add_text_chunk(SUBJECT.into(), subject.name().into());
-        said.map_err(failed)?;
+        let stated = encoder.add_text_chunk(SUBJECT.into(), subject.name().into());
+        stated.map_err(failed)?;
     }
     let mut data: Vec<u8>;
     match palette {
@@ -192,8 +192,8 @@ pub(super) fn encode(
                 encoder.set_trns(palette.colours.iter().map(|c| c[3]).collect::<Vec<u8>>());
             }
             if let Some(note) = palette.note() {
-                let said = encoder.add_text_chunk(ROUNDING.into(), note);
-                said.map_err(failed)?;
+                let stated = encoder.add_text_chunk(ROUNDING.into(), note);
+                stated.map_err(failed)?;
             }
             data = Vec::with_capacity(picture.rgba.len());
             for run in picture.rgba.chunk_by(|a, b| a == b) {

@@ -9,7 +9,7 @@ mod band;
 mod spring;
 mod tree;
 
-use super::{Care, Effort, Status, twin};
+use super::{Conditioning, Effort, Status, dual};
 use crate::program::{Column, Force, Program, columns};
 use spring::Springs;
 use tree::{Search, search};
@@ -22,7 +22,7 @@ pub enum Reach {
     /// Only a self-stress from elsewhere makes it.
     OnlyWedged(Squeeze),
     /// Neither was shown.
-    Unclear(Doubt),
+    Undecided(Doubt),
 }
 
 /// The self-stress without which a program does not stand.
@@ -110,11 +110,11 @@ pub fn reach(program: &Program, given: &[[f64; 3]]) -> Reach {
     }
     let other = |along: &f64| Springs::around(program, &given, *along).settled().is_ok();
     if ALONG.iter().any(other) {
-        return Reach::Unclear(Doubt::Stiffness);
+        return Reach::Undecided(Doubt::Stiffness);
     }
     match found {
         Search::NoRest(cases) => Reach::OnlyWedged(squeeze(program, motion, cases)),
-        _ => Reach::Unclear(Doubt::NotFound),
+        _ => Reach::Undecided(Doubt::NotFound),
     }
 }
 
@@ -137,10 +137,10 @@ fn squeeze(program: &Program, motion: Vec<f64>, cases: usize) -> Squeeze {
         _ => 0.0,
     };
     let mut effort = Effort::default();
-    let pressed = twin(
-        &program.need,
+    let pressed = dual(
+        &program.loads,
         &columns(program),
-        Care::Full,
+        Conditioning::Full,
         &mut effort,
         cost,
     );
@@ -148,7 +148,7 @@ fn squeeze(program: &Program, motion: Vec<f64>, cases: usize) -> Squeeze {
         motion,
         contacts,
         presses_nothing,
-        least: (pressed.status == Status::Solved).then_some(pressed.aim),
+        least: (pressed.status == Status::Solved).then_some(pressed.objective),
         bound: pressed.y.iter().map(|v| -v).collect(),
         cases,
     }

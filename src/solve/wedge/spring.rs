@@ -64,7 +64,7 @@ pub(super) struct Rest {
 }
 
 /// One component of what a robot gives. It yields about what it is asked to give, as far as its limits allow, so that
-/// forces known to some digits need no more of them to balance.
+/// forces known to some digits require no more of them to balance.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Grip {
     /// The component.
@@ -260,7 +260,7 @@ impl<'a> Springs<'a> {
 
     /// What contacts must give beside what robots are asked to, or give at their limits.
     fn asked(&self, pattern: &Pattern) -> Vec<f64> {
-        let mut asked = self.program.need.clone();
+        let mut asked = self.program.loads.clone();
         for (grip, limit) in self.grips.iter().zip(&pattern.limits) {
             let given = if *limit == 0.0 {
                 grip.given
@@ -274,7 +274,7 @@ impl<'a> Springs<'a> {
 
     /// What the springs and springs of stiffness `ground` to the ground leave unbalanced at given displacements.
     fn off(&self, u: &[f64], ground: f64) -> f64 {
-        let mut rest = self.program.need.clone();
+        let mut rest = self.program.loads.clone();
         for grip in &self.grips {
             let force = (grip.given - grip.column.dot(u)).clamp(-grip.limit, grip.limit);
             grip.column.add_to(&mut rest, -force);
@@ -404,7 +404,7 @@ impl<'a> Springs<'a> {
 
     /// What forces leave unbalanced.
     fn left(&self, rest: &Rest) -> Vec<f64> {
-        let mut left = self.program.need.clone();
+        let mut left = self.program.loads.clone();
         for (grip, force) in self.grips.iter().zip(&rest.grips) {
             grip.column.add_to(&mut left, -force);
         }
@@ -421,7 +421,7 @@ impl<'a> Springs<'a> {
     fn sizes(&self, rest: &Rest) -> Vec<(f64, f64)> {
         let own = self
             .program
-            .need
+            .loads
             .chunks(3)
             .map(|r| (r.iter().fold(0.0, |m: f64, v| m.max(v.abs())), 0.0));
         let mut sizes: Vec<(f64, f64)> = own.collect();
@@ -500,7 +500,7 @@ impl<'a> Springs<'a> {
     /// The rest reached as springs to the ground soften until they carry nothing; else the way they go at the end,
     /// largest displacement 1.
     pub(super) fn settled(&self) -> Result<Rest, Vec<f64>> {
-        let mut u = vec![0.0; self.program.need.len()];
+        let mut u = vec![0.0; self.program.loads.len()];
         let mut pattern = self.whole();
         let mut ground = 1.0;
         for _ in 0..SOFTENINGS {

@@ -8,7 +8,7 @@
 
 use super::spring::{Pattern, Slide, Springs};
 use crate::program::{Column, Conic, Program};
-use crate::solve::{Care, Status, TOLERANCE, solve};
+use crate::solve::{Conditioning, Status, TOLERANCE, solve};
 
 /// Cases looked at before the question stays open.
 const MOST_CASES: usize = 1500;
@@ -36,7 +36,7 @@ pub(super) enum Search {
     Open,
 }
 
-/// One case: what is said of each point and each face.
+/// One case: what is reported of each point and each face.
 #[derive(Clone)]
 struct Case {
     pressed: Vec<Option<bool>>,
@@ -62,7 +62,7 @@ pub(super) fn search(program: &Program) -> Search {
         if seen > MOST_CASES || rows > MOST_ROWS {
             return Search::Open;
         }
-        let answer = solve(&conic, TOLERANCE, Care::Full);
+        let answer = solve(&conic, TOLERANCE, Conditioning::Full);
         let split = match answer.status {
             Status::Infeasible if contradicts(&conic, &answer.z, program) => {
                 ruled_out += 1;
@@ -70,7 +70,7 @@ pub(super) fn search(program: &Program) -> Search {
             }
             Status::Solved => {
                 let at = |k: usize| answer.x[k];
-                let u: Vec<f64> = (0..program.need.len()).map(at).collect();
+                let u: Vec<f64> = (0..program.loads.len()).map(at).collect();
                 // Robots yield about what they are asked to give; here they give it where they are.
                 let given = layout.given(&answer.x).iter().zip(&springs.grips);
                 let given: Vec<f64> = given.map(|(f, g)| f + g.column.dot(&u)).collect();
@@ -138,11 +138,11 @@ impl Case {
     /// A pattern with what the case says put in.
     fn imposed(&self, pattern: &Pattern) -> Pattern {
         let mut imposed = pattern.clone();
-        for (to, said) in imposed.pressed.iter_mut().zip(&self.pressed) {
-            *to = said.unwrap_or(*to);
+        for (to, given) in imposed.pressed.iter_mut().zip(&self.pressed) {
+            *to = given.unwrap_or(*to);
         }
-        for (to, said) in imposed.slides.iter_mut().zip(&self.slides) {
-            *to = said.unwrap_or(*to);
+        for (to, given) in imposed.slides.iter_mut().zip(&self.slides) {
+            *to = given.unwrap_or(*to);
         }
         imposed
     }
@@ -176,10 +176,10 @@ impl Rows {
 
 impl Layout {
     fn of(springs: &Springs) -> Layout {
-        let points = springs.program.need.len();
+        let points = springs.program.loads.len();
         let faces = points + springs.points.len();
         let grips = faces + springs.tangents.len();
-        let sum: f64 = springs.program.need.iter().map(|v| v.abs()).sum();
+        let sum: f64 = springs.program.loads.iter().map(|v| v.abs()).sum();
         Layout {
             points,
             faces,
@@ -196,9 +196,9 @@ impl Layout {
 
     /// A case as a problem for the solver: the least sum of N and N + g at the points of which it says nothing.
     fn posed(&self, springs: &Springs, case: &Case) -> Conic {
-        let need = &springs.program.need;
+        let loads = &springs.program.loads;
         let (mut equal, mut less) = (Rows::default(), Rows::default());
-        let mut balance = vec![Vec::new(); need.len()];
+        let mut balance = vec![Vec::new(); loads.len()];
         let mut enter = |column: &Column, unknown: usize| {
             column
                 .entries()
@@ -219,7 +219,7 @@ impl Layout {
             .enumerate()
             .for_each(|(k, g)| enter(&g.column, self.grips + k));
         for (row, entries) in balance.into_iter().enumerate() {
-            equal.add(entries, need[row]);
+            equal.add(entries, loads[row]);
         }
         let mut linear = vec![0.0; self.end];
         let mut pressing = vec![Vec::new(); springs.tangents.len()];
@@ -281,8 +281,11 @@ impl Layout {
             }
         }
         if springs.grips.is_empty() {
-            // The loads' work, −need·u, is Σ N² + Σ |T s| and not negative.
-            less.add(need.iter().copied().enumerate().filter(|e| e.1 != 0.0), 0.0);
+            // The loads' work, −loads·u, is Σ N² + Σ |T s| and not negative.
+            less.add(
+                loads.iter().copied().enumerate().filter(|e| e.1 != 0.0),
+                0.0,
+            );
         }
         let equalities = equal.bound.len();
         let rows = less
@@ -373,7 +376,7 @@ fn corrected(conic: &Conic, z: &[f64]) -> Option<Vec<f64>> {
         bound: off.iter().map(|v| -v / size).collect(),
         equalities: conic.unknowns,
     };
-    let answer = solve(&correction, TOLERANCE, Care::Full);
+    let answer = solve(&correction, TOLERANCE, Conditioning::Full);
     if answer.x.len() != rows.len() {
         return None;
     }
@@ -410,16 +413,16 @@ fn rules_out(conic: &Conic, z: &[f64], program: &Program) -> bool {
         .collect();
     let gain = -conic.bound.iter().zip(&z).map(|(b, z)| b * z).sum::<f64>();
     let error: f64 = product(conic, &z).iter().map(|v| v.abs()).sum();
-    let need = &program.need;
-    let loads: f64 = need.iter().map(|v| v.abs()).sum();
+    let loads = &program.loads;
+    let total: f64 = loads.iter().map(|v| v.abs()).sum();
     // A verdict of "stable" allows each block a small part of its load; so the contradiction must be a larger one.
-    let band: f64 = need
+    let band: f64 = loads
         .chunks(3)
         .zip(z.chunks(3))
         .map(|(load, z)| {
-            let own = load.iter().fold(1e-6 * loads, |m: f64, v| m.max(v.abs()));
+            let own = load.iter().fold(1e-6 * total, |m: f64, v| m.max(v.abs()));
             own * z.iter().map(|v| v.abs()).sum::<f64>()
         })
         .sum();
-    gain > BAND * band && error * FAR * loads < gain
+    gain > BAND * band && error * FAR * total < gain
 }

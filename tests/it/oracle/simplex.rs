@@ -81,7 +81,7 @@ struct Table {
     /// What each row is solved for.
     basis: Vec<Basic>,
     /// What to lessen: reduced costs over `denominator`, minus the value last.
-    aim: Vec<IBig>,
+    objective: Vec<IBig>,
     denominator: IBig,
     width: usize,
 }
@@ -139,7 +139,7 @@ impl Table {
         Table {
             rows,
             basis,
-            aim: Vec::new(),
+            objective: Vec::new(),
             denominator: IBig::ONE,
             width,
         }
@@ -147,15 +147,15 @@ impl Table {
 
     /// Drives the artificial unknowns to 0, if that can be.
     fn reach_feasible(&mut self) -> bool {
-        self.aim = vec![IBig::ZERO; self.width];
+        self.objective = vec![IBig::ZERO; self.width];
         for (row, basic) in self.rows.iter().zip(&self.basis) {
             if *basic == Basic::Artificial {
-                for (sum, value) in self.aim.iter_mut().zip(row) {
+                for (sum, value) in self.objective.iter_mut().zip(row) {
                     *sum -= value;
                 }
             }
         }
-        while !self.aim[self.width - 1].is_zero() {
+        while !self.objective[self.width - 1].is_zero() {
             if !self.step() {
                 return false;
             }
@@ -170,10 +170,10 @@ impl Table {
         let whole = |v: &RBig| (v * &RBig::from(common.clone())).into_parts().0;
         let mut cost: Vec<IBig> = costs.iter().map(whole).collect();
         cost.resize(self.width, IBig::ZERO);
-        self.aim = cost.iter().map(|c| c * &self.denominator).collect();
+        self.objective = cost.iter().map(|c| c * &self.denominator).collect();
         for (row, basic) in self.rows.iter().zip(&self.basis) {
             if let Basic::Unknown(k) = basic {
-                for (reduced, value) in self.aim.iter_mut().zip(row) {
+                for (reduced, value) in self.objective.iter_mut().zip(row) {
                     *reduced -= &cost[*k] * value;
                 }
             }
@@ -217,11 +217,11 @@ impl Table {
     /// One step of the simplex method with gain, after as many without as it takes. False at the optimum.
     fn step(&mut self) -> bool {
         for idle in 0.. {
-            let dear = |k: &usize| self.aim[*k] < IBig::ZERO;
+            let dear = |k: &usize| self.objective[*k] < IBig::ZERO;
             let entering = if idle < PATIENCE {
                 (0..self.width - 1)
                     .filter(dear)
-                    .min_by(|a, b| self.aim[*a].cmp(&self.aim[*b]))
+                    .min_by(|a, b| self.objective[*a].cmp(&self.objective[*b]))
             } else {
                 (0..self.width - 1).find(dear)
             };
@@ -256,7 +256,7 @@ impl Table {
         let line = std::mem::take(&mut self.rows[r]);
         let pivot = line[k].clone();
         // The pivot's own row was taken out and is empty.
-        let others = self.rows.iter_mut().chain([&mut self.aim]);
+        let others = self.rows.iter_mut().chain([&mut self.objective]);
         for row in others.filter(|row| !row.is_empty()) {
             let factor = std::mem::take(&mut row[k]);
             for (j, value) in row.iter_mut().enumerate() {

@@ -18,12 +18,12 @@ pub fn single(program: &Program) -> Option<Amounts> {
     {
         return None;
     }
-    let need = Vector::new(program.need[0], program.need[1]);
+    let loads = Vector::new(program.loads[0], program.loads[1]);
     let tangent = quarter_turn(contact.normal);
-    let (sum, friction) = (contact.normal.dot(&need), tangent.dot(&need));
+    let (sum, friction) = (contact.normal.dot(&loads), tangent.dot(&loads));
     let arms = contact.on.1;
     let moments = arms.map(|arm| cross(arm, contact.normal));
-    let moment = program.need[2] - cross(arms[0], tangent) * friction;
+    let moment = program.loads[2] - cross(arms[0], tangent) * friction;
     let spread = moments[1] - moments[0];
     // With kernel 1 both points are one, and only the program can tell whether the moment fits.
     if spread.abs() < 1e-9 {

@@ -3,9 +3,9 @@
 
 use super::Attempt;
 use crate::program::Program;
-use crate::solve::{Manner, balance_in};
+use crate::solve::{SolverSettings, balance_in};
 
-pub(super) fn attempt(program: &Program, settings: Manner) -> Attempt {
+pub(super) fn attempt(program: &Program, settings: SolverSettings) -> Attempt {
     let solved = balance_in(program, settings);
     Attempt {
         forces: solved.forces,

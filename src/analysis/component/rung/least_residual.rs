@@ -3,10 +3,10 @@
 
 use super::Attempt;
 use crate::program::Program;
-use crate::solve::{Effort, leftover};
+use crate::solve::{Effort, least_residual};
 
 pub(super) fn attempt(program: &Program) -> Attempt {
-    match leftover(program) {
+    match least_residual(program) {
         Some(left) => Attempt {
             forces: Some(left.forces),
             motion: Some(left.motion),

@@ -3,9 +3,9 @@
 
 use super::Attempt;
 use crate::program::Program;
-use crate::solve::{Manner, stick_in};
+use crate::solve::{SolverSettings, stick_in};
 
-pub(super) fn attempt(program: &Program, settings: Manner) -> Attempt {
+pub(super) fn attempt(program: &Program, settings: SolverSettings) -> Attempt {
     let stuck = stick_in(program, settings);
     Attempt {
         forces: (stuck.balanced == Some(true)).then(|| stuck.forces.clone()),

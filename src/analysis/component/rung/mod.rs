@@ -8,7 +8,7 @@ mod least_sticking;
 pub(super) use closed_form::single;
 
 use crate::program::Program;
-use crate::solve::{Amounts, Care, Effort, Manner, Stuck};
+use crate::solve::{Amounts, Conditioning, Effort, SolverSettings, Stuck};
 
 /// How a component was decided, in the order of trust.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -50,9 +50,9 @@ pub(in crate::analysis) enum Place {
 /// One program that may decide: the program of the least …
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Rung {
-    Force(Manner),
+    Force(SolverSettings),
     Residual,
-    Sticking(Manner),
+    Sticking(SolverSettings),
 }
 
 /// What a rung found, in pure numbers and without a proof.
@@ -84,7 +84,7 @@ impl Rung {
     /// physical residual.
     ///
     /// What is known to be at its edge begins with the least residual: the least force would end without a status there.
-    pub fn ladder(settings: &[Manner], place: Place) -> Vec<Rung> {
+    pub fn ladder(settings: &[SolverSettings], place: Place) -> Vec<Rung> {
         let mut rungs: Vec<Rung> = settings.iter().copied().map(Rung::Force).collect();
         let residual = match place {
             Place::Anywhere => 1.min(rungs.len()),
@@ -119,7 +119,9 @@ impl Rung {
 
     pub fn method(&self) -> Method {
         match self {
-            Rung::Force(settings) if settings.care == Care::Quick => Method::LeastForce,
+            Rung::Force(settings) if settings.conditioning == Conditioning::Plain => {
+                Method::LeastForce
+            }
             Rung::Force(_) => Method::LeastForceRefined,
             Rung::Residual => Method::LeastResidual,
             Rung::Sticking(_) => Method::LeastSticking,

@@ -19,7 +19,7 @@ pub(super) enum Value {
 
 impl Value {
     /// The value as a sentence has it.
-    pub(super) fn said(&self) -> String {
+    pub(super) fn stated(&self) -> String {
         match self {
             Value::Number(number) => format!("the number {number}"),
             Value::Text(text) if text.chars().count() <= 30 => format!("the text {text:?}"),

@@ -1,4 +1,4 @@
-//! What a hovering mouse and a screen reader are told of blocks and arrows: their numbers, with units.
+//! What a hovering mouse and a screen reader are given of blocks and arrows: their numbers, with units.
 
 use super::arrow::{ArrowKind, ForceArrow, TurnArrow, TurnKind};
 use super::stage::Stage;

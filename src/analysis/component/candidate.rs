@@ -1,4 +1,4 @@
-//! Forces or a motion that somebody has a hunch of, and the verdict that they prove.
+//! Forces or a motion that somebody proposes, and the verdict that they prove.
 
 use super::Case;
 use crate::analysis::{Options, Verdict};
@@ -10,15 +10,15 @@ use crate::scene::BlockId;
 use crate::solve::Amounts;
 
 /// Judges what was found for a whole assembly.
-pub(in crate::analysis) struct Hunch<'a> {
+pub(in crate::analysis) struct Candidate<'a> {
     case: Case<'a>,
     options: Options,
 }
 
-impl<'a> Hunch<'a> {
+impl<'a> Candidate<'a> {
     /// For an assembly whose amounts and velocities are in the numbers of a scale.
-    pub fn of(assembly: &'a Assembly, scale: Scale, options: Options) -> Hunch<'a> {
-        Hunch {
+    pub fn of(assembly: &'a Assembly, scale: Scale, options: Options) -> Candidate<'a> {
+        Candidate {
             case: Case {
                 scale,
                 ..Case::of(assembly, options)

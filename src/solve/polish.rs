@@ -1,12 +1,12 @@
 //! A motion freed from the solver's error: every contact opens or stays as it is, to the last bit or by a hair.
 //!
 //! A motion from an interior-point method violates contacts by a billionth of its speed, and forces of a billion loads
-//! could use that. So the violations are blown up to size 1 and the shortest change that undoes them is sought, which
+//! could use that. So the violations are scaled up to size 1 and the shortest change that undoes them is sought, which
 //! gains the solver's nine digits once more. Where nothing is wedged every contact can open at once, and the change asks
 //! for a little of that: then no rounding is left to doubt. Where something is, contacts that cannot open stay closed to
 //! rounding.
 
-use super::{Care, Effort, Status, careful};
+use super::{Conditioning, Effort, Status, solved_with_retry};
 use crate::program::{Column, Force, Program, columns, shortest};
 
 /// How far contacts are opened, in parts of the fastest speed: beyond the rounding of a speed, and far below what matters.
@@ -25,13 +25,13 @@ const ROUNDED: f64 = 16.0 * f64::EPSILON;
 const ROUNDS: usize = 5;
 
 /// A grip whose limit is so many times the heaviest load holds as if it had none.
-const LAVISH: f64 = 1e4;
+const NON_BINDING: f64 = 1e4;
 
 /// The motion near a given one, of fastest speed about 1, that no contact can object to, if one is found.
 ///
 /// A motion that needs its violations, such as that of a flat wedge into its notch, loses its power by the change.
-pub fn opened(program: &Program, motion: &[f64], effort: &mut Effort) -> Option<Vec<f64>> {
-    let firm = LAVISH * program.need.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+pub fn polished(program: &Program, motion: &[f64], effort: &mut Effort) -> Option<Vec<f64>> {
+    let firm = NON_BINDING * program.loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     let (mut held, mut contacts) = (Vec::new(), Vec::new());
     for column in columns(program) {
         match column.force {
@@ -81,7 +81,7 @@ fn changed(
             }
         }
         let conic = shortest(motion.len(), &rows, held.len());
-        let answer = careful(&conic, Care::Quick, effort);
+        let answer = solved_with_retry(&conic, Conditioning::Plain, effort);
         if answer.status != Status::Solved {
             return (hair == 0.0 && round > 0).then_some(motion);
         }
