@@ -76,7 +76,16 @@ fn the_files_of_figure_form_no_circle_and_its_parts_know_no_kind() {
     assert!(uses.len() > 30, "{}", uses.len());
     assert_eq!(circle(&uses), None);
     for part in [
-        "label", "legend", "layout", "panel", "pen", "stage", "told", "view", "unit", "apart",
+        "label",
+        "legend",
+        "layout",
+        "panel",
+        "pen",
+        "stage",
+        "description",
+        "view",
+        "unit",
+        "apart",
         "fill",
     ] {
         for barred in ["kind", "strip", "draw"] {
