@@ -287,6 +287,13 @@ pub(crate) fn entries(stage: &Stage<'_>, unit: f64) -> Vec<Entry> {
             .fold(0.0, f64::max);
         entries.extend(scale(newtons, unit, stage.options));
     }
+    let scale_of_page = unit / stage.unit;
+    let is_seen = |a: &ForceArrow| a.reach().norm() * scale_of_page >= LEAST_SEEN;
+    // Where colours tell the forces, or arrows are too small to be seen, there are none to explain.
+    let is_drawn = |kind: fn(ArrowKind) -> bool| {
+        let mut arrows = stage.marks.iter().flat_map(|m| &m.arrows);
+        !stage.dusty(scale_of_page) && arrows.any(|a| kind(a.kind) && is_seen(a))
+    };
     let mut seen: Vec<(Colour, String)> = Vec::new();
     let mut clash = false;
     for (place, id) in scene
@@ -303,22 +310,18 @@ pub(crate) fn entries(stage: &Stage<'_>, unit: f64) -> Vec<Entry> {
     let short = seen.iter().all(|s| s.1.chars().count() <= 12);
     if !clash && short && !seen.is_empty() && seen.len() <= 6 {
         entries.push(Entry::Blocks(seen));
-    } else if seen.len() > 1 && unit >= TEXTURE {
+    } else if seen.len() > 1 && is_drawn(|kind| !kind.is_failure()) {
         entries.push(Entry::Colours(theme.arrows.clone()));
     }
-    if !stage.options.printed() && unit >= TEXTURE {
-        let weights = stage.marks.iter().flat_map(|m| &m.arrows);
-        if weights.into_iter().any(|a| a.kind == ArrowKind::Weight) {
-            let words = "weight, from the centroid".to_owned();
-            entries.push(Entry::Sign(weight_sign, SAMPLE, words));
-        }
+    // In small figures weights have no ring at their tails, by which they would be told from other forces.
+    if !stage.options.printed() && unit >= TEXTURE && is_drawn(|kind| kind == ArrowKind::Weight) {
+        let words = "weight, from the centroid".to_owned();
+        entries.push(Entry::Sign(weight_sign, SAMPLE, words));
     }
     entries.extend(loads(stage));
     entries.extend(robots(stage));
-    let scale = unit / stage.unit;
-    let seen = |a: &ForceArrow| a.reach().norm() * scale >= LEAST_SEEN;
     let missing = stage.marks.iter().any(|m| {
-        m.arrows.iter().any(|a| a.kind.is_failure() && seen(a))
+        m.arrows.iter().any(|a| a.kind.is_failure() && is_seen(a))
             || m.turns
                 .iter()
                 .any(|t| matches!(t.kind, TurnKind::Missing(_)))
@@ -328,7 +331,7 @@ pub(crate) fn entries(stage: &Stage<'_>, unit: f64) -> Vec<Entry> {
     }
     let small = |kind: fn(ArrowKind) -> bool| {
         let mut arrows = stage.marks.iter().flat_map(|m| &m.arrows);
-        arrows.any(|a| kind(a.kind) && description::dotted(a, seen(a)))
+        arrows.any(|a| kind(a.kind) && description::dotted(a, is_seen(a)))
     };
     if small(|kind| kind == ArrowKind::Load) {
         let words = "load too small for an arrow".to_owned();
