@@ -68,29 +68,11 @@
 
 // Blank lines keep the order of reading: the formatter would sort them.
 
-pub mod text;
-
-pub mod geometry;
-
 pub mod scene;
 
 pub mod starter;
 
 pub mod import;
-
-pub mod interface;
-
-pub mod assembly;
-
-pub mod effect;
-
-pub mod program;
-
-pub mod solve;
-
-pub mod proof;
-
-pub mod resultant;
 
 pub mod analysis;
 
@@ -102,10 +84,6 @@ pub mod figure;
 
 pub mod output;
 
-pub mod chart;
-
-pub mod study;
-
 pub mod report;
 
 pub mod batch;
@@ -114,7 +92,13 @@ pub mod session;
 
 pub mod snapshot;
 
-pub mod cli;
+#[doc(hidden)]
+pub mod internals;
+
+// Every room is named by `crate::room`, public or not.
+use internals::{
+    assembly, chart, cli, effect, geometry, interface, program, proof, resultant, solve, study, text,
+};
 
 pub use analysis::Analysis;
 pub use scene::Scene;

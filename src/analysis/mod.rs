@@ -21,13 +21,18 @@ use std::time::Instant;
 use rayon::prelude::*;
 
 use crate::assembly::Assembly;
+#[doc(inline)]
 pub use crate::effect::EffectReport;
 use crate::effect::wedging::{self, Wedging};
 use crate::effect::{self, Situation};
 use crate::geometry::{Point, Vector};
-use crate::interface::{Interface, Interfaces};
+use crate::interface::Interfaces;
+#[doc(inline)]
+pub use crate::interface::{ContactKind, Interface};
 use crate::program::Count;
+#[doc(inline)]
 pub use crate::proof::{Demand, Motion, Proof};
+#[doc(inline)]
 pub use crate::resultant::Resultant;
 use crate::resultant::{friction_used, of as resultant_of};
 use crate::scene::{BlockId, BodyId, Note, RobotId, Scene};

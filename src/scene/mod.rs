@@ -38,7 +38,10 @@ pub use note::{Note, NoteCode};
 pub use problem::{Code, Problem, Problems};
 pub use starter::starter;
 
-use crate::geometry::{Lattice, Tolerance, Vector};
+#[doc(inline)]
+pub use crate::geometry::{
+    Bounds, Cell, Flaw, Half, Lattice, LatticeKind, Point, Polygon, Tolerance, Vector,
+};
 
 /// A structure to be examined, checked.
 #[derive(Clone, Debug)]

@@ -276,7 +276,7 @@ fn faults_of(path: &str, text: &str) -> Vec<String> {
     if EMPTY_NAMES.contains(&stem) || EMPTY_NAMES.contains(&own) {
         faults.push(format!("{path}: the name says nothing about what it makes"));
     }
-    if own != "lib" && own != "main" {
+    if !matches!(own, "lib" | "main" | "internals") {
         match ROOMS.iter().find(|r| r.0 == own) {
             None => faults.push(format!("{path}: {own} is no room of the house")),
             Some((_, allowed)) => {

@@ -6,8 +6,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use drystone::report::result::{Layout, Timing, to_json};
-use drystone::study::{TOLERANCES, study};
-use drystone::text::HIDDEN;
+use drystone::internals::study::{TOLERANCES, study};
+use drystone::internals::text::HIDDEN;
 use drystone::{Analysis, Scene, figure, output, report};
 use pulldown_cmark::{Event, Options, Parser, Tag};
 use serde_json::{Value, json};
@@ -213,7 +213,7 @@ fn begun(markdown: &str) -> Vec<String> {
 #[test]
 fn markdown_is_words_and_a_book_keeps_them_in_its_figure() {
     for hostile in HOSTILE {
-        let words = drystone::text::markdown(hostile);
+        let words = drystone::internals::text::markdown(hostile);
         assert_eq!(
             begun(&words),
             Vec::<String>::new(),
