@@ -30,11 +30,14 @@ pub mod proof;
 #[path = "resultant/mod.rs"]
 pub mod resultant;
 
+#[cfg(feature = "report")]
 #[path = "chart/mod.rs"]
 pub mod chart;
 
+#[cfg(feature = "report")]
 #[path = "study/mod.rs"]
 pub mod study;
 
+#[cfg(feature = "cli")]
 #[path = "cli/mod.rs"]
 pub mod cli;

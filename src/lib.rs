@@ -72,6 +72,7 @@ pub mod scene;
 
 pub mod starter;
 
+#[cfg(feature = "import")]
 pub mod import;
 
 pub mod analysis;
@@ -90,15 +91,18 @@ pub mod batch;
 
 pub mod session;
 
+#[cfg(feature = "snapshot")]
 pub mod snapshot;
 
 #[doc(hidden)]
 pub mod internals;
 
 // Every room is named by `crate::room`, public or not.
-use internals::{
-    assembly, chart, cli, effect, geometry, interface, program, proof, resultant, solve, study, text,
-};
+#[cfg(feature = "cli")]
+use internals::cli;
+use internals::{assembly, effect, geometry, interface, program, proof, resultant, solve, text};
+#[cfg(feature = "report")]
+use internals::{chart, study};
 
 pub use analysis::Analysis;
 pub use scene::Scene;

@@ -18,6 +18,7 @@ mod wedged;
 use std::collections::BTreeMap;
 use std::time::Instant;
 
+#[cfg(feature = "parallel")]
 use rayon::prelude::*;
 
 use crate::assembly::Assembly;
@@ -307,11 +308,14 @@ fn examined(situation: &Situation, options: Options, known: &mut Known) -> Frame
         solved(&components[*k], options)
     };
     // Many small components are worth the threads; the order of the results is that of the components either way.
+    #[cfg(feature = "parallel")]
     let findings: Vec<Findings> = if fresh.len() > 16 {
         fresh.par_iter().map(one).collect()
     } else {
         fresh.iter().map(one).collect()
     };
+    #[cfg(not(feature = "parallel"))]
+    let findings: Vec<Findings> = fresh.iter().map(one).collect();
     let effort = findings
         .iter()
         .fold(Effort::default(), |sum, f| sum.and(f.effort));

@@ -29,7 +29,8 @@ use crate::figure;
 use crate::output::file::Existing;
 use crate::output::fonts::Fonts;
 use crate::report::result::word;
-use crate::scene::{self, BlockId, Scene};
+use crate::scene::{BlockId, Scene};
+use crate::text::nearest;
 
 /// Draw scenes with their forces, and what fails, as SVG, PNG, PDF or TikZ
 #[derive(Debug, Args)]
@@ -406,7 +407,7 @@ impl Render {
         let number = scene.blocks.iter().position(|b| b.id == name);
         number.map(BlockId).ok_or_else(|| {
             let known = scene.blocks.iter().map(|b| b.id.as_str());
-            let near = scene::nearest(name, known)
+            let near = nearest(name, known)
                 .map_or_else(String::new, |near| format!("; did you mean {near}?"));
             format!("it has no block {name}{near}")
         })

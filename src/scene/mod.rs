@@ -29,11 +29,11 @@ pub use body::{
     Block, BlockId, Body, BodyId, Grip, Ground, Limits, Load, Material, Rgb, Robot, RobotId,
 };
 pub use collision::Penetration;
+#[cfg(feature = "schema")]
 pub use format::schema;
 pub use frame::{Frame, Hold, Plan};
 pub(crate) use heal::size;
 pub use heal::{Healed, ToleranceSource};
-pub(crate) use name::nearest;
 pub use note::{Note, NoteCode};
 pub use problem::{Code, Problem, Problems};
 pub use starter::starter;

@@ -4,6 +4,10 @@
 //! escape sequences of terminals, marks that turn the order of reading round, markup, formulas of spreadsheets. After these
 //! functions it is words on one line and nothing else. What cannot be seen becomes [`HIDDEN`], so that it is seen.
 
+mod spelling;
+
+pub use spelling::nearest;
+
 /// Stands for a character that cannot be seen and would do something.
 pub const HIDDEN: char = '\u{fffd}';
 

@@ -10,8 +10,8 @@ use drystone::internals::effect::{Situation, assemble};
 use drystone::internals::interface::Interfaces;
 use drystone::internals::program::{Program, Scale};
 use drystone::internals::proof::{self, Forces, Held, Pressed};
-use drystone::scene::format::{BlockEntry, GroundEntry, Pair, SceneFile};
 use drystone::internals::solve::{Conditioning, balance};
+use drystone::scene::format::{BlockEntry, GroundEntry, Pair, SceneFile};
 use drystone::{Analysis, Scene, figure, output};
 
 #[global_allocator]

@@ -10,8 +10,8 @@ use divan::{Bencher, black_box};
 use drystone::internals::effect::{Situation, assemble};
 use drystone::internals::interface::Interfaces;
 use drystone::internals::program::{Program, Scale, source};
-use drystone::scene::format::SceneFile;
 use drystone::internals::solve::{Conditioning, TOLERANCE, balance, solve};
+use drystone::scene::format::SceneFile;
 use drystone::starter::Wall;
 use drystone::{Analysis, Scene, figure, output};
 

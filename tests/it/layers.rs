@@ -36,7 +36,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("starter", &["scene"]),
     ("wording", &["geometry", "scene", "analysis"]),
     ("import", &["text", "geometry", "scene"]),
-    ("drawing", &["geometry"]),
+    ("drawing", &["text", "geometry"]),
     (
         "figure",
         &[
@@ -153,7 +153,6 @@ const DOORS: &[(&str, &[&str])] = &[
         "toml",
         &["drawing/style/format/value.rs", "snapshot/setting.rs"],
     ),
-    ("strsim", &["drawing/style/format.rs"]),
     ("schemars", &["scene/format.rs", "scene/format/"]),
     ("clarabel", &["solve/"]),
     (

@@ -5,9 +5,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use drystone::report::result::{Layout, Timing, to_json};
 use drystone::internals::study::{TOLERANCES, study};
 use drystone::internals::text::HIDDEN;
+use drystone::report::result::{Layout, Timing, to_json};
 use drystone::{Analysis, Scene, figure, output, report};
 use pulldown_cmark::{Event, Options, Parser, Tag};
 use serde_json::{Value, json};
