@@ -104,6 +104,10 @@ use internals::{assembly, effect, geometry, interface, program, proof, resultant
 #[cfg(feature = "report")]
 use internals::{chart, study};
 
+/// The nalgebra of [`scene::Point`] and [`scene::Vector`], whose version is part of this crate's interface: another one
+/// comes with another version of this crate.
+pub use nalgebra;
+
 pub use analysis::Analysis;
 pub use scene::Scene;
 

@@ -56,5 +56,6 @@ pub use mark::{arrows, marks};
 pub use option::{ArrowScale, Corners, Fill, ForceStyle, Normalisation, Options};
 pub use ring::ring;
 pub use shapes::shapes;
+#[cfg(feature = "report")]
 pub(crate) use words::letter;
 pub use words::quantity;

@@ -436,6 +436,7 @@ pub struct GripEntry {
     pub at: Option<Pair>,
 }
 
+#[cfg(feature = "schema")]
 const FILL_PATTERN: &str = "^#([0-9a-fA-F]{3}|[0-9a-fA-F]{6})$";
 
 /// What serde makes of a text, for tests of the reading.
