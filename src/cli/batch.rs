@@ -295,6 +295,7 @@ fn problem(code: Code, message: &str, help: &str) -> Problem {
         span: None,
         message: message.into(),
         help: help.into(),
+        place: None,
     }
 }
 

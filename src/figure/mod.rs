@@ -7,6 +7,7 @@
 mod apart;
 mod arrow;
 mod bearing;
+mod broken;
 mod by_colour;
 mod caption;
 mod collapse;
@@ -46,6 +47,7 @@ mod view;
 mod words;
 
 pub use arrow::{ArrowKind, ForceArrow, Head, Marks, TurnArrow, TurnKind};
+pub use broken::broken;
 pub use caption::caption;
 pub use draw::{draw, least_size, pages, panels, split};
 pub use forces::forces;

@@ -20,6 +20,7 @@ mod reading;
 mod resolution;
 mod rounding;
 pub mod shape;
+mod sketch;
 mod source;
 mod starter;
 mod syntax;
@@ -35,7 +36,8 @@ pub use frame::{Frame, Hold, Plan};
 pub(crate) use heal::size;
 pub use heal::{Healed, ToleranceSource};
 pub use note::{Note, NoteCode};
-pub use problem::{Code, Problem, Problems};
+pub use problem::{Code, Place, Problem, Problems};
+pub use sketch::{Sketch, SketchedBody, Spot};
 pub use starter::starter;
 
 #[doc(inline)]

@@ -325,6 +325,7 @@ fn a_report_keeps_words_as_words_in_all_its_forms() {
             span: None,
             message: hostile.into(),
             help: hostile.into(),
+            place: None,
         };
         for form in [Form::Html, Form::Split, Form::Markdown, Form::Json] {
             let piece = |number| Piece::of(&entry, number, form, "r").expect("drawn");
