@@ -373,7 +373,7 @@ impl Render {
     fn drawing(
         &self,
         source: &Source,
-        analysis: &Analysis<'_>,
+        analysis: &Analysis,
         options: &figure::Options,
     ) -> Result<Drawing, Complaint> {
         if let Some(kind) = self.kind.panels() {

@@ -162,7 +162,7 @@ fn marks(sketch: &Sketch) -> (Vec<Marked>, Vec<(Option<usize>, String)>) {
         entries.push((
             Some(number),
             format!(
-                "a gap of at most {} m between {} and {}, which carries nothing.",
+                "A gap of at most {} m between {} and {}, which carries nothing.",
                 digits(gap.distance),
                 name(gap.bodies[0]),
                 name(gap.bodies[1])
@@ -253,7 +253,7 @@ fn structure(
         }
     }
     for body in &sketch.bodies {
-        if let (BodyId::Block(_), Some(name)) = (body.id, name(body, camera, options)) {
+        if let (BodyId::Block(_), Some(name)) = (body.id, name(body, marks, camera, options)) {
             group = group.with(name);
         }
     }
@@ -269,18 +269,25 @@ fn drawn(body: &SketchedBody, camera: &Camera) -> Outline {
     outline
 }
 
-/// A block's name in its middle, where there is room.
-fn name(body: &SketchedBody, camera: &Camera, options: &Options) -> Option<Text> {
+/// A block's name in its middle, or below a mark that is there, where there is room.
+fn name(body: &SketchedBody, marks: &[Marked], camera: &Camera, options: &Options) -> Option<Text> {
     let theme = &options.theme;
     let bounds = Bounds::of(body.rings.iter().flatten().copied())?;
     let (size, rect) = (theme.sizes.name, camera.rect(bounds));
     if width(&body.name, Face::Sans, size) > 0.9 * rect.width || size > 0.8 * rect.height {
         return None;
     }
-    let at = PagePoint::new(
-        rect.at.x + rect.width / 2.0,
-        rect.at.y + rect.height / 2.0 + 0.35 * size,
-    );
+    let middle = PagePoint::new(rect.at.x + rect.width / 2.0, rect.at.y + rect.height / 2.0);
+    let reach = width(&body.name, Face::Sans, size) / 2.0 + 2.0 * DISC;
+    let covered = marks.iter().any(|mark| {
+        let place = camera.place(mark.at);
+        (place.x - middle.x).abs() < reach && (place.y - middle.y).abs() < size
+    });
+    let down = if covered { size + DISC } else { 0.0 };
+    if down + 0.5 * size > rect.height / 2.0 {
+        return None;
+    }
+    let at = middle.moved(0.0, down + 0.35 * size);
     let words = Text::new(at, body.name.clone(), Face::Sans, size, theme.ink);
     Some(words.anchored(Anchor::Middle).with_halo(theme.block, 2.0))
 }

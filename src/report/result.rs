@@ -292,7 +292,7 @@ fn arrow(v: Vector) -> Pair {
 
 impl<'a> Result<'a> {
     fn of(analysis: &'a Analysis, timing: Timing) -> Result<'a> {
-        let scene = analysis.scene;
+        let scene = &analysis.scene;
         let frames = scene.frames.iter().zip(&analysis.frames);
         Result {
             drystone: env!("CARGO_PKG_VERSION"),

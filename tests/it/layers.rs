@@ -161,6 +161,7 @@ const DOORS: &[(&str, &[&str])] = &[
             "output/tree.rs",
             "output/png.rs",
             "output/pdf.rs",
+            "output/svg.rs",
             "output/svg/",
         ],
     ),

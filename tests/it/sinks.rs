@@ -50,7 +50,7 @@ fn scene(hostile: &str) -> String {
 }
 
 /// Every text as a scene of its own, with its analysis.
-fn each(mut check: impl FnMut(&str, &Scene, &Analysis<'_>)) {
+fn each(mut check: impl FnMut(&str, &Scene, &Analysis)) {
     for hostile in HOSTILE {
         let scene =
             Scene::from_json(&scene(hostile)).unwrap_or_else(|e| panic!("{hostile:?}: {e}"));
