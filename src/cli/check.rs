@@ -47,6 +47,9 @@ pub(crate) struct Check {
     /// Leave out notes of what is allowed and seldom meant; a scene silences single ones by "silence": ["code"]
     #[arg(long)]
     no_notes: bool,
+    /// Say below the tables what their words mean
+    #[arg(long, conflicts_with = "json")]
+    explain: bool,
     /// Examine one frame only, by number from 1 or by its letter in the strip
     #[arg(long, value_name = "N")]
     frame: Option<FrameChoice>,
@@ -184,7 +187,9 @@ impl Check {
                     page.append(&noted(&analysis.notes));
                     page.end();
                 }
-                page.ours(table::LIMITS);
+                if self.explain {
+                    page.ours(table::LIMITS);
+                }
             }
             terminal.print(&page)
         };

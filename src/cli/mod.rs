@@ -55,16 +55,16 @@ use crate::cli::ending::Ending;
 use crate::cli::terminal::{Terminal, Voice};
 
 const BEFORE_YOU_TRUST_IT: &str = "\
-A verdict of 'stable' says that a balance of forces exists: for rigid blocks, laid dry (no cohesion), at rest. A balance \
+A verdict of 'stands' says that a balance of forces exists: for rigid blocks, laid dry (no cohesion), at rest. A balance \
 that lives on wedging counts as one.
 
-Exit codes: 0 done and stable, 1 something is unstable, 2 the input or the command line is wrong, 3 something is \
+Exit codes: 0 done and everything stands, 1 something falls, 2 the input or the command line is wrong, 3 something is \
 undecided, 4 the output could not be written. A picture of a falling structure is a success: render, report and shapes \
 end with 0 once it is written, unless --strict.";
 
 /// Does a structure of dry-laid blocks stand, how do the forces run, and a figure that shows it.
 #[derive(Debug, Parser)]
-#[command(name = "drystone", version, arg_required_else_help = true, after_long_help = BEFORE_YOU_TRUST_IT)]
+#[command(name = "drystone", version, arg_required_else_help = true, max_term_width = 80, after_long_help = BEFORE_YOU_TRUST_IT)]
 struct CommandLine {
     #[command(flatten)]
     voice: Voice,

@@ -29,9 +29,9 @@ use crate::drawing::{Drawing, Theme};
 use crate::figure;
 use crate::output::file::Existing;
 use crate::output::fonts::Fonts;
-use crate::report::result::word;
 use crate::scene::{BlockId, Scene};
 use crate::text::nearest;
+use crate::wording::verdict::{counted, plain};
 
 /// Draw scenes with their forces, and what fails, as SVG, PNG, PDF or TikZ
 #[derive(Debug, Args)]
@@ -464,7 +464,7 @@ fn all<T>(results: Vec<Result<T, Complaint>>) -> Result<Vec<T>, Vec<Complaint>> 
     }
 }
 
-/// `6 frames: 5 stable, 1 unstable`.
+/// `6 frames: 5 stand, 1 falls`.
 fn summary(analysis: &Analysis) -> String {
     let count = |verdict| {
         analysis
@@ -476,13 +476,9 @@ fn summary(analysis: &Analysis) -> String {
     let parts: Vec<String> = [Verdict::Stable, Verdict::Unstable, Verdict::Undecided]
         .into_iter()
         .filter(|v| count(*v) > 0)
-        .map(|v| (count(v), word(v)))
-        .map(|(n, word)| {
-            if analysis.frames.len() == 1 {
-                word.into()
-            } else {
-                format!("{n} {word}")
-            }
+        .map(|v| match analysis.frames.len() {
+            1 => plain(v).into(),
+            _ => counted(count(v), v),
         })
         .collect();
     match analysis.frames.len() {

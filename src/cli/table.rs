@@ -10,15 +10,20 @@ use crate::report::result::Timing;
 use crate::scene::Scene;
 use crate::text::heading;
 use crate::wording::number::{digits, duration, letter, tenths};
-use crate::wording::verdict::word;
+use crate::wording::verdict::plain;
 use crate::wording::{failure, margin, proof};
 
-/// What a verdict says and what it does not, for under the tables.
+/// What the columns mean, and what a verdict says and what it does not, for under the tables.
 pub(crate) const LIMITS: &str = "\
-stable    some set of admissible forces balances every block. Rigid blocks, laid dry, at rest; a wedged balance counts.
-forces    sum of all normal, friction and robot forces; sticking: what would have to be glued to make up for the rest
-friction  most of it that is used anywhere; robots: most of a limit that is used
-proof     in parts of the forces on each block; of a motion in parts of the loads of what moves
+stands    some set of admissible forces balances every block. Rigid blocks,
+          laid dry, at rest; a wedged balance counts.
+falls     none does, and a motion shows why.
+forces    sum of all normal, friction and robot forces
+sticking  what would have to be glued to make up for the rest
+friction  most of it that is used anywhere
+robots    most of a limit that is used
+proof     in parts of the forces on each block; of a motion in parts of the
+          loads of what moves
 ";
 
 /// So many failures of a frame are described in words; the figure and the JSON have them all.
@@ -126,7 +131,7 @@ fn row(label: String, frame: &FrameAnalysis, timing: Timing) -> [String; 7] {
     }
     [
         label,
-        word(frame.verdict).into(),
+        plain(frame.verdict).into(),
         format!("{} N", digits(frame.total_force)),
         if is_left_out(frame) {
             "unknown".into()

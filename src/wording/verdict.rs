@@ -8,7 +8,7 @@ use crate::scene::Scene;
 /// Above so many things that are missing the rest is counted in a caption.
 const MOST: usize = 4;
 
-/// The verdict's word, in results as in a person's table.
+/// The verdict's word in results, for programs. People read [`plain`] and [`counted`].
 pub fn word(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Stable => "stable",
@@ -17,13 +17,25 @@ pub fn word(verdict: Verdict) -> &'static str {
     }
 }
 
-/// The same as a figure says it: what the structure does.
+/// The verdict's word for people, in tables, figures and sentences: what the structure does.
 pub fn plain(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Stable => "stands",
         Verdict::Unstable => "falls",
         Verdict::Undecided => "undecided",
     }
+}
+
+/// A number of frames or scenes with one verdict, for people: `1 stands`, `3 fall`.
+pub fn counted(count: usize, verdict: Verdict) -> String {
+    let word = match (verdict, count) {
+        (Verdict::Stable, 1) => "stands",
+        (Verdict::Stable, _) => "stand",
+        (Verdict::Unstable, 1) => "falls",
+        (Verdict::Unstable, _) => "fall",
+        (Verdict::Undecided, _) => "undecided",
+    };
+    format!("{count} {word}")
 }
 
 /// Why a frame does not stand, in few words for below a figure; empty where it does.

@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 
 /// What a stranger may write for a title or a name.
 const HOSTILE: &[&str] = &[
-    "x\n  all     stable    29.43 N       none        0 %   no robot   forces balance to 0e0\n\nnext",
+    "x\n  all     stands    29.43 N       none        0 %   no robot   forces balance to 0e0\n\nnext",
     "x\r  all     stable    29.43 N",
     "x\u{2028}  all  stable\u{2029}y\u{85}z",
     "\u{1b}[31mred\u{1b}]0;title\u{7}\u{9b}2J",

@@ -4,8 +4,10 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
+use crate::analysis::Verdict;
 use crate::cli::ending::Ending;
 use crate::cli::terminal::Terminal;
+use crate::wording::verdict::counted;
 
 /// On a terminal it is reported every so often where nothing is given.
 const OFTEN: Duration = Duration::from_secs(2);
@@ -25,8 +27,8 @@ pub(super) struct Pace<'t> {
     counts: [usize; 4],
 }
 
-/// The words for the kinds of answers, in the order in which they are counted.
-const WORDS: [&str; 4] = ["stable", "unstable", "undecided", "wrong"];
+/// The kinds of answers in the order in which they are counted; what is wrong comes last.
+const VERDICTS: [Verdict; 3] = [Verdict::Stable, Verdict::Unstable, Verdict::Undecided];
 
 impl<'t> Pace<'t> {
     /// From now on.
@@ -85,10 +87,12 @@ impl<'t> Pace<'t> {
             return;
         }
         let seconds = self.start.elapsed().as_secs_f64();
-        let counts = self.counts.iter().zip(WORDS);
-        let counts: Vec<String> = counts
-            .filter(|(count, _)| **count > 0)
-            .map(|(count, word)| format!("{count} {word}"))
+        let counts: Vec<String> = (self.counts.iter().enumerate())
+            .filter(|(_, count)| **count > 0)
+            .map(|(kind, count)| match VERDICTS.get(kind) {
+                Some(verdict) => counted(*count, *verdict),
+                None => format!("{count} wrong"),
+            })
             .collect();
         let done: usize = self.counts.iter().sum();
         let rate = done as f64 / seconds.max(1e-9);

@@ -308,7 +308,7 @@ fn progress_is_told_on_standard_error_where_it_is_asked_for() {
     assert_eq!(lines(&ran.out).len(), 40);
     assert!(ran.err.contains("a second"), "{}", ran.err);
     assert!(ran.err.contains("40 scenes in"), "{}", ran.err);
-    assert!(ran.err.ends_with("40 stable\n"), "{}", ran.err);
+    assert!(ran.err.ends_with("40 stand\n"), "{}", ran.err);
     assert_eq!(bench.run("batch in.ndjson").err, "");
     assert_eq!(bench.run("batch in.ndjson --progress 0.01 --quiet").err, "");
 }

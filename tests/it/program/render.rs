@@ -11,8 +11,7 @@ fn render_ends_well_once_the_picture_is_written_unless_strict() {
     let ran = bench.run("render falls.json -o falls.svg");
     assert_eq!((ran.code, ran.out.as_str()), (0, ""), "{}", ran.err);
     assert!(
-        ran.err
-            .contains("falls.svg: 2 frames: 1 stable, 1 unstable"),
+        ran.err.contains("falls.svg: 2 frames: 1 stands, 1 falls"),
         "{}",
         ran.err
     );

@@ -148,8 +148,20 @@ fn help_tells_commands_limits_and_exit_codes() {
         "shapes",
         "style",
         "completions",
+        "accuracy",
+        "batch",
+        "figures",
+        "import",
+        "man",
+        "mdbook",
+        "new arch",
+        "report",
+        "snapshot",
     ] {
         let ran = bench.run(&format!("{command} --help"));
+        for line in ran.out.lines() {
+            assert!(line.chars().count() <= 80, "{command}: {line}");
+        }
         assert!(
             ran.code == 0 && ran.out.contains("Usage: drystone"),
             "{command}"
