@@ -19,6 +19,7 @@ mod margin;
 mod note;
 mod refusal;
 mod page;
+mod proof;
 mod wedging;
 
 use serde::{Serialize, Serializer};
@@ -31,12 +32,11 @@ pub use key::schema;
 pub use line::{Fields, Picture, Place, UnknownField, line_of, verdict_line};
 use margin::Margins;
 pub use page::{Counts, quoted, report_json};
+use proof::ProofNumbers;
 pub use refusal::{problem_line, refusal};
 use wedging::Wedging;
 
-use crate::analysis::{
-    Analysis, Contact, Failure, FrameAnalysis, Motion as Moved, Proof, RobotForce,
-};
+use crate::analysis::{Analysis, Contact, Failure, FrameAnalysis, Motion as Moved, RobotForce};
 use crate::geometry::{Point, Vector};
 use crate::interface::ContactKind;
 use crate::scene::format::Lines;
@@ -232,30 +232,6 @@ struct Effect<'a> {
     simulated: bool,
     why: &'a str,
     unknowns: usize,
-}
-
-#[derive(Serialize)]
-#[serde(untagged)]
-enum ProofNumbers {
-    Forces {
-        worst_imbalance: Number,
-        worst_share: Number,
-        worst_pull: Number,
-        worst_slip: Number,
-    },
-    Mechanism {
-        power: Number,
-        worst_violation: Number,
-        no_balance_below: Below,
-    },
-}
-
-/// Below which sum of forces, in loads of what moves, none balance: a number, or `"unbounded"` where none do at all.
-#[derive(Serialize)]
-#[serde(untagged)]
-enum Below {
-    Sum(Number),
-    Unbounded(&'static str),
 }
 
 #[derive(Serialize)]
@@ -482,35 +458,6 @@ impl<'a> Missing<'a> {
                 torque: Some(Number(torque)),
                 amount: Number(torque.abs()),
                 ..grip("robot_torque", robot, block, at)
-            },
-        }
-    }
-}
-
-impl ProofNumbers {
-    fn of(proof: Proof) -> ProofNumbers {
-        match proof {
-            Proof::Forces {
-                worst_imbalance,
-                worst_share,
-                worst_pull,
-                worst_slip,
-            } => ProofNumbers::Forces {
-                worst_imbalance: Number(worst_imbalance),
-                worst_share: Number(worst_share),
-                worst_pull: Number(worst_pull),
-                worst_slip: Number(worst_slip),
-            },
-            Proof::Mechanism {
-                power,
-                worst_violation,
-            } => ProofNumbers::Mechanism {
-                power: Number(power),
-                worst_violation: Number(worst_violation),
-                no_balance_below: match proof.rules_out() {
-                    sum if sum.is_finite() => Below::Sum(Number(sum)),
-                    _ => Below::Unbounded("unbounded"),
-                },
             },
         }
     }

@@ -1,13 +1,14 @@
 //! The scene file as it is written: one type per object of the JSON, and the JSON Schema made from them.
 //!
 //! Build a [`SceneFile`] in Rust, or read one; [`crate::scene::Scene::new`] checks it. Nothing here is checked beyond
-//! its type. A key may be left out or be `null` wherever the field is an `Option`. This file and the two below it are
+//! its type. A key may be left out or be `null` wherever the field is an `Option`. This file and those below it are
 //! the only ones of the room that name serde, serde_json and schemars.
 
 mod lines;
 mod map;
 #[cfg(feature = "schema")]
 mod schema;
+mod step;
 
 #[cfg(feature = "schema")]
 use schemars::JsonSchema;
@@ -17,6 +18,7 @@ pub(crate) use lines::Lines;
 pub use map::Map;
 #[cfg(feature = "schema")]
 pub use schema::schema;
+pub use step::{GripEntry, HoldEntry, StepEntry};
 
 /// A place or a displacement, `[x, y]`; y points up.
 pub type Pair = [f64; 2];
@@ -380,60 +382,6 @@ pub struct LoadEntry {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(extend("default" = 0.0)))]
     pub torque: Option<f64>,
-}
-
-/// One step of the assembly. Within a step: release, then remove, then place, then hold.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub struct StepEntry {
-    /// Title of the frame this step leads to.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub title: Option<String>,
-    /// Robots that let go of what they hold.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub release: Vec<String>,
-    /// Blocks taken away.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub remove: Vec<String>,
-    /// Blocks placed, in this order.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub place: Vec<String>,
-    /// Blocks that robots take hold of, by robot.
-    #[serde(default, skip_serializing_if = "Map::is_empty")]
-    pub hold: Map<HoldEntry>,
-    /// Blocks that robots are about to place, by robot: drawn as outlines, they carry no force.
-    #[serde(default, skip_serializing_if = "Map::is_empty")]
-    pub plan: Map<String>,
-}
-
-/// What a robot takes hold of: a block's id, or the block with a grip point.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(JsonSchema))]
-#[serde(untagged)]
-pub enum HoldEntry {
-    /// The block's id.
-    Block(String),
-    /// The block and the grip point.
-    Grip(GripEntry),
-}
-
-impl Default for HoldEntry {
-    fn default() -> HoldEntry {
-        HoldEntry::Block(String::new())
-    }
-}
-
-/// A block and where it is gripped.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub struct GripEntry {
-    /// The block held.
-    pub block: String,
-    /// The grip point [x, y] in metres. Default: the robot's own `at` for the block it `holds`, else the centroid.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub at: Option<Pair>,
 }
 
 #[cfg(feature = "schema")]

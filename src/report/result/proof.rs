@@ -1,0 +1,59 @@
+//! [`ProofNumbers`]: how well a verdict is proved, as results have it.
+
+use serde::Serialize;
+
+use super::Number;
+use crate::analysis::Proof;
+
+#[derive(Serialize)]
+#[serde(untagged)]
+pub(super) enum ProofNumbers {
+    Forces {
+        worst_imbalance: Number,
+        worst_share: Number,
+        worst_pull: Number,
+        worst_slip: Number,
+    },
+    Mechanism {
+        power: Number,
+        worst_violation: Number,
+        no_balance_below: Below,
+    },
+}
+
+/// Below which sum of forces, in loads of what moves, none balance: a number, or `"unbounded"` where none do at all.
+#[derive(Serialize)]
+#[serde(untagged)]
+pub(super) enum Below {
+    Sum(Number),
+    Unbounded(&'static str),
+}
+
+impl ProofNumbers {
+    pub(super) fn of(proof: Proof) -> ProofNumbers {
+        match proof {
+            Proof::Forces {
+                worst_imbalance,
+                worst_share,
+                worst_pull,
+                worst_slip,
+            } => ProofNumbers::Forces {
+                worst_imbalance: Number(worst_imbalance),
+                worst_share: Number(worst_share),
+                worst_pull: Number(worst_pull),
+                worst_slip: Number(worst_slip),
+            },
+            Proof::Mechanism {
+                power,
+                worst_violation,
+            } => ProofNumbers::Mechanism {
+                power: Number(power),
+                worst_violation: Number(worst_violation),
+                no_balance_below: match proof.rules_out() {
+                    sum if sum.is_finite() => Below::Sum(Number(sum)),
+                    _ => Below::Unbounded("unbounded"),
+                },
+            },
+        }
+    }
+}

@@ -1,0 +1,61 @@
+//! [`StepEntry`]: one step of the assembly, as a scene file has it.
+
+#[cfg(feature = "schema")]
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{Map, Pair};
+
+/// One step of the assembly. Within a step: release, then remove, then place, then hold.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct StepEntry {
+    /// Title of the frame this step leads to.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub title: Option<String>,
+    /// Robots that let go of what they hold.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub release: Vec<String>,
+    /// Blocks taken away.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub remove: Vec<String>,
+    /// Blocks placed, in this order.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub place: Vec<String>,
+    /// Blocks that robots take hold of, by robot.
+    #[serde(default, skip_serializing_if = "Map::is_empty")]
+    pub hold: Map<HoldEntry>,
+    /// Blocks that robots are about to place, by robot: drawn as outlines, they carry no force.
+    #[serde(default, skip_serializing_if = "Map::is_empty")]
+    pub plan: Map<String>,
+}
+
+/// What a robot takes hold of: a block's id, or the block with a grip point.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
+#[serde(untagged)]
+pub enum HoldEntry {
+    /// The block's id.
+    Block(String),
+    /// The block and the grip point.
+    Grip(GripEntry),
+}
+
+impl Default for HoldEntry {
+    fn default() -> HoldEntry {
+        HoldEntry::Block(String::new())
+    }
+}
+
+/// A block and where it is gripped.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct GripEntry {
+    /// The block held.
+    pub block: String,
+    /// The grip point [x, y] in metres. Default: the robot's own `at` for the block it `holds`, else the centroid.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at: Option<Pair>,
+}
