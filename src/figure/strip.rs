@@ -29,7 +29,7 @@ const MOST_REASON_LINES: usize = 12;
 const MOST_LISTED: usize = 30;
 
 /// The figure of an analysis: a panel of this kind for each frame.
-pub(crate) fn strip(analysis: &Analysis<'_>, kind: Kind, options: &Options) -> Drawing {
+pub(crate) fn strip(analysis: &Analysis, kind: Kind, options: &Options) -> Drawing {
     let stage = kind.stage(analysis, options);
     let count = analysis.frames.len();
     let drawn = |stage: &Stage<'_>| {
@@ -59,7 +59,7 @@ pub(crate) fn strip(analysis: &Analysis<'_>, kind: Kind, options: &Options) -> D
 }
 
 /// The panels of [`strip`] a page each, all pages alike in size and scale, so that they can follow one another in place.
-pub(crate) fn pages(analysis: &Analysis<'_>, kind: Kind, options: &Options) -> Vec<Drawing> {
+pub(crate) fn pages(analysis: &Analysis, kind: Kind, options: &Options) -> Vec<Drawing> {
     let stage = kind.stage(analysis, options);
     let page = |frame| {
         let strip = Strip {
@@ -81,12 +81,7 @@ pub(crate) fn pages(analysis: &Analysis<'_>, kind: Kind, options: &Options) -> V
 
 /// The panels of [`strip`] on pages no higher than `high` times their width, one below the other in as many rows as fit, at
 /// least one; all to one scale.
-pub(crate) fn split(
-    analysis: &Analysis<'_>,
-    kind: Kind,
-    options: &Options,
-    high: f64,
-) -> Vec<Drawing> {
+pub(crate) fn split(analysis: &Analysis, kind: Kind, options: &Options, high: f64) -> Vec<Drawing> {
     let stage = kind.stage(analysis, options);
     let count = analysis.frames.len();
     let layout = Layout::roomy(&stage, count);
@@ -430,7 +425,7 @@ impl Strip<'_> {
     /// `(a) Initial situation`; without a letter where there is but one frame, without what the heading says already;
     /// and around which block where that is all that is shown.
     fn caption(&self, frame: usize, between: &str) -> String {
-        let scene = self.stage.analysis.scene;
+        let scene = &self.stage.analysis.scene;
         if let Some(caption) = self.captions.and_then(|all| all.get(frame)) {
             return caption.clone();
         }
@@ -451,7 +446,7 @@ impl Strip<'_> {
     /// A frame in a sentence.
     fn described(&self, frame: usize) -> String {
         let (scene, found) = (
-            self.stage.analysis.scene,
+            &self.stage.analysis.scene,
             &self.stage.analysis.frames[frame],
         );
         let blocks = counted(scene.frames[frame].placed.len(), "block");

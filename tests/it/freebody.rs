@@ -46,7 +46,7 @@ fn rounding(printed: &str) -> f64 {
     0.5 * libm::pow(10.0, -(decimals as f64))
 }
 
-fn balances(name: &str, analysis: &Analysis<'_>, frame: usize, id: BlockId) -> usize {
+fn balances(name: &str, analysis: &Analysis, frame: usize, id: BlockId) -> usize {
     let (scene, found) = (analysis.scene, &analysis.frames[frame]);
     let mut listed = 0;
     for corners in [Corners::Few, Corners::All] {

@@ -66,7 +66,7 @@ pub(super) fn options(wanted: &Wanted) -> Options {
 }
 
 /// The steps of an analysis.
-pub(super) fn all(analysis: &Analysis<'_>, wanted: &Wanted) -> Vec<Step> {
+pub(super) fn all(analysis: &Analysis, wanted: &Wanted) -> Vec<Step> {
     let options = options(wanted);
     let forces = figure::panels(analysis, Kind::Forces, &options);
     let mut motions = if analysis.frames.iter().any(has_mechanism) {
@@ -75,7 +75,7 @@ pub(super) fn all(analysis: &Analysis<'_>, wanted: &Wanted) -> Vec<Step> {
     } else {
         Vec::new()
     };
-    let scene = analysis.scene;
+    let scene = &analysis.scene;
     let mut steps = Vec::with_capacity(analysis.frames.len());
     for (number, (found, drawing)) in analysis.frames.iter().zip(forces).enumerate() {
         let mut step = of(scene, number, found, wanted);
