@@ -39,6 +39,7 @@ mod stage;
 mod strip;
 mod thrust;
 mod description;
+mod title;
 mod unit;
 mod utilisation;
 mod verdict;
@@ -47,7 +48,7 @@ mod words;
 
 pub use arrow::{ArrowKind, ForceArrow, Head, Marks, TurnArrow, TurnKind};
 pub use caption::caption;
-pub use draw::{draw, least_size, pages, panels, split};
+pub use draw::{draw, least_size, pages, panels, panels_of, split};
 pub use forces::forces;
 pub use freebody::freebody;
 pub use gallery::{Plate, gallery};
