@@ -47,7 +47,7 @@ fn rounding(printed: &str) -> f64 {
 }
 
 fn balances(name: &str, analysis: &Analysis, frame: usize, id: BlockId) -> usize {
-    let (scene, found) = (analysis.scene, &analysis.frames[frame]);
+    let (scene, found) = (&analysis.scene, &analysis.frames[frame]);
     let mut listed = 0;
     for corners in [Corners::Few, Corners::All] {
         let options = Options {
