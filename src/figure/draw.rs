@@ -26,15 +26,33 @@ pub fn pages(analysis: &Analysis, kind: Kind, options: &Options) -> Vec<Drawing>
     if kind == Kind::Mechanism {
         return moving(&analysis.elementary(), &kind.options(options));
     }
-    strip::pages(analysis, kind, &kind.options(options))
+    strip::pages(
+        analysis,
+        kind,
+        &kind.options(options),
+        0..analysis.frames.len(),
+    )
 }
 
 /// The panels of [`draw`] a page each, one per frame, all alike in size and scale.
 pub fn panels(analysis: &Analysis, kind: Kind, options: &Options) -> Vec<Drawing> {
+    let all: Vec<usize> = (0..analysis.frames.len()).collect();
+    panels_of(analysis, kind, options, &all)
+}
+
+/// As [`panels`], of these frames alone, counted from 0; frames that there are not are passed over.
+pub fn panels_of(
+    analysis: &Analysis,
+    kind: Kind,
+    options: &Options,
+    frames: &[usize],
+) -> Vec<Drawing> {
+    let count = analysis.frames.len();
+    let there = frames.iter().copied().filter(|frame| *frame < count);
     if kind == Kind::Mechanism {
-        return strip::pages(&analysis.elementary(), kind, &kind.options(options));
+        return strip::pages(&analysis.elementary(), kind, &kind.options(options), there);
     }
-    strip::pages(analysis, kind, &kind.options(options))
+    strip::pages(analysis, kind, &kind.options(options), there)
 }
 
 /// The panels of [`draw`] in rows on pages no higher than `high` times their width, each with its title and key; all to one
@@ -61,7 +79,12 @@ fn moving(analysis: &Analysis, options: &Options) -> Vec<Drawing> {
             way: f64::from(step) / f64::from(WAY),
             ..options.clone()
         };
-        strip::pages(analysis, Kind::Mechanism, &options)
+        strip::pages(
+            analysis,
+            Kind::Mechanism,
+            &options,
+            0..analysis.frames.len(),
+        )
     };
     let steps: Vec<Vec<Drawing>> = (0..=WAY).map(at).collect();
     let mut pages = Vec::new();

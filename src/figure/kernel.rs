@@ -79,7 +79,7 @@ pub(crate) fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
     }
     let most = percent(most);
     format!(
-        "nearest to an edge: between {pair} the resultant sits at {most} of the way from the middle to the end of the safe stretch"
+        "farthest from the middle: the resultant between {pair}, {most} of the way to the end of its safe stretch"
     )
 }
 

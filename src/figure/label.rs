@@ -32,6 +32,8 @@ const FEW: usize = 12;
 const TRIED: usize = 13;
 /// Letters are no smaller than this, pixels.
 const SMALLEST: f64 = 9.0;
+/// Distances from a block's middle are ranked in steps of this share of the block's diagonal.
+const RANK: f64 = 1e-3;
 /// Height of a line of letters, in sizes.
 const HIGH: f64 = 0.96;
 
@@ -346,7 +348,11 @@ fn inside(polygon: &Polygon, middle: Point, view: Option<Bounds>) -> Vec<Point> 
         })
         .filter(|p| polygon.contains(*p))
         .collect();
-    points.sort_by(|a, b| (a - middle).norm().total_cmp(&(b - middle).norm()));
+    // Distances that differ by rounding alone are equal: then the raster's own order decides, from lower left on, so that
+    // noise in a centroid moves no name.
+    let step = RANK * whole.diagonal();
+    let rank = |p: &Point| ((p - middle).norm() / step).round();
+    points.sort_by(|a, b| rank(a).total_cmp(&rank(b)));
     points
 }
 

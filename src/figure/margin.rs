@@ -112,7 +112,7 @@ pub(crate) fn reach(
 /// What the camera sees of a frame, its ghost and gravity.
 pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Camera) -> Group {
     let pen = Pen::of(stage, frame, camera);
-    let ink = label::ink(&pen);
+    let mut ink = label::ink(&pen);
     let (scene, theme) = (&stage.analysis.scene, &stage.options.theme);
     let mut parts = Vec::new();
     let toward = stage.options.toward;
@@ -143,6 +143,8 @@ pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Ca
             let long = libm::hypot(now.x - from.x, now.y - from.y);
             let width = (0.04 * long).clamp(1.2, 3.0);
             let arrow = Path::filled(straight(from, along, width), theme.ink);
+            ink.line(from, now, 1.2);
+            ink.arrow(from, along, width);
             parts.push(
                 group
                     .with(Path::stroked(Outline::line([from, now]), dashed))

@@ -5,6 +5,7 @@
 //! [`Tolerance`]. Nothing here knows of forces.
 
 mod lattice;
+mod nearby;
 mod overlap;
 mod polygon;
 mod sum;
@@ -14,6 +15,7 @@ mod zonotope;
 
 pub(crate) use lattice::boundary;
 pub use lattice::{Cell, Half, Lattice, LatticeKind};
+pub(crate) use nearby::Nearby;
 pub use overlap::{Overlap, Pieces, overlap};
 pub(crate) use polygon::sin_cos_degrees;
 pub use polygon::{Bounds, Edge, Flaw, Polygon};

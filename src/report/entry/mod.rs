@@ -5,6 +5,7 @@
 //! still puts it through its own sink.
 
 mod bullet;
+mod chosen;
 mod comparison;
 mod grid;
 mod row;
@@ -17,6 +18,8 @@ pub use grid::{Grid, Line};
 pub use row::{Row, Thumbnail};
 pub use step::Step;
 pub use touch::{Touch, touched};
+
+use std::borrow::Cow;
 
 use crate::analysis::Analysis;
 use crate::chart::{self, Course, Undrawn};
@@ -96,6 +99,17 @@ pub struct Chart {
     pub svg: String,
 }
 
+impl Chart {
+    /// The SVG as a document of its own.
+    pub(crate) fn document(&self) -> Cow<'_, str> {
+        if self.svg.contains("xmlns=") {
+            return Cow::Borrowed(&self.svg);
+        }
+        let head = "<svg xmlns=\"http://www.w3.org/2000/svg\"";
+        Cow::Owned(self.svg.replacen("<svg", head, 1))
+    }
+}
+
 impl Entry {
     /// What a report tells of an analysis.
     pub fn of(file: File<'_>, analysis: &Analysis, wanted: &Wanted) -> Entry {
@@ -107,6 +121,7 @@ impl Entry {
                 .tolerance_words()
                 .iter()
                 .map(|words| text::line(words))
+                .chain(chosen::left_out(analysis))
                 .collect(),
             charts: courses(analysis),
             study: None,
@@ -157,6 +172,10 @@ fn commands(name: &str, analysis: &Analysis, wanted: &Wanted) -> Vec<(String, St
     if analysis.frames.iter().any(step::has_mechanism) {
         let how = "how it falls".to_owned();
         commands.push((how, command(" --kind mechanism")));
+    }
+    if chosen::left_out(analysis).is_some() {
+        let each = "a figure of each step".to_owned();
+        commands.push((each, command(" --panels")));
     }
     commands.push((
         "the numbers".to_owned(),

@@ -18,6 +18,7 @@ fn scene() -> Scene {
         friction: 0.5,
         fill: None,
         gap: 3e-6,
+        rounding: 0.0,
     };
     let block = |id: &str| Block {
         id: id.into(),
