@@ -1,7 +1,7 @@
 //! The contract, letter by letter.
 
 use super::*;
-use crate::analysis::{EffectReport, Resultant as Sum, SolveReport, Verdict};
+use crate::analysis::{EffectReport, Proof, Resultant as Sum, SolveReport, Verdict};
 use crate::geometry::{Polygon, Tolerance as Closeness};
 use crate::scene::{Block, Body, Frame as Step, Healed, Limits, Robot as Arm};
 
