@@ -218,7 +218,7 @@ pub(crate) fn together(
 }
 
 /// The motions of the blocks of a frame that are seen to move.
-fn moving<'a>(analysis: &'a Analysis, frame: usize) -> impl Iterator<Item = &'a Motion> {
+fn moving(analysis: &Analysis, frame: usize) -> impl Iterator<Item = &Motion> {
     let (scene, motions) = (&analysis.scene, &analysis.frames[frame].mechanism);
     let speed = |m: &Motion| m.fastest(scene);
     let fastest = motions.iter().map(speed).fold(0.0, f64::max);
