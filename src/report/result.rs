@@ -1,6 +1,6 @@
 //! [`to_json`]: an analysis as the JSON object that other programs read.
 //!
-//! Invariant: the same analysis gives the same bytes, apart from `seconds`, which [`Timing::LeftOut`] leaves out. Every
+//! Invariant: the same analysis gives the same bytes, apart from seconds, which [`Timing::LeftOut`] leaves out. Every
 //! number is plain: no −0, and the shortest decimal that reads back as the same f64. A number that could not be computed,
 //! which happens in frames that are `undecided` only, is `null`. Lists that say nothing are absent where the contract
 //! does not name them: `unsupported`, `notices`, `doubt`. What was not asked for is absent: `margins`,
@@ -17,6 +17,7 @@ mod margin;
 mod note;
 mod refusal;
 mod page;
+mod solve;
 mod wedging;
 
 use serde::{Serialize, Serializer};
@@ -29,6 +30,8 @@ use margin::Margins;
 pub use page::{Counts, quoted, report_json};
 pub use refusal::{problem_line, refusal};
 use wedging::Wedging;
+
+use solve::Solve;
 
 use crate::analysis::{
     Analysis, Contact, Failure, FrameAnalysis, Motion as Moved, Proof, RobotForce,
@@ -254,17 +257,6 @@ enum Below {
     Unbounded(&'static str),
 }
 
-#[derive(Serialize)]
-struct Solve {
-    method: &'static str,
-    iterations: usize,
-    programs: usize,
-    groups: usize,
-    reused: usize,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    seconds: Option<Number>,
-}
-
 /// A plain number: −0 is written 0.0, a number that is not finite is written null.
 #[derive(Clone, Copy)]
 struct Number(f64);
@@ -369,14 +361,7 @@ impl<'a> Frame<'a> {
                 })
                 .collect(),
             proof: ProofNumbers::of(frame.proof),
-            solve: Solve {
-                method: frame.solve.method.name(),
-                iterations: frame.solve.iterations,
-                programs: frame.solve.programs,
-                groups: frame.solve.groups,
-                reused: frame.solve.reused,
-                seconds: (timing == Timing::Included).then_some(Number(frame.solve.seconds)),
-            },
+            solve: Solve::of(&frame.solve, timing),
             notices: &frame.notices,
         }
     }
