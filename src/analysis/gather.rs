@@ -2,7 +2,7 @@
 
 use super::component::{Findings, Method};
 use super::frame::worst;
-use super::{Contact, FrameAnalysis, Proof, RobotForce, SolveReport, Verdict};
+use super::{Contact, FrameAnalysis, Proof, RobotForce, SolveReport, Stages, Verdict};
 use crate::assembly::Assembly;
 use crate::effect::{EffectReport, Situation};
 use crate::geometry::Vector;
@@ -70,6 +70,7 @@ pub(super) fn gathered(
             groups: 0,
             reused: 0,
             seconds: 0.0,
+            stages: Stages::default(),
         },
         notices: Vec::new(),
     }

@@ -6,6 +6,7 @@
 //! together.
 
 mod component;
+mod cost;
 mod frame;
 mod gather;
 mod judgement;
@@ -43,6 +44,7 @@ pub use component::Method;
 use component::{Findings, solved};
 use frame::settle;
 use gather::{add, gathered};
+pub use cost::{SolveReport, Stages};
 pub(crate) use judgement::{Guess, hinges_on_gaps};
 pub use judgement::{Source, verdicts};
 use margin::Part;
@@ -202,23 +204,6 @@ pub enum Failure {
     },
 }
 
-/// How a frame was solved.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SolveReport {
-    /// How the component that was hardest to decide was decided.
-    pub method: Method,
-    /// Iterations of all programs together.
-    pub iterations: usize,
-    /// Programs solved for this frame; 0 where closed forms or earlier frames answered it.
-    pub programs: usize,
-    /// Components: blocks that cannot influence each other.
-    pub groups: usize,
-    /// Components answered by an earlier frame.
-    pub reused: usize,
-    /// Wall time in seconds.
-    pub seconds: f64,
-}
-
 /// Why a frame is undecided whose programs were given up at the deadline.
 const LATE: &str = "the time limit was reached before it was decided";
 
@@ -320,6 +305,10 @@ fn examined(situation: &Situation, options: Options, known: &mut Known) -> Frame
     let (assembly, reports) = effect::assemble(situation);
     let components = assembly.split();
     let keys: Vec<Key> = components.iter().map(key).collect();
+    let mut stages = Stages {
+        assembly: start.elapsed().as_secs_f64(),
+        ..Stages::default()
+    };
     let fresh: Vec<usize> = (0..components.len())
         .filter(|k| !known.findings.contains_key(&keys[*k]))
         .collect();
@@ -358,6 +347,7 @@ fn examined(situation: &Situation, options: Options, known: &mut Known) -> Frame
     if analysis.verdict == Verdict::Undecided && options.is_late() {
         analysis.doubt = format!("{LATE}: {}", analysis.doubt);
     }
+    stages.solution = start.elapsed().as_secs_f64() - stages.assembly;
     let _until = Until::set(options.deadline);
     let methods = found.iter().map(|f| f.1.method);
     analysis.solve = SolveReport {
@@ -367,7 +357,9 @@ fn examined(situation: &Situation, options: Options, known: &mut Known) -> Frame
         groups: components.len(),
         reused: components.len() - fresh.len(),
         seconds: 0.0,
+        stages,
     };
+    let before = start.elapsed().as_secs_f64();
     let wedging = match (options.wedging, analysis.verdict) {
         (Ask::No, _) => Wedging::NotAsked,
         (Ask::Yes, Verdict::Stable) => {
@@ -378,6 +370,8 @@ fn examined(situation: &Situation, options: Options, known: &mut Known) -> Frame
         }
         (Ask::Yes, _) => Wedging::Falls,
     };
+    let after = start.elapsed().as_secs_f64();
+    analysis.solve.stages.wedging = after - before;
     let mut judged = None;
     if options.margins == Ask::Yes {
         let parts = found
@@ -395,6 +389,7 @@ fn examined(situation: &Situation, options: Options, known: &mut Known) -> Frame
         analysis.margins = Some(margins);
         judged = Some(tries);
     }
+    analysis.solve.stages.margins = start.elapsed().as_secs_f64() - after;
     analysis.effects.push(effect::margin::report(judged));
     analysis.effects.push(wedging::report(wedging));
     analysis.solve.seconds = start.elapsed().as_secs_f64();

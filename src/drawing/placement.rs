@@ -4,6 +4,8 @@
 //! wider and wider; a label that ends up apart from what it names gets a leader line. Labels are placed in the order
 //! given, the most important first; one for which no place is clear is left out.
 
+mod untangle;
+
 use core::f64::consts::TAU;
 use std::collections::BTreeMap;
 
@@ -158,6 +160,15 @@ impl Ink {
         self.piece(corners(rect).to_vec(), true);
     }
 
+    /// A label and its leader.
+    fn placed(&mut self, placed: Option<&Placed>) {
+        let Some(placed) = placed else { return };
+        self.label(placed.rect);
+        if let Some([from, to]) = placed.leader {
+            self.line(from, to, 1.0);
+        }
+    }
+
     /// Whether an upright rectangle lies clear of all ink.
     pub fn clear(&self, rect: PageRect) -> bool {
         let (min, max) = (rect.at, rect.at.moved(rect.width, rect.height));
@@ -233,20 +244,20 @@ pub fn place_where(
     wishes: &[Wish],
     disliked: &dyn Fn(usize, PageRect) -> bool,
 ) -> Vec<Option<Placed>> {
-    wishes
-        .iter()
-        .enumerate()
-        .map(|(number, wish)| {
-            let placed = one(ink, page, wish, &|rect| disliked(number, rect));
-            if let Some(placed) = placed {
-                ink.label(placed.rect);
-                if let Some([from, to]) = placed.leader {
-                    ink.line(from, to, 1.0);
-                }
-            }
-            placed
-        })
-        .collect()
+    let bare = ink.clone();
+    let each = wishes.iter().enumerate().map(|(number, wish)| {
+        let placed = one(ink, page, wish, &|rect| disliked(number, rect));
+        ink.placed(placed.as_ref());
+        placed
+    });
+    let mut placed: Vec<Option<Placed>> = each.collect();
+    if untangle::untangle(&bare, page, wishes, &mut placed, disliked) {
+        *ink = bare;
+        for placed in &placed {
+            ink.placed(placed.as_ref());
+        }
+    }
+    placed
 }
 
 fn one(
@@ -354,6 +365,9 @@ fn meets(piece: &[PagePoint], rect: PageRect) -> bool {
     !parted(piece, &corners(rect))
 }
 
+/// Pieces that reach into each other by less than this, pixels, touch: what rounding decides must not choose a place.
+const TOUCH: f64 = 1e-3;
+
 /// Whether a side of the convex `piece` parts it from the others.
 fn parted(piece: &[PagePoint], others: &[PagePoint]) -> bool {
     (0..piece.len()).any(|i| {
@@ -366,7 +380,8 @@ fn parted(piece: &[PagePoint], others: &[PagePoint]) -> bool {
             })
         };
         let (own, other) = (sides(piece), sides(others));
-        own.1 <= other.0 || other.1 <= own.0
+        let touch = TOUCH * libm::hypot(b.x - a.x, b.y - a.y);
+        own.1 <= other.0 + touch || other.1 <= own.0 + touch
     })
 }
 

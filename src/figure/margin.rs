@@ -14,7 +14,7 @@ use super::pen::Pen;
 use super::stage::Stage;
 use super::thrust;
 use super::words::{degrees, percent};
-use crate::analysis::{Analysis, Margin, Toward, Verdict};
+use crate::analysis::{Analysis, Margin, Motion, Toward, Verdict};
 use crate::drawing::arrow::straight;
 use crate::drawing::{Camera, Group, Outline, PagePoint, PageRect, Path, Stroke, Theme};
 use crate::geometry::{Bounds, Point, Vector, quarter_turn, sin_cos_degrees};
@@ -33,9 +33,15 @@ pub(crate) fn largest_load(scene: &Scene, frame: &Frame, options: &Options) -> f
     }
 }
 
+/// How far the edge of a frame that stands is, and how it would fall beyond.
+fn beyond(analysis: &Analysis, frame: usize, toward: Toward) -> Option<(f64, Vec<Motion>)> {
+    let stands = analysis.frames.get(frame)?.verdict == Verdict::Stable;
+    analysis.edge(frame, toward).filter(|_| stands)
+}
+
 /// The frame's analysis with the mechanism at the edge in place of its own, and how far the edge is.
 fn ghost(analysis: &Analysis, frame: usize, toward: Toward) -> Option<(Analysis, f64)> {
-    let (edge, motions) = analysis.edge(frame, toward)?;
+    let (edge, motions) = beyond(analysis, frame, toward)?;
     let mut ghost = analysis.clone();
     let found = ghost.frames.get_mut(frame)?;
     found.mechanism = motions;
@@ -176,7 +182,7 @@ pub(crate) fn entries(stage: &Stage<'_>) -> Vec<Entry> {
     let mut entries = Vec::new();
     let toward = stage.options.toward;
     let mut frames = 0..stage.analysis.frames.len();
-    if frames.any(|f| stage.analysis.edge(f, toward).is_some()) {
+    if frames.any(|f| beyond(stage.analysis, f, toward).is_some()) {
         let ghost = "how it would begin to fall".to_owned();
         entries.push(Entry::Sign(ghost_sign, 20.0, ghost));
         match toward {
@@ -209,7 +215,7 @@ pub(crate) fn reason(stage: &Stage<'_>, frame: usize) -> String {
         return "its margins were not asked for".to_owned();
     };
     let side = |edge: f64| if edge > 0.0 { "right" } else { "left" };
-    if let Some((edge, _)) = analysis.edge(frame, toward) {
+    if let Some((edge, _)) = beyond(analysis, frame, toward) {
         return match toward {
             Toward::Tilt => format!(
                 "falls once gravity is turned by {} to the {}",

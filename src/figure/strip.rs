@@ -22,7 +22,7 @@ use crate::geometry::{Bounds, Point};
 const CAPTION_LINE: f64 = 22.0 / 17.0;
 /// Height of a line of what is written below a verdict, in sizes of its letters.
 const REASON_LINE: f64 = 1.36;
-/// Room for names around what a panel shows, where they need it, across and up, pixels.
+/// Room for names around a panel, where they need it, across and up, pixels.
 const NAMES: (f64, f64) = (24.0, 30.0);
 const MOST_CAPTION_LINES: usize = 8;
 const MOST_REASON_LINES: usize = 12;
@@ -59,8 +59,7 @@ pub(crate) fn strip(analysis: &Analysis, kind: Kind, options: &Options) -> Drawi
     }
 }
 
-/// Panels of [`strip`] a page each, of these frames, all pages alike in size and scale, so that they can follow one another
-/// in place.
+/// Panels of [`strip`] a page each, of these frames, all alike in size and scale, so that they can follow one another.
 pub(crate) fn pages(
     analysis: &Analysis,
     kind: Kind,
@@ -228,11 +227,7 @@ pub(crate) fn page(strips: &[&Strip<'_>], order: &[(usize, usize)], heading: &st
     Drawing {
         width: width.ceil(),
         height: (y + margin).ceil(),
-        title: if heading.is_empty() {
-            first.kind.title().into()
-        } else {
-            heading.to_owned()
-        },
+        title: [heading, first.kind.title()][usize::from(heading.is_empty())].to_owned(),
         description: described.join(" "),
         background: Some(theme.page),
         items,

@@ -1,6 +1,6 @@
 //! [`to_json`]: an analysis as the JSON object that other programs read.
 //!
-//! Invariant: the same analysis gives the same bytes, apart from `seconds`, which [`Timing::LeftOut`] leaves out. Every
+//! Invariant: the same analysis gives the same bytes, apart from seconds, which [`Timing::LeftOut`] leaves out. Every
 //! number is plain: no −0, and the shortest decimal that reads back as the same f64. A number that could not be computed,
 //! which happens in frames that are `undecided` only, is `null`. Lists that say nothing are absent where the contract
 //! does not name them: `unsupported`, `notices`, `doubt`. What was not asked for is absent: `margins`,
@@ -20,6 +20,7 @@ mod note;
 mod refusal;
 mod page;
 mod proof;
+mod solve;
 mod wedging;
 
 use serde::{Serialize, Serializer};
@@ -34,6 +35,7 @@ use margin::Margins;
 pub use page::{Counts, quoted, report_json};
 use proof::ProofNumbers;
 pub use refusal::{problem_line, refusal};
+use solve::Solve;
 use wedging::Wedging;
 
 use crate::analysis::{Analysis, Contact, Failure, FrameAnalysis, Motion as Moved, RobotForce};
@@ -235,14 +237,6 @@ struct Effect<'a> {
 }
 
 #[derive(Serialize)]
-struct Solve {
-    method: &'static str,
-    iterations: usize,
-    programs: usize,
-    groups: usize,
-    reused: usize,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    seconds: Option<Number>,
 }
 
 /// A plain number: −0 is written 0.0, a number that is not finite is written null.
@@ -349,14 +343,7 @@ impl<'a> Frame<'a> {
                 })
                 .collect(),
             proof: ProofNumbers::of(frame.proof),
-            solve: Solve {
-                method: frame.solve.method.name(),
-                iterations: frame.solve.iterations,
-                programs: frame.solve.programs,
-                groups: frame.solve.groups,
-                reused: frame.solve.reused,
-                seconds: (timing == Timing::Included).then_some(Number(frame.solve.seconds)),
-            },
+            solve: Solve::of(&frame.solve, timing),
             notices: &frame.notices,
         }
     }

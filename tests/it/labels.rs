@@ -184,6 +184,62 @@ fn names_and_amounts_lie_on_nothing_in_the_whole_gallery() {
 /// One column of a journal, 84 mm, at eight tenths of a pixel's natural size.
 pub(crate) const COLUMN: f64 = 84.0 / 25.4 * 96.0 / 0.8;
 
+/// Two columns, 174 mm.
+const TWO_COLUMNS: f64 = 174.0 / 25.4 * 96.0 / 0.8;
+
+#[test]
+fn no_label_lies_on_another_on_a_title_or_verdict_or_beyond_the_page_in_any_kind() {
+    let mut count = 0;
+    let mut complaints = Vec::new();
+    for (name, scene) in gallery().into_iter().chain(brought()) {
+        let options = drystone::analysis::Options {
+            margins: drystone::analysis::Ask::Yes,
+            ..drystone::analysis::Options::default()
+        };
+        let analysis = Analysis::with(&scene, &options);
+        for width in [COLUMN, TWO_COLUMNS] {
+            for kind in figure::Kind::ALL {
+                let options = Options {
+                    width: Some(width),
+                    ..Options::default()
+                };
+                let drawing = figure::draw(&analysis, kind, &options);
+                let what = format!("{name} {} {width:.0}", kind.name());
+                let page = Group {
+                    items: drawing.items.clone(),
+                    ..Group::default()
+                };
+                for items in panels(&drawing) {
+                    let (labels, found) = hidden(items, &["name", "robot-name", "amount"], &[]);
+                    count += labels;
+                    complaints.extend(found.into_iter().map(|c| format!("{what}: {c}")));
+                }
+                let labels: Vec<Text> = classes(&drawing.items, &["labels"])
+                    .into_iter()
+                    .flat_map(texts)
+                    .collect();
+                let others: Vec<Text> = texts(&page)
+                    .into_iter()
+                    .filter(|text| !labels.contains(text))
+                    .collect();
+                for label in &labels {
+                    let [left, top, right, bottom] = ink(label);
+                    if left < 0.0 || top < 0.0 || right > drawing.width || bottom > drawing.height {
+                        complaints.push(format!("{what}: {} is cut", label.words));
+                    }
+                    let meets =
+                        |b: Box4| left < b[2] && b[0] < right && top < b[3] && b[1] < bottom;
+                    for other in others.iter().filter(|other| meets(ink(other))) {
+                        complaints.push(format!("{what}: {} lies on {}", label.words, other.words));
+                    }
+                }
+            }
+        }
+    }
+    assert!(complaints.is_empty(), "{complaints:#?}");
+    assert!(count > 2000, "only {count} labels were looked at");
+}
+
 #[test]
 fn on_a_page_as_wide_as_a_column_words_stay_large_and_nothing_is_cut() {
     let options = Options {
@@ -283,7 +339,7 @@ fn what_the_words_below_a_frame_name_is_labelled_and_what_is_not_is_counted() {
     let (mut named, mut counted) = (0, 0);
     for (name, scene) in gallery().into_iter().chain(brought()) {
         let analysis = Analysis::of(&scene);
-        for width in [None, Some(COLUMN)] {
+        for width in [None, Some(COLUMN), Some(TWO_COLUMNS)] {
             let options = Options {
                 width,
                 ..Options::default()

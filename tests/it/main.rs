@@ -32,6 +32,7 @@ mod pages;
 mod margins;
 mod mechanism;
 mod pictures;
+mod polygons;
 mod print;
 mod problems;
 mod mutant;

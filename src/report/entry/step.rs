@@ -16,6 +16,8 @@ use crate::wording::{effect, failure, proof, verdict};
 
 /// Width of a figure, pixels.
 const WIDTH: f64 = 560.0;
+/// Stages shorter than this are not told, seconds.
+const LEAST_SECONDS: f64 = 1e-5;
 /// Of fewer interfaces a table says more than a chart.
 const FEW: usize = 8;
 /// So many figures of one scene are drawn with marks for the mouse only where they have at most this many of them.
@@ -356,7 +358,20 @@ fn cost(found: &FrameAnalysis, timing: Timing) -> Grid {
         solve.reused
     );
     if timing == Timing::Included {
+        let stages = [
+            ("posing", solve.stages.assembly),
+            ("solving and proving", solve.stages.solution),
+            ("wedging", solve.stages.wedging),
+            ("margins", solve.stages.margins),
+        ];
+        let spent = stages.iter().filter(|s| s.1 >= LEAST_SECONDS);
+        let spent: Vec<String> = spent
+            .map(|(stage, time)| format!("{stage} {}", duration(*time)))
+            .collect();
         how.push_str(&format!("; {}", duration(solve.seconds)));
+        if !spent.is_empty() {
+            how.push_str(&format!(", of which {}", listed(&spent)));
+        }
     }
     let name = format!("all together, decided by: {}", solve.method.name());
     grid.add("", [name, String::new(), how, unknowns.to_string()]);

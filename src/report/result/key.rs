@@ -203,7 +203,12 @@ pub const KEYS: &[Key] = &[
     key("frames[].solve.programs", Kind::Count, "", "", "programs that were solved"),
     key("frames[].solve.groups", Kind::Count, "", "", "groups of blocks that do not touch each other"),
     key("frames[].solve.reused", Kind::Count, "", "", "groups that were taken over from an earlier frame"),
-    key("frames[].solve.seconds", Kind::Number, "s", "unless `--no-timing`", "time taken; the only value that may differ from run to run"),
+    key("frames[].solve.seconds", Kind::Number, "s", "unless `--no-timing`", "time taken; it and its `stages` are the only values that may differ from run to run"),
+    key("frames[].solve.stages", Kind::Object, "", "unless `--no-timing`", "where that time went"),
+    key("frames[].solve.stages.assembly", Kind::Number, "s", "", "posing the frame from what each effect contributes"),
+    key("frames[].solve.stages.solution", Kind::Number, "s", "", "solving and proving: verdict, forces, what fails, motion"),
+    key("frames[].solve.stages.wedging", Kind::Number, "s", "", "whether it stands by wedging only; 0 where not asked for"),
+    key("frames[].solve.stages.margins", Kind::Number, "s", "", "the margins; 0 where not asked for"),
     key("frames[].notices", Kind::NameList, "", "where there are some", "what a person should know of this frame"),
 ];
 

@@ -152,6 +152,7 @@ fn frame() -> FrameAnalysis {
             groups: 1,
             reused: 0,
             seconds: 0.0004,
+            stages: crate::analysis::Stages::default(),
         },
         notices: vec![],
     }

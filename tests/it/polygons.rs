@@ -1,0 +1,160 @@
+//! What figures say of forces that are missing, and of loads: where it falls, nothing reads as a balance.
+
+use drystone::analysis::{Analysis, Ask, Options as Asked, Toward, Verdict};
+use drystone::drawing::{Drawing, Group, Item};
+use drystone::figure::{self, Kind, Options};
+use drystone::report::entry::{Entry, File, Wanted};
+use drystone::scene::Scene;
+
+use crate::labels::{classes, texts};
+
+fn scene(text: &str) -> Scene {
+    Scene::from_json(text).unwrap_or_else(|problems| panic!("{problems}"))
+}
+
+/// A block of 6 N on the edge of the ground, pushed across with `push` newtons at its foot.
+fn block(left: f64, push: f64) -> Scene {
+    let right = left + 4.0;
+    scene(&format!(
+        r#"{{ "drystone": 1, "friction": 0.5, "ground": [{{ "polygon": [[0,-1],[9,-1],[9,0],[0,0]] }}],
+        "blocks": [{{ "id": "a", "polygon": [[{left},0],[{right},0],[{right},2],[{left},2]], "weight": 6 }}],
+        "loads": [{{ "block": "a", "force": [{push}, 0], "at": [{left}, 0.2] }}] }}"#
+    ))
+}
+
+/// All words of a drawing, and whether a path of its force polygon is dashed.
+fn said(drawing: &Drawing) -> (String, bool) {
+    let page = Group {
+        items: drawing.items.clone(),
+        ..Group::default()
+    };
+    let words: Vec<String> = texts(&page).into_iter().map(|t| t.words).collect();
+    let sides = classes(&drawing.items, &["polygon"]);
+    let forces = sides.iter().flat_map(|p| classes(&p.items, &["force"]));
+    let dashed = forces.flat_map(|f| &f.items).any(|item| match item {
+        Item::Path(path) => path.stroke.as_ref().is_some_and(|s| !s.dash.is_empty()),
+        _ => false,
+    });
+    (words.join(" "), dashed)
+}
+
+#[test]
+fn a_force_polygon_closes_only_with_missing_forces_where_it_falls_and_says_so() {
+    let drawn = |scene: &Scene| {
+        said(&figure::draw(
+            &Analysis::of(scene),
+            Kind::Polygon,
+            &Options::default(),
+        ))
+    };
+    let (stands, dashed) = drawn(&block(1.0, 2.0));
+    assert!(
+        stands.contains("the force polygon is closed") && !dashed,
+        "{stands}"
+    );
+    // Three quarters of it overhang: the ground would have to pull.
+    let (falls, dashed) = drawn(&block(-3.0, 0.0));
+    assert!(
+        falls.contains("closes only with the missing forces") && dashed,
+        "{falls}"
+    );
+    assert!(!falls.contains("is closed"), "{falls}");
+    // What is missing inside is no side of the polygon, but the words name it.
+    let thin = scene(include_str!("../scenes/archri4.55.json"));
+    let (inside, _) = drawn(&thin);
+    assert!(
+        inside.contains("missing inside the structure") && !inside.contains("is closed"),
+        "{inside}"
+    );
+}
+
+#[test]
+fn a_margin_of_loads_is_drawn_where_the_verdict_changes() {
+    let asked = Asked {
+        margins: Ask::Yes,
+        ..Asked::default()
+    };
+    let options = Options {
+        toward: Toward::LoadFactor,
+        ..Options::default()
+    };
+    let pushed = block(1.0, 2.0);
+    let analysis = Analysis::with(&pushed, &asked);
+    let drawing = figure::draw(&analysis, Kind::Margin, &options);
+    let (words, _) = said(&drawing);
+    // It slides at 3 N, half of its weight.
+    assert!(
+        words.contains("falls once its loads are 1.5 times as large"),
+        "{words}"
+    );
+    assert_eq!(Analysis::of(&block(1.0, 2.99)).verdict(), Verdict::Stable);
+    assert_eq!(Analysis::of(&block(1.0, 3.01)).verdict(), Verdict::Unstable);
+    assert_eq!(classes(&drawing.items, &["ghosts"]).len(), 1);
+    assert_eq!(
+        classes(&drawing.items, &["force"]).len(),
+        1,
+        "the load is shown"
+    );
+    // What falls as it is has no margin and no ghost.
+    let falls = block(1.0, 4.0);
+    let analysis = Analysis::with(&falls, &asked);
+    let drawing = figure::draw(&analysis, Kind::Margin, &options);
+    let (words, _) = said(&drawing);
+    assert!(words.contains("there is no margin"), "{words}");
+    assert!(classes(&drawing.items, &["ghosts"]).is_empty());
+    assert!(!words.contains("how it would begin to fall"), "{words}");
+}
+
+#[test]
+fn a_small_turning_load_is_drawn_so_that_its_sense_is_read_and_its_amount_told() {
+    let small = scene(
+        r#"{ "drystone": 1, "ground": [{ "polygon": [[0,-1],[9,-1],[9,0],[0,0]] }],
+        "blocks": [{ "id": "a", "polygon": [[1,0],[5,0],[5,2],[1,2]], "weight": 6000 }],
+        "loads": [{ "block": "a", "force": [0, 0], "at": [3, 1.5], "torque": 0.5 }] }"#,
+    );
+    let drawing = figure::draw(&Analysis::of(&small), Kind::Forces, &Options::default());
+    let turns = classes(&drawing.items, &["torque"]);
+    let [turn] = turns[..] else {
+        panic!("{} turning arrows", turns.len())
+    };
+    let across = turn.items.iter().find_map(|item| match item {
+        Item::Path(path) => {
+            let xs: Vec<f64> = path.outline.points().map(|p| p.x).collect();
+            let most = xs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            Some(most - xs.iter().copied().fold(f64::INFINITY, f64::min))
+        }
+        _ => None,
+    });
+    assert!(across.is_some_and(|wide| wide > 10.0), "{across:?}");
+    let (words, _) = said(&drawing);
+    assert!(
+        words.contains("0.5") && words.contains("small ones drawn larger"),
+        "{words}"
+    );
+}
+
+#[test]
+fn a_report_says_of_what_falls_that_missing_forces_are_counted() {
+    let file = File {
+        name: "a.json",
+        text: "{}",
+    };
+    let captions = |scene: &Scene| {
+        let entry = Entry::of(file, &Analysis::of(scene), &Wanted::default());
+        let grids = entry.steps.iter().flat_map(|s| &s.grids);
+        let captions: Vec<String> = grids.map(|g| g.caption.clone()).collect();
+        (captions.join(" / "), entry.row.friction)
+    };
+    let (falls, used) = captions(&block(1.0, 4.0));
+    assert!(
+        falls.contains("Interfaces, with the missing forces added"),
+        "{falls}"
+    );
+    assert_eq!(used, None);
+    let (stands, used) = captions(&block(1.0, 2.0));
+    assert!(stands.contains("Interfaces /"), "{stands}");
+    assert!(
+        used.is_some_and(|u| (u - 2.0 / 3.0).abs() < 1e-6),
+        "{used:?}"
+    );
+}
