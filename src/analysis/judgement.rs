@@ -49,9 +49,10 @@ pub fn verdicts(scene: &Scene, options: &Options) -> Vec<Verdict> {
         .collect()
 }
 
-/// Whether narrow gaps may decide, so that every frame is to be judged with them closed too.
+/// Whether narrow gaps, overlaps or contacts too short to count may decide, so that every frame is to be judged both ways.
 pub(crate) fn hinges_on_gaps(scene: &Scene, found: &Interfaces) -> bool {
-    scene.healed.source != ToleranceSource::Given && !found.near.is_empty()
+    let none = found.near.is_empty() && found.slivers.is_empty() && scene.penetrations.is_empty();
+    scene.healed.source != ToleranceSource::Given && !none
 }
 
 /// What a verdict came from.

@@ -142,11 +142,11 @@ impl Polygon {
     ///
     /// # Example
     /// ```
-    /// use drystone::geometry::{Point, Polygon};
+    /// use drystone::internals::geometry::{Point, Polygon};
     /// let wedge = Polygon::new(vec![Point::new(0.0, 0.0), Point::new(1.0, 3.0), Point::new(4.0, 0.0)], vec![])?;
     /// assert_eq!(wedge.area(), 6.0);
     /// assert!((wedge.centroid() - Point::new(5.0 / 3.0, 1.0)).norm() < 1e-15);
-    /// # Ok::<(), Vec<drystone::geometry::Flaw>>(())
+    /// # Ok::<(), Vec<drystone::internals::geometry::Flaw>>(())
     /// ```
     pub fn new(outline: Vec<Point>, holes: Vec<Vec<Point>>) -> Result<Polygon, Vec<Flaw>> {
         let mut flaws = Vec::new();
