@@ -17,18 +17,25 @@ mod pair;
 mod wedged;
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 use std::time::Instant;
 
+#[cfg(feature = "parallel")]
 use rayon::prelude::*;
 
 use crate::assembly::Assembly;
+#[doc(inline)]
 pub use crate::effect::EffectReport;
 use crate::effect::wedging::{self, Wedging};
 use crate::effect::{self, Situation};
 use crate::geometry::{Point, Vector};
-use crate::interface::{Interface, Interfaces};
+use crate::interface::Interfaces;
+#[doc(inline)]
+pub use crate::interface::{ContactKind, Interface};
 use crate::program::Count;
+#[doc(inline)]
 pub use crate::proof::{Demand, Motion, Proof};
+#[doc(inline)]
 pub use crate::resultant::Resultant;
 use crate::scene::{BlockId, BodyId, Note, RobotId, Scene};
 use crate::solve::{Effort, Until};
@@ -58,9 +65,9 @@ pub enum Verdict {
 
 /// A scene and what was found out about each of its frames.
 #[derive(Clone, Debug)]
-pub struct Analysis<'s> {
+pub struct Analysis {
     /// The scene examined.
-    pub scene: &'s Scene,
+    pub scene: Arc<Scene>,
     /// One entry per frame of the scene, in order.
     pub frames: Vec<FrameAnalysis>,
     /// What is allowed and seldom meant: the scene's notes, and gaps that are nearly contacts.
@@ -225,8 +232,8 @@ struct Known {
 /// What makes one component the same as one of an earlier frame: its blocks, who holds them where, and L.
 type Key = (Vec<BlockId>, Vec<(RobotId, BlockId, [u64; 2])>, u64);
 
-impl<'s> Analysis<'s> {
-    /// Examines every frame of a scene.
+impl Analysis {
+    /// Examines every frame of a scene, which it keeps: a scene is moved in, an `Arc` shared, and a reference cloned.
     ///
     /// ```
     /// use drystone::{Analysis, Scene, analysis::Verdict};
@@ -241,15 +248,16 @@ impl<'s> Analysis<'s> {
     /// assert!((frame.contacts[0].resultant.at.x - (2.5 + 1.0 / 3.0)).abs() < 1e-9);
     /// # Ok::<(), drystone::scene::Problems>(())
     /// ```
-    pub fn of(scene: &'s Scene) -> Analysis<'s> {
+    pub fn of(scene: impl Into<Arc<Scene>>) -> Analysis {
         Analysis::with(scene, &Options::default())
     }
 
     /// Examines every frame of a scene, and what else is asked for.
-    pub fn with(scene: &'s Scene, options: &Options) -> Analysis<'s> {
-        let (found, mut frames) = examine(scene, options);
-        near::judge(scene, &found, &mut frames, options);
-        let notes = near::notes(scene, &found);
+    pub fn with(scene: impl Into<Arc<Scene>>, options: &Options) -> Analysis {
+        let scene = scene.into();
+        let (found, mut frames) = examine(&scene, options);
+        near::judge(&scene, &found, &mut frames, options);
+        let notes = near::notes(&scene, &found);
         Analysis {
             scene,
             frames,
@@ -266,6 +274,19 @@ impl<'s> Analysis<'s> {
             .unwrap_or(Verdict::Stable)
     }
 }
+
+impl From<&Scene> for Arc<Scene> {
+    fn from(scene: &Scene) -> Arc<Scene> {
+        Arc::new(scene.clone())
+    }
+}
+
+/// An analysis may be handed to another thread, and read by several.
+const _: () = {
+    const fn shared<T: Send + Sync + 'static>() {}
+    shared::<Analysis>();
+    shared::<Scene>();
+};
 
 /// Examines every frame of a scene with its gaps as they are.
 fn examine(scene: &Scene, options: &Options) -> (Interfaces, Vec<FrameAnalysis>) {
@@ -307,11 +328,14 @@ fn examined(situation: &Situation, options: Options, known: &mut Known) -> Frame
         solved(&components[*k], options)
     };
     // Many small components are worth the threads; the order of the results is that of the components either way.
+    #[cfg(feature = "parallel")]
     let findings: Vec<Findings> = if fresh.len() > 16 {
         fresh.par_iter().map(one).collect()
     } else {
         fresh.iter().map(one).collect()
     };
+    #[cfg(not(feature = "parallel"))]
+    let findings: Vec<Findings> = fresh.iter().map(one).collect();
     let effort = findings
         .iter()
         .fold(Effort::default(), |sum, f| sum.and(f.effort));

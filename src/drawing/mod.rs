@@ -5,7 +5,6 @@
 //! force is, and nothing here knows a file format: `output` writes a drawing down.
 
 pub mod arrow;
-mod beside;
 mod camera;
 mod colour;
 pub mod difference;
@@ -17,7 +16,6 @@ pub mod style;
 pub mod symbol;
 pub mod text;
 
-pub use beside::beside;
 pub use camera::Camera;
 pub use colour::Colour;
 pub use outline::{Outline, Segment};

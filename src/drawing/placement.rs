@@ -24,6 +24,9 @@ const CROSSING: f64 = 14.0;
 /// A leader that crosses a label, for want of another place, counts as so many pixels of distance: more than any way.
 const STRUCK: f64 = 1000.0;
 
+/// Places whose costs differ by less than so many pixels are equally good.
+const TIE: f64 = 1e-3;
+
 /// A place that is not liked counts as so many pixels of distance.
 const DISLIKED: f64 = 110.0;
 
@@ -300,7 +303,8 @@ fn one(
                 + penalty
                 + CROSSING * others.saturating_sub(1) as f64
                 + STRUCK * labels as f64;
-            if best.is_none_or(|(least, _)| cost < least) {
+            // Of places that differ by rounding alone the first stays.
+            if best.is_none_or(|(least, _)| cost < least - TIE) {
                 let placed = Placed {
                     disliked,
                     rect,

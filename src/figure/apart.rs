@@ -6,7 +6,7 @@
 
 use super::arrow::{ForceArrow, Marks};
 use crate::drawing::arrow::{HEAD_WIDTH, head_size};
-use crate::geometry::{Point, Vector};
+use crate::geometry::{Bounds, Point, Vector};
 
 /// Arrows whose directions differ by less than this, rad, run side by side.
 const PARALLEL: f64 = 0.12;
@@ -22,6 +22,7 @@ pub(crate) fn apart(marks: &mut Marks) {
         return;
     }
     let original = arrows.clone();
+    let mut boxes: Vec<Bounds> = original.iter().map(around).collect();
     for i in 0..arrows.len() {
         let Some(across) = across(&original[i]) else {
             continue;
@@ -33,6 +34,18 @@ pub(crate) fn apart(marks: &mut Marks) {
         // An arrow and its opposite keep their true line between them.
         let opposite = (0..arrows.len()).find(|j| opposite(&original[i], &original[*j]));
         let ideal = opposite.map_or(0.0, |_| -0.5 * (1.0 + ROOM) * original[i].width);
+        let clear = |place: &f64| {
+            let there = moved(*place);
+            let near = around(&there);
+            let mut before = arrows[..i].iter().zip(&boxes);
+            !before.any(|(other, its)| near.meets(*its) && asked(&there, other))
+        };
+        // Most stand clear where they would stand best.
+        if clear(&ideal) {
+            arrows[i] = moved(ideal);
+            boxes[i] = around(&arrows[i]);
+            continue;
+        }
         let mut places = vec![ideal, 0.0];
         for other in &arrows[..i] {
             // Just clear of one of those before it, on either side.
@@ -46,13 +59,20 @@ pub(crate) fn apart(marks: &mut Marks) {
         let shafts = |far: f64| (far / original[i].width * 1e6).round();
         let far = |place: &f64| shafts((place - ideal).abs());
         places.sort_by(|a, b| far(a).total_cmp(&far(b)).then(b.total_cmp(a)));
-        let clear = |place: &f64| {
-            let there = moved(*place);
-            !arrows[..i].iter().any(|other| asked(&there, other))
-        };
         let place = places.iter().copied().find(clear);
         arrows[i] = moved(place.unwrap_or(ideal));
+        boxes[i] = around(&arrows[i]);
     }
+}
+
+/// A box about an arrow and all the room it asks for: arrows whose boxes are apart do not ask each other for more.
+fn around(arrow: &ForceArrow) -> Bounds {
+    let tip = arrow.at + arrow.reach();
+    let ends = Bounds {
+        min: arrow.at.inf(&tip),
+        max: arrow.at.sup(&tip),
+    };
+    ends.grown((HEAD_WIDTH + 2.0 * ROOM) * arrow.width)
 }
 
 /// Whether two arrows begin at one place and point opposite ways.

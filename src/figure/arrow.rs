@@ -152,7 +152,9 @@ impl Marks {
         let least = LEAST_SEEN / scale;
         let short = |arrow: &&ForceArrow| arrow.reach().norm() < least;
         let forces = self.arrows.iter().filter(short).count();
-        let torques = self.turns.iter().filter(|t| t.arc.abs() < least).count();
+        // That of a load is drawn with a least length.
+        let torques = self.turns.iter().filter(|t| t.kind != TurnKind::Load);
+        let torques = torques.filter(|t| t.arc.abs() < least).count();
         let count = forces + torques;
         let what = match (count, torques) {
             (0, _) => return None,

@@ -32,6 +32,8 @@ const FEW: usize = 12;
 const TRIED: usize = 13;
 /// Letters are no smaller than this, pixels.
 const SMALLEST: f64 = 9.0;
+/// Distances from a block's middle are ranked in steps of this share of the block's diagonal.
+const RANK: f64 = 1e-3;
 /// Height of a line of letters, in sizes.
 const HIGH: f64 = 0.96;
 
@@ -157,7 +159,7 @@ fn wanted(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
 
 /// The blocks that the words below a frame name, in placing order.
 fn mentioned(stage: &Stage<'_>, frame: usize) -> Vec<BlockId> {
-    let scene = stage.analysis.scene;
+    let scene = &stage.analysis.scene;
     let stated = &stage.statements[frame];
     let placed = scene.frames[frame].placed.iter().copied();
     placed
@@ -229,7 +231,7 @@ fn name(pen: &Pen<'_>, id: BlockId, view: Bounds) -> Option<Label> {
 }
 
 fn robots(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
-    let scene = pen.stage.analysis.scene;
+    let scene = &pen.stage.analysis.scene;
     let size = name_size(pen, pen.unit());
     // Above the smallest letters names of robots stand back a little.
     let size = (0.9 * size).max(size.min(SMALLEST));
@@ -346,14 +348,18 @@ fn inside(polygon: &Polygon, middle: Point, view: Option<Bounds>) -> Vec<Point> 
         })
         .filter(|p| polygon.contains(*p))
         .collect();
-    points.sort_by(|a, b| (a - middle).norm().total_cmp(&(b - middle).norm()));
+    // Distances that differ by rounding alone are equal: then the raster's own order decides, from lower left on, so that
+    // noise in a centroid moves no name.
+    let step = RANK * whole.diagonal();
+    let rank = |p: &Point| ((p - middle).norm() / step).round();
+    points.sort_by(|a, b| rank(a).total_cmp(&rank(b)));
     points
 }
 
 /// The ink of ground, blocks, plans, discs and arrows.
 pub(crate) fn ink(pen: &Pen<'_>) -> Ink {
     let mut ink = Ink::default();
-    let scene = pen.stage.analysis.scene;
+    let scene = &pen.stage.analysis.scene;
     let frame = &scene.frames[pen.number];
     let planned = frame.plans.iter().map(|p| p.block);
     let blocks = frame.placed.iter().copied().chain(planned);

@@ -253,6 +253,8 @@ const MOST_ROBOTS: usize = 16;
 const COLOURS: &str = "the forces on a block share a colour";
 const PLANNED: &str = "planned block";
 const MISSING: &str = "missing force, without which it falls";
+/// A turning arrow has a least length, at which its sense can be read.
+const TURNING: &str = "turning loads by their amounts, small ones drawn larger";
 const BAR: f64 = 120.0;
 
 fn robot(id: &str) -> String {
@@ -277,7 +279,7 @@ pub(crate) fn scale(newtons: f64, unit: f64, options: &Options) -> Option<Entry>
 
 /// Everything that occurs in the figure, `unit` pixels being one unit edge.
 pub(crate) fn entries(stage: &Stage<'_>, unit: f64) -> Vec<Entry> {
-    let (scene, theme) = (stage.analysis.scene, &stage.options.theme);
+    let (scene, theme) = (&stage.analysis.scene, &stage.options.theme);
     let mut entries = Vec::new();
     if stage.options.scale == ArrowScale::Strip {
         let newtons = stage
@@ -391,25 +393,32 @@ pub(crate) fn metres(scale: f64, content: f64) -> Option<Entry> {
 
 /// What a load looks like and how large loads are; none where no frame shows one.
 pub(crate) fn loads(stage: &Stage<'_>) -> Option<Entry> {
-    let scene = stage.analysis.scene;
+    let scene = &stage.analysis.scene;
     let placed = |block| scene.frames.iter().any(|f| f.placed.contains(&block));
     let loads = scene.loads.iter().filter(|l| placed(l.block));
+    let turns = loads.clone().any(|l| l.torque != 0.0);
     let amounts: Vec<f64> = loads.map(|l| l.force.norm()).filter(|a| *a > 0.0).collect();
     let least = amounts.iter().copied().fold(f64::INFINITY, f64::min);
     let most = amounts.iter().copied().fold(0.0, f64::max);
     let (least, most) = (quantity(least, "N"), quantity(most, "N"));
     let words = match amounts.len() {
+        0 if turns => return Some(Entry::Note(TURNING.into())),
         0 => return None,
         1 => format!("load of {most}"),
         n if least == most => format!("{n} loads of {most} each"),
         n => format!("{n} loads of {least} to {most}"),
+    };
+    let words = if turns {
+        format!("{words}; {TURNING}")
+    } else {
+        words
     };
     Some(Entry::Sign(load_sign, SAMPLE, words))
 }
 
 /// The robots that hold or plan in any frame, and what a plan looks like.
 pub(crate) fn robots(stage: &Stage<'_>) -> Vec<Entry> {
-    let (scene, theme) = (stage.analysis.scene, &stage.options.theme);
+    let (scene, theme) = (&stage.analysis.scene, &stage.options.theme);
     let mut entries = Vec::new();
     let holds = |number: usize| {
         scene

@@ -34,7 +34,7 @@ pub(crate) fn largest_load(scene: &Scene, frame: &Frame, options: &Options) -> f
 }
 
 /// The frame's analysis with the mechanism at the edge in place of its own, and how far the edge is.
-fn ghost<'s>(analysis: &Analysis<'s>, frame: usize, toward: Toward) -> Option<(Analysis<'s>, f64)> {
+fn ghost(analysis: &Analysis, frame: usize, toward: Toward) -> Option<(Analysis, f64)> {
     let (edge, motions) = analysis.edge(frame, toward)?;
     let mut ghost = analysis.clone();
     let found = ghost.frames.get_mut(frame)?;
@@ -45,7 +45,7 @@ fn ghost<'s>(analysis: &Analysis<'s>, frame: usize, toward: Toward) -> Option<(A
 
 /// Where the blocks of a frame would go, by their numbers, and how far the edge is.
 fn gone(
-    analysis: &Analysis<'_>,
+    analysis: &Analysis,
     frame: usize,
     unit: f64,
     toward: Toward,
@@ -61,8 +61,8 @@ struct Gravity {
     there: Point,
 }
 
-fn gravity(analysis: &Analysis<'_>, frame: usize, edge: f64, toward: Toward) -> Option<Gravity> {
-    let scene = analysis.scene;
+fn gravity(analysis: &Analysis, frame: usize, edge: f64, toward: Toward) -> Option<Gravity> {
+    let scene = &analysis.scene;
     let blocks = scene.frames[frame].placed.iter();
     let structure = blocks
         .map(|id| scene.blocks[id.0].body.polygon.bounds())
@@ -97,7 +97,7 @@ fn gravity(analysis: &Analysis<'_>, frame: usize, edge: f64, toward: Toward) -> 
 
 /// A box around ghosts and gravity.
 pub(crate) fn reach(
-    analysis: &Analysis<'_>,
+    analysis: &Analysis,
     frame: usize,
     unit: f64,
     options: &Options,
@@ -112,8 +112,8 @@ pub(crate) fn reach(
 /// What the camera sees of a frame, its ghost and gravity.
 pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Camera) -> Group {
     let pen = Pen::of(stage, frame, camera);
-    let ink = label::ink(&pen);
-    let (scene, theme) = (stage.analysis.scene, &stage.options.theme);
+    let mut ink = label::ink(&pen);
+    let (scene, theme) = (&stage.analysis.scene, &stage.options.theme);
     let mut parts = Vec::new();
     let toward = stage.options.toward;
     if let Some((displaced, edge)) = gone(stage.analysis, frame, stage.unit, toward) {
@@ -143,6 +143,8 @@ pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Ca
             let long = libm::hypot(now.x - from.x, now.y - from.y);
             let width = (0.04 * long).clamp(1.2, 3.0);
             let arrow = Path::filled(straight(from, along, width), theme.ink);
+            ink.line(from, now, 1.2);
+            ink.arrow(from, along, width);
             parts.push(
                 group
                     .with(Path::stroked(Outline::line([from, now]), dashed))

@@ -7,6 +7,7 @@
 mod apart;
 mod arrow;
 mod bearing;
+mod broken;
 mod by_colour;
 mod caption;
 mod collapse;
@@ -39,6 +40,7 @@ mod stage;
 mod strip;
 mod thrust;
 mod description;
+mod title;
 mod unit;
 mod utilisation;
 mod verdict;
@@ -46,8 +48,9 @@ mod view;
 mod words;
 
 pub use arrow::{ArrowKind, ForceArrow, Head, Marks, TurnArrow, TurnKind};
+pub use broken::broken;
 pub use caption::caption;
-pub use draw::{draw, least_size, pages, panels, split};
+pub use draw::{draw, least_size, pages, panels, panels_of, split};
 pub use forces::forces;
 pub use freebody::freebody;
 pub use gallery::{Plate, gallery};
@@ -56,5 +59,6 @@ pub use mark::{arrows, marks};
 pub use option::{ArrowScale, Corners, Fill, ForceStyle, Normalisation, Options};
 pub use ring::ring;
 pub use shapes::shapes;
+#[cfg(feature = "report")]
 pub(crate) use words::letter;
 pub use words::quantity;

@@ -1,8 +1,10 @@
 //! The force polygon: the forces on a structure from outside, tip to tail beside it.
 //!
 //! Weights and loads follow each other block by block, then what the ground and the robots give, and at last what is
-//! missing: where the structure is in balance the polygon is closed. Each arrow has the colour and the number of newtons
-//! that it has on the structure beside it; only the scale is larger, by a whole number that the key tells.
+//! missing, hollow and dashed: where the structure is in balance the polygon is closed. Where it falls, the polygon closes
+//! only because missing forces are counted among the others, outside or inside the structure, and the words below say so.
+//! Each arrow has the colour and the number of newtons that it has on the structure beside it; only the scale is larger,
+//! by a whole number that the key tells.
 
 use super::arrow::{ArrowKind, ForceArrow, Marks};
 use super::description;
@@ -17,9 +19,9 @@ use super::unit::unit;
 use super::verdict;
 use super::view;
 use super::words::round_below;
-use crate::analysis::Analysis;
+use crate::analysis::{Analysis, Verdict};
 use crate::drawing::arrow::straight;
-use crate::drawing::{Camera, Group, Item, Outline, Path, Stroke};
+use crate::drawing::{Camera, Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
 use crate::geometry::{Bounds, Point, Vector};
 use crate::scene::BodyId;
 
@@ -30,19 +32,27 @@ const APART: (f64, f64) = (0.12, 1.0);
 /// A polygon whose last tip misses its first tail by at most this share of the sum of all forces is closed.
 const CLOSED: f64 = 1e-6;
 
-/// What acts on a frame's structure from outside: weights, loads, what ground and robots give, and what is missing there.
+/// Whether a force acts on the structure from outside: a side of the polygon.
+fn outside(arrow: &ForceArrow) -> bool {
+    !matches!(arrow.kind.partner(), Some(BodyId::Block(_)))
+}
+
+/// The sides of a frame's polygon, in their order.
+fn outer(marks: &Marks) -> impl Iterator<Item = &ForceArrow> {
+    marks.arrows.iter().filter(|arrow| outside(arrow))
+}
+
+/// What acts on a frame's structure from outside: weights, loads, what ground and robots give, and what is missing there;
+/// and what is missing inside, which is drawn on the structure alone.
 pub(crate) fn marks(
-    analysis: &Analysis<'_>,
+    analysis: &Analysis,
     frame: usize,
     options: &Options,
     newtons_per_unit: f64,
 ) -> Marks {
     let marks = mark::marks(analysis, frame, options, newtons_per_unit);
-    let outside = |arrow: &ForceArrow| match arrow.kind.partner() {
-        Some(BodyId::Block(_)) => false,
-        Some(BodyId::Ground(_)) | None => true,
-    };
-    let mut arrows: Vec<ForceArrow> = marks.arrows.into_iter().filter(outside).collect();
+    let shown = |arrow: &ForceArrow| outside(arrow) || arrow.kind.is_failure();
+    let mut arrows: Vec<ForceArrow> = marks.arrows.into_iter().filter(shown).collect();
     arrows.sort_by_key(|arrow| match arrow.kind {
         ArrowKind::Weight | ArrowKind::Load => 0,
         kind if kind.is_failure() => 2,
@@ -97,19 +107,19 @@ fn covers(acting: &[Point], answering: &[Point], size: f64) -> bool {
 }
 
 /// The forces of `marks` tip to tail, to the right of the blocks of a frame.
-fn chain(analysis: &Analysis<'_>, frame: usize, marks: &Marks) -> Option<Chain> {
-    let scene = analysis.scene;
+fn chain(analysis: &Analysis, frame: usize, marks: &Marks) -> Option<Chain> {
+    let scene = &analysis.scene;
     let blocks = scene.frames[frame].placed.iter();
     let structure = blocks
         .map(|id| scene.blocks[id.0].body.polygon.bounds())
         .reduce(Bounds::union)?;
     let mut at = Point::origin();
     let mut corners = vec![at];
-    for arrow in &marks.arrows {
+    for arrow in outer(marks) {
         at += arrow.vector;
         corners.push(at);
     }
-    let own = Bounds::of(corners.iter().copied()).filter(|_| marks.arrows.len() > 1)?;
+    let own = Bounds::of(corners.iter().copied()).filter(|_| corners.len() > 2)?;
     let size = own.width().max(own.height());
     if size.is_nan() || size <= 0.0 {
         return None;
@@ -119,8 +129,8 @@ fn chain(analysis: &Analysis<'_>, frame: usize, marks: &Marks) -> Option<Chain> 
         return None;
     }
     let answers = |arrow: &ForceArrow| !matches!(arrow.kind, ArrowKind::Weight | ArrowKind::Load);
-    let acting = marks.arrows.iter().position(answers);
-    let acting = acting.unwrap_or(marks.arrows.len());
+    let acting = outer(marks).position(answers);
+    let acting = acting.unwrap_or(corners.len() - 1);
     let aside = if covers(&corners[..=acting], &corners[acting..], size) {
         BESIDE * size
     } else {
@@ -166,10 +176,10 @@ fn larger(times: f64) -> String {
 }
 
 /// A box around the polygon of a frame, arrows of so many newtons per unit edge.
-pub(crate) fn reach(analysis: &Analysis<'_>, frame: usize, marks: &Marks) -> Option<Bounds> {
+pub(crate) fn reach(analysis: &Analysis, frame: usize, marks: &Marks) -> Option<Bounds> {
     let chain = chain(analysis, frame, marks)?;
     let own = Bounds::of(chain.sides.into_iter().flatten())?;
-    Some(own.grown(0.3 * unit(analysis.scene, None)))
+    Some(own.grown(0.3 * unit(&analysis.scene, None)))
 }
 
 /// What the camera sees of a frame: the structure with the forces on it from outside, and their polygon.
@@ -180,11 +190,16 @@ pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Ca
     let mut polygon = Group::of_class("polygon").titled("Force polygon");
     if let Some(chain) = chain(stage.analysis, frame, marks) {
         let theme = &stage.options.theme;
-        for (arrow, ends) in marks.arrows.iter().zip(&chain.sides) {
+        for (arrow, ends) in outer(marks).zip(&chain.sides) {
             let from = camera.place(ends[0]);
             let along = camera.turn(ends[1] - ends[0]);
             ink.arrow(from, along, pen.width(arrow));
-            let path = Path::filled(straight(from, along, pen.width(arrow)), arrow.colour);
+            let outline = straight(from, along, pen.width(arrow));
+            let path = if arrow.kind.is_failure() {
+                missing(outline, arrow.colour, theme)
+            } else {
+                Path::filled(outline, arrow.colour)
+            };
             let title = description::arrow(stage, arrow);
             let drawn = Group::of_class("force").titled(title).with(path);
             polygon.items.push(drawn.into());
@@ -216,7 +231,7 @@ pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Ca
     let parts = vec![pen.arrows(false), pen.arrows(true), polygon];
     let mut picture = composed(&pen, view, pen.blocks(), parts, ink);
     // The polygon stands on nothing: ground ends beside it.
-    let shown = view::ground_shown(stage.analysis.scene, unit(stage.analysis.scene, None));
+    let shown = view::ground_shown(&stage.analysis.scene, unit(&stage.analysis.scene, None));
     for item in &mut picture.items {
         if let (Item::Group(group), Some(shown)) = (item, shown)
             && group.class == "ground"
@@ -231,9 +246,20 @@ pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Ca
 
 /// Whether the forces add up to nothing.
 fn closed(marks: &Marks) -> bool {
-    let sum: Vector = marks.arrows.iter().map(|a| a.force).sum();
-    let all: f64 = marks.arrows.iter().map(|a| a.force.norm()).sum();
+    let sum: Vector = outer(marks).map(|a| a.force).sum();
+    let all: f64 = outer(marks).map(|a| a.force.norm()).sum();
     sum.norm() <= CLOSED * all
+}
+
+/// A missing force as a side of the polygon: nothing gives it.
+fn missing(outline: Outline, colour: Colour, theme: &Theme) -> Path {
+    let edge = Stroke::new(colour, 1.2).dashed([3.0, 2.0]);
+    Path::filled(outline, theme.page).with_stroke(edge)
+}
+
+fn missing_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    let outline = straight(at, (26.0, 0.0), 4.0);
+    vec![missing(outline, theme.failure, theme).into()]
 }
 
 /// What the signs of a force polygon mean.
@@ -241,6 +267,11 @@ pub(crate) fn entries(stage: &Stage<'_>, unit: f64) -> Vec<Entry> {
     let mut entries = legend::entries(stage, unit);
     // Blocks are plain here: no colour tells an amplitude.
     entries.retain(|entry| !matches!(entry, Entry::Amplitudes(..)));
+    let mut sides = stage.marks.iter().flat_map(outer);
+    if sides.any(|arrow| arrow.kind.is_failure()) {
+        let what = "missing force as a side of the polygon".to_owned();
+        entries.push(Entry::Sign(missing_sign, 26.0, what));
+    }
     let frames = stage.marks.iter().enumerate();
     let mut times: Vec<f64> = frames
         .filter_map(|(frame, marks)| Some(chain(stage.analysis, frame, marks)?.times))
@@ -268,12 +299,22 @@ pub(crate) fn entries(stage: &Stage<'_>, unit: f64) -> Vec<Entry> {
 
 /// What is written below a frame's verdict.
 pub(crate) fn reason(stage: &Stage<'_>, frame: usize) -> String {
-    let why = verdict::reason(stage.analysis.scene, &stage.analysis.frames[frame]);
+    let why = verdict::reason(&stage.analysis.scene, &stage.analysis.frames[frame]);
     let marks = &stage.marks[frame];
-    let how = match (marks.arrows.is_empty(), closed(marks)) {
-        (true, _) => return why,
-        (_, true) => "the force polygon is closed",
-        _ => "the force polygon stays open",
+    let lacks = outer(marks).any(|a| a.kind.is_failure());
+    if outer(marks).next().is_none() {
+        return why;
+    }
+    let how = match (stage.analysis.frames[frame].verdict, closed(marks)) {
+        (_, false) => "the force polygon stays open",
+        (Verdict::Stable, true) => "the force polygon is closed",
+        (Verdict::Unstable, true) if lacks => {
+            "the force polygon closes only with the missing forces"
+        }
+        (Verdict::Unstable, true) => {
+            "the force polygon closes only if the forces missing inside the structure are given"
+        }
+        (Verdict::Undecided, true) => "the force polygon of what was found is closed",
     };
     if why.is_empty() {
         how.to_owned()

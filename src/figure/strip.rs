@@ -9,6 +9,7 @@ use super::layout::Layout;
 use super::legend;
 use super::option::{ArrowScale, Options};
 use super::stage::Stage;
+use super::title;
 use super::verdict;
 use super::words::{counted, letter, quantity};
 use crate::analysis::Analysis;
@@ -29,7 +30,7 @@ const MOST_REASON_LINES: usize = 12;
 const MOST_LISTED: usize = 30;
 
 /// The figure of an analysis: a panel of this kind for each frame.
-pub(crate) fn strip(analysis: &Analysis<'_>, kind: Kind, options: &Options) -> Drawing {
+pub(crate) fn strip(analysis: &Analysis, kind: Kind, options: &Options) -> Drawing {
     let stage = kind.stage(analysis, options);
     let count = analysis.frames.len();
     let drawn = |stage: &Stage<'_>| {
@@ -58,8 +59,14 @@ pub(crate) fn strip(analysis: &Analysis<'_>, kind: Kind, options: &Options) -> D
     }
 }
 
-/// The panels of [`strip`] a page each, all pages alike in size and scale, so that they can follow one another in place.
-pub(crate) fn pages(analysis: &Analysis<'_>, kind: Kind, options: &Options) -> Vec<Drawing> {
+/// Panels of [`strip`] a page each, of these frames, all pages alike in size and scale, so that they can follow one another
+/// in place.
+pub(crate) fn pages(
+    analysis: &Analysis,
+    kind: Kind,
+    options: &Options,
+    frames: impl Iterator<Item = usize>,
+) -> Vec<Drawing> {
     let stage = kind.stage(analysis, options);
     let page = |frame| {
         let strip = Strip {
@@ -71,7 +78,7 @@ pub(crate) fn pages(analysis: &Analysis<'_>, kind: Kind, options: &Options) -> V
         };
         page(&[&strip], &[(0, frame)], &analysis.scene.title)
     };
-    let mut pages: Vec<Drawing> = (0..analysis.frames.len()).map(page).collect();
+    let mut pages: Vec<Drawing> = frames.map(page).collect();
     let highest = pages.iter().map(|p| p.height).fold(0.0, f64::max);
     for page in &mut pages {
         page.height = highest;
@@ -81,12 +88,7 @@ pub(crate) fn pages(analysis: &Analysis<'_>, kind: Kind, options: &Options) -> V
 
 /// The panels of [`strip`] on pages no higher than `high` times their width, one below the other in as many rows as fit, at
 /// least one; all to one scale.
-pub(crate) fn split(
-    analysis: &Analysis<'_>,
-    kind: Kind,
-    options: &Options,
-    high: f64,
-) -> Vec<Drawing> {
+pub(crate) fn split(analysis: &Analysis, kind: Kind, options: &Options, high: f64) -> Vec<Drawing> {
     let stage = kind.stage(analysis, options);
     let count = analysis.frames.len();
     let layout = Layout::roomy(&stage, count);
@@ -131,7 +133,7 @@ pub(crate) struct Strip<'a> {
 
 /// Some panels of strips of one layout on a page, each given by its strip and its frame, and one key below them all. The
 /// structures of a row stand on one level.
-pub(crate) fn page(strips: &[&Strip<'_>], order: &[(usize, usize)], title: &str) -> Drawing {
+pub(crate) fn page(strips: &[&Strip<'_>], order: &[(usize, usize)], heading: &str) -> Drawing {
     let Some(first) = strips.first() else {
         return Drawing::default();
     };
@@ -154,15 +156,14 @@ pub(crate) fn page(strips: &[&Strip<'_>], order: &[(usize, usize)], title: &str)
     let left = middle - layout.content / 2.0;
     let mut items: Vec<Item> = Vec::new();
     let mut y = margin;
-    if options.titles && !title.is_empty() {
-        let (face, size) = (Face::SerifBold, theme.sizes.title);
-        let lines = text::wrap(title, face, size, inner);
-        for line in text::cut(lines, 3, face, size, inner) {
+    if options.titles && !heading.is_empty() {
+        let (lines, size) = title::lines(heading, inner, theme);
+        for line in lines {
             let below = size * 5.0 / 22.0;
             y += size;
             let at = PagePoint::new(middle, y - below);
             items.push(
-                Text::new(at, line, face, size, theme.ink)
+                Text::new(at, line, title::FACE, size, theme.ink)
                     .anchored(Anchor::Middle)
                     .into(),
             );
@@ -227,10 +228,10 @@ pub(crate) fn page(strips: &[&Strip<'_>], order: &[(usize, usize)], title: &str)
     Drawing {
         width: width.ceil(),
         height: (y + margin).ceil(),
-        title: if title.is_empty() {
+        title: if heading.is_empty() {
             first.kind.title().into()
         } else {
-            title.to_owned()
+            heading.to_owned()
         },
         description: described.join(" "),
         background: Some(theme.page),
@@ -430,7 +431,7 @@ impl Strip<'_> {
     /// `(a) Initial situation`; without a letter where there is but one frame, without what the heading says already;
     /// and around which block where that is all that is shown.
     fn caption(&self, frame: usize, between: &str) -> String {
-        let scene = self.stage.analysis.scene;
+        let scene = &self.stage.analysis.scene;
         if let Some(caption) = self.captions.and_then(|all| all.get(frame)) {
             return caption.clone();
         }
@@ -451,7 +452,7 @@ impl Strip<'_> {
     /// A frame in a sentence.
     fn described(&self, frame: usize) -> String {
         let (scene, found) = (
-            self.stage.analysis.scene,
+            &self.stage.analysis.scene,
             &self.stage.analysis.frames[frame],
         );
         let blocks = counted(scene.frames[frame].placed.len(), "block");

@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use rstar::{AABB, RTree, RTreeObject};
+use rstar::{AABB, RTreeObject};
 
 use super::held::{FLAT, propped};
 use super::{ContactKind, Interface, Interfaces, Near, bodies, ordered};
-use crate::geometry::{Edge, Point, Tolerance, Vector, cross, quarter_turn};
+use crate::geometry::{Edge, Nearby, Point, Tolerance, Vector, cross, quarter_turn};
 use crate::scene::{BodyId, Scene, size};
 
 /// Edges farther apart than this many gaps are not worth a notice.
@@ -60,11 +60,11 @@ pub(super) fn find(scene: &Scene) -> Interfaces {
             })
         })
         .collect();
-    let tree = RTree::bulk_load(sides);
+    let nearby = Nearby::of(sides);
     let mut pairs: BTreeMap<[BodyId; 2], Vec<(usize, usize, Meeting)>> = BTreeMap::new();
-    for a in tree.iter().filter(|a| matches!(a.body, BodyId::Block(_))) {
+    for a in nearby.all().filter(|a| matches!(a.body, BodyId::Block(_))) {
         let reach = a.near;
-        let near = AABB::from_corners(
+        let around = AABB::from_corners(
             [
                 a.edge.from.x.min(a.edge.to.x) - reach,
                 a.edge.from.y.min(a.edge.to.y) - reach,
@@ -74,7 +74,7 @@ pub(super) fn find(scene: &Scene) -> Interfaces {
                 a.edge.from.y.max(a.edge.to.y) + reach,
             ],
         );
-        for b in tree.locate_in_envelope_intersecting(near) {
+        for b in nearby.near(around) {
             let Some(pair) = ordered(a.body, b.body).filter(|p| p[0] == a.body && a.body != b.body)
             else {
                 continue;
@@ -214,6 +214,9 @@ fn square_to(ends: [Point; 2]) -> Vector {
 
 /// Stretches of one pair that continue each other along one line, joined: a corner set into a straight edge changes nothing.
 fn joined(stretches: Vec<Interface>, tolerance: Tolerance) -> Vec<Interface> {
+    if stretches.len() < 2 {
+        return stretches;
+    }
     let reach = 4.0 * tolerance.gap;
     let mut left = Ends::of(stretches, reach);
     let mut done = Vec::new();

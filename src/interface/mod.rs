@@ -59,7 +59,7 @@ impl Interface {
     /// ([Vallat23](crate::doc::references) §2.0.10).
     ///
     /// ```
-    /// # use drystone::{geometry::{Point, Vector}, interface::*, scene::*};
+    /// # use drystone::{internals::interface::*, scene::*};
     /// let seam = Interface {
     ///     bodies: [BodyId::Block(BlockId(0)), BodyId::Ground(0)],
     ///     kind: ContactKind::Edge,

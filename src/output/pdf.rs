@@ -3,6 +3,8 @@
 //! It is made from the SVG, as the PNG is, so that they cannot disagree. The only file that names krilla. Our fonts are
 //! embedded, cut down to the glyphs that are used. Nothing in it tells of a day or a machine: same drawing, same bytes.
 
+use std::borrow::Cow;
+
 use krilla::Document;
 use krilla::color::rgb;
 use krilla::geom::{Path, PathBuilder, Point, Transform};
@@ -81,7 +83,7 @@ pub fn write_in(
         width: drawing.width,
         height: drawing.height,
         parts: vec![Part {
-            drawing,
+            content: Content::Drawing(drawing),
             at: PagePoint::new(0.0, 0.0),
             scale: 1.0,
         }],
@@ -93,11 +95,20 @@ pub fn write_in(
     document(&[sheet], width / drawing.width, &heading, fonts)
 }
 
-/// A drawing in its place on a page.
+/// What is drawn on a page.
+#[derive(Clone, Copy, Debug)]
+pub enum Content<'d> {
+    /// A drawing.
+    Drawing(&'d Drawing),
+    /// An SVG of ours, such as a chart, and what it shows.
+    Svg(&'d str, &'d str),
+}
+
+/// A drawing or a chart in its place on a page.
 #[derive(Clone, Copy, Debug)]
 pub struct Part<'d> {
-    /// The drawing.
-    pub drawing: &'d Drawing,
+    /// What is drawn.
+    pub content: Content<'d>,
     /// Where its upper left corner lies, pixels of the page.
     pub at: PagePoint,
     /// Pixels of the page per pixel of the drawing.
@@ -133,6 +144,13 @@ pub fn write_sheets(sheets: &[Sheet<'_>], heading: &Heading<'_>) -> Result<Vec<u
     document(sheets, natural, heading, &Fonts::default())
 }
 
+/// Width and height of an SVG of ours in pixels; `None` for what is no SVG.
+pub fn svg_size(text: &str) -> Option<(f64, f64)> {
+    let tree = tree::read(text, &Fonts::default()).ok()?;
+    let size = tree.size();
+    Some((f64::from(size.width()), f64::from(size.height())))
+}
+
 /// A document of pages, a pixel being so many millimetres.
 fn document(
     sheets: &[Sheet<'_>],
@@ -164,8 +182,14 @@ fn document(
         let mut page = document.start_page_with(page);
         let mut surface = page.surface();
         for part in &sheet.parts {
-            let tree =
-                tree::read(&svg::write(part.drawing), fonts).map_err(PdfError::Unwritable)?;
+            let (text, heading) = match part.content {
+                Content::Drawing(drawing) => {
+                    let words = [line(&drawing.title), line(&drawing.description)];
+                    (Cow::Owned(svg::write(drawing)), words.join(". "))
+                }
+                Content::Svg(text, shows) => (Cow::Borrowed(text), line(shows)),
+            };
+            let tree = tree::read(&text, fonts).map_err(PdfError::Unwritable)?;
             let figure = surface.start_tagged(ContentTag::Other);
             let (x, y) = (scale * part.at.x as f32, scale * part.at.y as f32);
             let own = scale * part.scale as f32;
@@ -178,7 +202,6 @@ fn document(
             known = pen.fonts;
             surface.pop();
             surface.end_tagged();
-            let heading = [line(&part.drawing.title), line(&part.drawing.description)].join(". ");
             tags.push(TagGroup::with_children(
                 Tag::Figure(Some(heading)),
                 vec![figure.into()],

@@ -7,7 +7,7 @@ use super::html::slug;
 use super::page::{Made, Report, Unwritable};
 use crate::output::svg::{self, Options, Words};
 use crate::text::{self, markdown};
-use crate::wording::number::{percent, quantity};
+use crate::wording::number::quantity;
 use crate::wording::verdict::plain;
 
 /// The folder of a report's figures, beside it.
@@ -39,7 +39,7 @@ pub(super) fn head(report: &Report, summary: &str) -> String {
                 "name",
                 "verdict",
                 "closest margin",
-                "#friction used",
+                "#friction used, where it stands",
                 "#blocks",
                 "#largest force",
                 if report.compares {
@@ -59,7 +59,7 @@ pub(super) fn head(report: &Report, summary: &str) -> String {
                     None => plain(row.verdict).to_owned(),
                 },
                 closest.to_owned(),
-                percent(row.friction),
+                row.friction_words(),
                 row.blocks.to_string(),
                 quantity(row.largest, "N"),
                 row.fails.clone(),
@@ -199,12 +199,7 @@ fn chart(out: &mut String, files: &mut Vec<Made>, chart: &Chart, name: &str) {
     let caption = markdown(&chart.caption);
     push(out, &format!("![{caption}](<{name}.svg>)\n\n*{caption}*\n"));
     // A file of its own says what it is.
-    let head = "<svg xmlns=\"http://www.w3.org/2000/svg\"";
-    let svg = if chart.svg.contains("xmlns=") {
-        chart.svg.clone()
-    } else {
-        chart.svg.replacen("<svg", head, 1)
-    };
+    let svg = chart.document().into_owned();
     files.push((format!("{name}.svg"), svg.into_bytes()));
 }
 

@@ -3,16 +3,16 @@
 //! A page is a drawing of words and lines, and figures in their places on it. Tables break between lines and begin again
 //! with their heads; a figure is made smaller where it must be and never cut.
 
-use super::entry::{Entry, Grid, Step};
+use super::entry::{Chart, Entry, Grid, Step};
 use super::page::{Report, Unwritable};
 use crate::drawing::text::{width, wrap};
 use crate::drawing::{
     Anchor, Colour, Drawing, Face, Item, Outline, PagePoint, Path, Stroke, Text, Theme,
 };
 use crate::output::fonts::Fonts;
-use crate::output::pdf::{self, Heading, Part, Sheet};
+use crate::output::pdf::{self, Content, Heading, Part, Sheet};
 use crate::text::line;
-use crate::wording::number::{percent, quantity};
+use crate::wording::number::quantity;
 use crate::wording::verdict::plain;
 
 /// Width and height of A4, pixels, 96 to the inch.
@@ -31,6 +31,8 @@ const SMALL: f64 = 10.5;
 const LINE: f64 = 1.38;
 /// A figure is no higher than this.
 const HIGHEST: f64 = 460.0;
+/// A table that takes no more than this share of a page is not broken.
+const SHORT: f64 = 0.4;
 /// Room between two columns of a table.
 const GAP: f64 = 12.0;
 
@@ -39,6 +41,8 @@ const GAP: f64 = 12.0;
 pub(super) struct Page {
     items: Vec<Item>,
     figures: Vec<(Drawing, PagePoint, f64)>,
+    /// Charts as SVG, and what they show.
+    charts: Vec<(String, String, PagePoint, f64)>,
 }
 
 /// What is put on pages from top to bottom.
@@ -125,6 +129,38 @@ impl Flow {
         self.note(caption);
     }
 
+    /// Charts, so many beside each other, each with its caption below it.
+    fn charts(&mut self, charts: &[Chart], across: usize) {
+        let wide = (ROOM - GAP * (across - 1) as f64) / across as f64;
+        for row in charts.chunks(across) {
+            let sized = row.iter().filter_map(|chart| {
+                let svg = chart.document().into_owned();
+                let (width, height) = pdf::svg_size(&svg)?;
+                let scale = (wide / width).min(HIGHEST / height).min(1.0);
+                Some((chart, svg, scale, scale * height))
+            });
+            let sized: Vec<_> = sized.collect();
+            let high = sized.iter().map(|s| s.3).fold(0.0, f64::max);
+            self.make_room(high + 4.0 * SMALL);
+            let top = self.y;
+            let mut end = top;
+            for (place, (chart, svg, scale, _)) in sized.into_iter().enumerate() {
+                let x = EDGE + place as f64 * (wide + GAP);
+                let shows = self.legible(&chart.caption);
+                let picture = (svg, shows.clone(), PagePoint::new(x, top), scale);
+                self.page().charts.push(picture);
+                self.y = top + high + 4.0;
+                for words in wrap(&shows, Face::Sans, SMALL, wide) {
+                    let faint = self.theme.faint;
+                    self.put(&words, x, Face::Sans, SMALL, faint, Anchor::Start);
+                    self.y += LINE * SMALL;
+                }
+                end = f64::max(end, self.y);
+            }
+            self.y = end + 0.6 * SIZE;
+        }
+    }
+
     fn grid(&mut self, grid: &Grid) {
         if grid.lines.is_empty() {
             return;
@@ -142,7 +178,14 @@ impl Flow {
             LINE * SMALL * lines.max().unwrap_or(1).max(1) as f64 + 4.0
         };
         let head = height(&heads, Face::SansBold);
-        self.make_room(3.0 * SIZE + head + 2.0 * LINE * SMALL);
+        // A short table stays in one piece; of a long one at least two lines stay with its head.
+        let whole: f64 = cells.iter().map(|row| height(row, Face::Sans)).sum();
+        let least = if whole < SHORT * (BOTTOM - EDGE) {
+            whole
+        } else {
+            2.0 * LINE * SMALL
+        };
+        self.make_room(3.0 * SIZE + head + least);
         if !grid.caption.is_empty() {
             self.y += 0.4 * SIZE;
             self.words(&grid.caption, Face::SansBold, SIZE, self.theme.ink);
@@ -261,7 +304,7 @@ pub(super) fn head(report: &Report, summary: &str) -> Vec<Page> {
             &[
                 "name",
                 "verdict",
-                "#friction used",
+                "#friction used, where it stands",
                 "#blocks",
                 "#largest force",
                 what,
@@ -272,7 +315,7 @@ pub(super) fn head(report: &Report, summary: &str) -> Vec<Page> {
             let cells = [
                 row.title.clone(),
                 plain(row.verdict).to_owned(),
-                percent(row.friction),
+                row.friction_words(),
                 row.blocks.to_string(),
                 quantity(row.largest, "N"),
                 row.fails.clone(),
@@ -295,6 +338,10 @@ pub(super) fn section(entry: &Entry) -> Vec<Page> {
     }
     for step in &entry.steps {
         self::step(&mut flow, step);
+    }
+    flow.charts(&entry.charts, 2);
+    if let Some(study) = &entry.study {
+        flow.charts(std::slice::from_ref(study), 1);
     }
     for (_, command) in &entry.commands {
         flow.note(command);
@@ -327,6 +374,7 @@ fn step(flow: &mut Flow, step: &Step) {
     if !step.proof.is_empty() {
         flow.paragraph(&step.proof);
     }
+    flow.charts(&step.charts, 2);
 }
 
 /// The pages as a PDF, each with its number.
@@ -362,12 +410,17 @@ pub(super) fn written(
         .zip(&words)
         .map(|(page, words)| {
             let mut parts = vec![Part {
-                drawing: words,
+                content: Content::Drawing(words),
                 at: PagePoint::new(0.0, 0.0),
                 scale: 1.0,
             }];
             parts.extend(page.figures.iter().map(|(drawing, at, scale)| Part {
-                drawing,
+                content: Content::Drawing(drawing),
+                at: *at,
+                scale: *scale,
+            }));
+            parts.extend(page.charts.iter().map(|(svg, shows, at, scale)| Part {
+                content: Content::Svg(svg, shows),
                 at: *at,
                 scale: *scale,
             }));

@@ -240,7 +240,7 @@ impl Session {
     }
 
     /// Everything there is to find out about what stands.
-    pub fn analysis(&self) -> Analysis<'_> {
+    pub fn analysis(&self) -> Analysis {
         Analysis::with(&self.scene, &self.options)
     }
 

@@ -1,7 +1,7 @@
 //! The smallest stone: a pebble on a tower, beside a wall or in its joints is judged by its own forces, however light.
 
 use drystone::analysis::{Options, Verdict, verdicts};
-use drystone::geometry::{Point, Vector, cross, least_scale};
+use drystone::internals::geometry::{Point, Vector, cross, least_scale};
 use drystone::scene::{BlockId, BodyId};
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};

@@ -13,6 +13,8 @@ use crate::scene::BodyId;
 
 /// Radius of a turning arrow in unit edges: around a robot's disc.
 const TURN: f64 = 0.46;
+/// The turning arrow of a load is at least so long, radians.
+const LEAST_SWEEP: f64 = 1.2;
 
 impl Pen<'_> {
     /// Whether an arrow is long enough to be seen.
@@ -22,7 +24,7 @@ impl Pen<'_> {
 
     /// Whether a turning arrow is long enough to be seen.
     pub(crate) fn turn_seen(&self, turn: &TurnArrow) -> bool {
-        self.camera.length(turn.arc.abs()) >= LEAST_SEEN
+        self.camera.length(turn.arc.abs()) >= LEAST_SEEN || turn.kind == TurnKind::Load
     }
 
     /// The loads and missing forces that are too small for an arrow, each once: where they act is shown in any case.
@@ -111,7 +113,7 @@ impl Pen<'_> {
 
     pub(crate) fn turn(&self, turn: &TurnArrow) -> Path {
         let radius = TURN * self.stage.unit;
-        let sweep = turn.arc / radius;
+        let sweep = self.sweep(turn, radius);
         let outline = turning(
             self.camera.place(turn.at),
             self.camera.length(radius),
@@ -120,6 +122,16 @@ impl Pen<'_> {
             self.camera.length(turn.width),
         );
         Path::filled(outline, turn.colour).cased(self.stage.options.theme.casing, self.casing)
+    }
+
+    /// How far round its centre a turning arrow runs, radians. That of a load, which is part of the question, has a least
+    /// length at which its sense can be read; its amount stands beside it.
+    fn sweep(&self, turn: &TurnArrow, radius: f64) -> f64 {
+        let sweep = turn.arc / radius;
+        if turn.kind != TurnKind::Load || turn.torque == 0.0 {
+            return sweep;
+        }
+        sweep.abs().max(LEAST_SWEEP).copysign(turn.torque)
     }
 
     /// The direction from a turning arrow's centre to its middle in which it keeps farthest from straight arrows; the

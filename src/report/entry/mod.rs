@@ -5,6 +5,7 @@
 //! still puts it through its own sink.
 
 mod bullet;
+mod chosen;
 mod comparison;
 mod grid;
 mod row;
@@ -17,6 +18,8 @@ pub use grid::{Grid, Line};
 pub use row::{Row, Thumbnail};
 pub use step::Step;
 pub use touch::{Touch, touched};
+
+use std::borrow::Cow;
 
 use crate::analysis::Analysis;
 use crate::chart::{self, Course, Undrawn};
@@ -96,9 +99,20 @@ pub struct Chart {
     pub svg: String,
 }
 
+impl Chart {
+    /// The SVG as a document of its own.
+    pub(crate) fn document(&self) -> Cow<'_, str> {
+        if self.svg.contains("xmlns=") {
+            return Cow::Borrowed(&self.svg);
+        }
+        let head = "<svg xmlns=\"http://www.w3.org/2000/svg\"";
+        Cow::Owned(self.svg.replacen("<svg", head, 1))
+    }
+}
+
 impl Entry {
     /// What a report tells of an analysis.
-    pub fn of(file: File<'_>, analysis: &Analysis<'_>, wanted: &Wanted) -> Entry {
+    pub fn of(file: File<'_>, analysis: &Analysis, wanted: &Wanted) -> Entry {
         let steps = step::all(analysis, wanted);
         Entry {
             row: Row::of(file.name, analysis),
@@ -107,6 +121,7 @@ impl Entry {
                 .tolerance_words()
                 .iter()
                 .map(|words| text::line(words))
+                .chain(chosen::left_out(analysis))
                 .collect(),
             charts: courses(analysis),
             study: None,
@@ -140,13 +155,13 @@ impl Entry {
 }
 
 /// The object of `check --json` in one line, with the file it was read from.
-fn result(name: &str, analysis: &Analysis<'_>, timing: Timing) -> String {
+fn result(name: &str, analysis: &Analysis, timing: Timing) -> String {
     let object = to_json_of(name, analysis, timing, Layout::OneLine);
     object.trim_end().to_owned()
 }
 
 /// The commands that make a scene's figures again.
-fn commands(name: &str, analysis: &Analysis<'_>, wanted: &Wanted) -> Vec<(String, String)> {
+fn commands(name: &str, analysis: &Analysis, wanted: &Wanted) -> Vec<(String, String)> {
     let theme = wanted
         .theme_name
         .as_ref()
@@ -158,6 +173,10 @@ fn commands(name: &str, analysis: &Analysis<'_>, wanted: &Wanted) -> Vec<(String
         let how = "how it falls".to_owned();
         commands.push((how, command(" --kind mechanism")));
     }
+    if chosen::left_out(analysis).is_some() {
+        let each = "a figure of each step".to_owned();
+        commands.push((each, command(" --panels")));
+    }
     commands.push((
         "the numbers".to_owned(),
         format!("drystone check --json {file}"),
@@ -166,7 +185,7 @@ fn commands(name: &str, analysis: &Analysis<'_>, wanted: &Wanted) -> Vec<(String
 }
 
 /// Charts over the steps of a scene.
-fn courses(analysis: &Analysis<'_>) -> Vec<Chart> {
+fn courses(analysis: &Analysis) -> Vec<Chart> {
     let frames = &analysis.frames;
     if frames.len() < 2 {
         return Vec::new();

@@ -7,6 +7,7 @@ use crate::drawing::{Outline, PagePoint, Segment};
 use crate::geometry::Bounds;
 use crate::text;
 use crate::wording::failure;
+use crate::wording::number::percent;
 
 /// Width and height of a thumbnail, pixels.
 const THUMBNAIL: (f64, f64) = (96.0, 60.0);
@@ -30,8 +31,9 @@ pub struct Row {
     pub blocks: usize,
     /// The closest margin of all steps: in words, and what is left in parts of what there is.
     pub closest: Option<(String, f64)>,
-    /// The largest share of the friction available that an interface uses.
-    pub friction: f64,
+    /// The largest share of the friction available that an interface uses, in the steps that stand; `None` where none does:
+    /// there missing forces would be counted among those that press and rub.
+    pub friction: Option<f64>,
     /// The largest force at one interface, N.
     pub largest: f64,
     /// What fails first, in words; empty where all stands. Of a comparison what changed.
@@ -51,8 +53,8 @@ pub struct Thumbnail {
 
 impl Row {
     /// The row of an analysis.
-    pub fn of(name: &str, analysis: &Analysis<'_>) -> Row {
-        let scene = analysis.scene;
+    pub fn of(name: &str, analysis: &Analysis) -> Row {
+        let scene = &analysis.scene;
         let frames = &analysis.frames;
         let mut bullets = Vec::new();
         for frame in frames {
@@ -95,13 +97,25 @@ impl Row {
                 (Some(_), Verdict::Unstable) => Some(("none: it falls".into(), -1.0)),
                 (Some(b), _) => Some((text::line(&b.short), b.reserve)),
             },
-            friction: contacts().map(|c| c.friction_used).fold(0.0, f64::max),
+            friction: frames
+                .iter()
+                .filter(|f| f.verdict == Verdict::Stable)
+                .map(|f| f.contacts.iter().map(|c| c.friction_used))
+                .map(|shares| shares.fold(0.0, f64::max))
+                .reduce(f64::max),
             largest: contacts()
                 .map(|c| c.resultant.force.norm())
                 .fold(0.0, f64::max),
             fails: text::line(&fails),
             thumbnail: thumbnail(analysis, &placed),
         }
+    }
+}
+
+impl Row {
+    /// How much of the friction available is used, in words.
+    pub(crate) fn friction_words(&self) -> String {
+        self.friction.map_or_else(|| "none stands".into(), percent)
     }
 }
 
@@ -112,8 +126,8 @@ pub(super) fn file_name(name: &str) -> String {
     text::line(if stem == "-" { "standard input" } else { stem })
 }
 
-fn thumbnail(analysis: &Analysis<'_>, placed: &[usize]) -> Thumbnail {
-    let scene = analysis.scene;
+fn thumbnail(analysis: &Analysis, placed: &[usize]) -> Thumbnail {
+    let scene = &analysis.scene;
     let polygon = |id: usize| &scene.blocks[id].body.polygon;
     let bounds = placed.iter().map(|id| polygon(*id).bounds());
     let Some(bounds) = bounds.reduce(Bounds::union) else {

@@ -1,6 +1,7 @@
 //! [`Step`]: what a report tells of one frame.
 
 use super::bullet::{self, Bullet};
+use super::chosen::chosen;
 use super::{Chart, Grid, Plate, Touch, Wanted};
 use crate::analysis::{Analysis, Contact, Failure, FrameAnalysis, Verdict};
 use crate::chart::{self, Bars};
@@ -66,19 +67,28 @@ pub(super) fn options(wanted: &Wanted) -> Options {
 }
 
 /// The steps of an analysis.
-pub(super) fn all(analysis: &Analysis<'_>, wanted: &Wanted) -> Vec<Step> {
+pub(super) fn all(analysis: &Analysis, wanted: &Wanted) -> Vec<Step> {
     let options = options(wanted);
-    let forces = figure::panels(analysis, Kind::Forces, &options);
-    let mut motions = if analysis.frames.iter().any(has_mechanism) {
-        let motions = figure::panels(analysis, Kind::Mechanism, &options);
-        motions.into_iter().map(Some).collect()
-    } else {
-        Vec::new()
-    };
-    let scene = analysis.scene;
+    let chosen = chosen(analysis);
+    let drawn = |frame: &usize| chosen[*frame];
+    let falls = |frame: &usize| has_mechanism(&analysis.frames[*frame]);
+    let all = 0..analysis.frames.len();
+    let frames: Vec<usize> = all.clone().filter(drawn).collect();
+    let mut forces = figure::panels_of(analysis, Kind::Forces, &options, &frames).into_iter();
+    let falling: Vec<usize> = all.filter(drawn).filter(falls).collect();
+    let mut motions = match falling.is_empty() {
+        true => Vec::new(),
+        false => figure::panels_of(analysis, Kind::Mechanism, &options, &falling),
+    }
+    .into_iter();
+    let scene = &analysis.scene;
     let mut steps = Vec::with_capacity(analysis.frames.len());
-    for (number, (found, drawing)) in analysis.frames.iter().zip(forces).enumerate() {
-        let mut step = of(scene, number, found, wanted);
+    for (number, found) in analysis.frames.iter().enumerate() {
+        let mut step = of(scene, number, found, (wanted, chosen[number]));
+        let Some(drawing) = chosen[number].then(|| forces.next()).flatten() else {
+            steps.push(step);
+            continue;
+        };
         step.plates.push(Plate {
             caption: if found.failures.is_empty() {
                 "The force on every block, as an arrow as long as it is large.".into()
@@ -88,8 +98,7 @@ pub(super) fn all(analysis: &Analysis<'_>, wanted: &Wanted) -> Vec<Step> {
             },
             drawing,
         });
-        let motion = motions.get_mut(number).and_then(Option::take);
-        if let Some(drawing) = motion.filter(|_| has_mechanism(found)) {
+        if let Some(drawing) = has_mechanism(found).then(|| motions.next()).flatten() {
             step.plates.push(Plate {
                 caption: "How it begins to fall: dashed where the blocks stand.".into(),
                 drawing,
@@ -100,8 +109,13 @@ pub(super) fn all(analysis: &Analysis<'_>, wanted: &Wanted) -> Vec<Step> {
     steps
 }
 
-/// What is reported of a frame, without its figures.
-fn of(scene: &Scene, number: usize, found: &FrameAnalysis, wanted: &Wanted) -> Step {
+/// What is reported of a frame, without its figures; of one that is not drawn no more than why it stands or falls.
+fn of(
+    scene: &Scene,
+    number: usize,
+    found: &FrameAnalysis,
+    (wanted, drawn): (&Wanted, bool),
+) -> Step {
     let several = scene.frames.len() > 1;
     let title = line(&scene.frames[number].title);
     let mut step = Step {
@@ -119,12 +133,19 @@ fn of(scene: &Scene, number: usize, found: &FrameAnalysis, wanted: &Wanted) -> S
         sentence: line(&verdict::sentence(scene, found)),
         remarks: remarks(found),
         plates: Vec::new(),
-        touches: touches(scene, found),
+        touches: Vec::new(),
         bullets: bullet::of(scene, found),
-        charts: charts(found),
+        charts: Vec::new(),
         grids: Vec::new(),
         proof: proof::sentence(found.proof),
     };
+    if !drawn {
+        let grids = [totals(scene, number, found), failures(scene, found)];
+        step.grids = grids.into_iter().filter(|g| !g.lines.is_empty()).collect();
+        return step;
+    }
+    step.touches = touches(scene, found);
+    step.charts = charts(found);
     let grids = [
         totals(scene, number, found),
         failures(scene, found),
@@ -203,9 +224,18 @@ fn off_middle(contact: &Contact) -> Option<f64> {
     Some((2.0 * off.abs() / length).min(1.0))
 }
 
+/// What the forces of a frame are where they are no balance of what contacts and robots can give.
+fn of_what(found: &FrameAnalysis) -> &'static str {
+    match found.verdict {
+        Verdict::Stable => "",
+        Verdict::Unstable => ", with the missing forces added",
+        Verdict::Undecided => ", in what was found, which is not proved",
+    }
+}
+
 fn interfaces(scene: &Scene, found: &FrameAnalysis) -> Grid {
     let mut grid = Grid::new(
-        "Interfaces",
+        format!("Interfaces{}", of_what(found)),
         &[
             "between",
             "#normal force N, N",
@@ -235,7 +265,7 @@ fn interfaces(scene: &Scene, found: &FrameAnalysis) -> Grid {
 
 fn robots(scene: &Scene, found: &FrameAnalysis) -> Grid {
     let mut grid = Grid::new(
-        "Robots",
+        format!("Robots{}", of_what(found)),
         &[
             "robot",
             "holds",
@@ -365,18 +395,16 @@ fn charts(found: &FrameAnalysis) -> Vec<Chart> {
         ),
     ];
     let drawn = kinds.into_iter().filter_map(|(caption, x, bars)| {
+        let caption = format!("{caption}{}", of_what(found));
         let chart = Bars {
-            title: caption.to_owned(),
+            title: caption.clone(),
             x: x.to_owned(),
             y: "interfaces".to_owned(),
             ..bars
         };
         // Without any force there is nothing to count.
         let svg = chart::bars(&chart).ok()?;
-        Some(Chart {
-            caption: caption.to_owned(),
-            svg,
-        })
+        Some(Chart { caption, svg })
     });
     drawn.collect()
 }
@@ -390,7 +418,15 @@ fn touches(scene: &Scene, found: &FrameAnalysis) -> Vec<Touch> {
         let mut parts = vec![
             format!("normal force {} N", digits(sum(contact))),
             format!("friction force {} N", digits(contact.friction_force.abs())),
-            format!("friction used {}", percent(contact.friction_used)),
+            format!(
+                "friction used {}{}",
+                percent(contact.friction_used),
+                match found.verdict {
+                    Verdict::Stable => "",
+                    Verdict::Unstable => " (missing forces added)",
+                    Verdict::Undecided => " (not proved)",
+                }
+            ),
         ];
         if let Some(off) = off_middle(contact) {
             parts.push(format!(

@@ -15,7 +15,7 @@ use super::entry::{Row, Thumbnail};
 use super::page::{Made, Report};
 use crate::analysis::Verdict;
 use crate::text;
-use crate::wording::number::{percent, quantity};
+use crate::wording::number::quantity;
 use crate::wording::verdict::plain;
 
 const STYLE: &str = include_str!("../../../assets/report/report.css");
@@ -175,7 +175,7 @@ fn overview(report: &Report, link: &dyn Fn(usize) -> String) -> Markup {
                             th scope="col" data-sort="text" { "name" }
                             th scope="col" data-sort="text" { "verdict" }
                             @if margins { th scope="col" data-sort="number" { "closest margin" } }
-                            th.number scope="col" data-sort="number" { "friction used" }
+                            th.number scope="col" data-sort="number" { "friction used, where it stands" }
                             th.number scope="col" data-sort="number" { "blocks" }
                             th.number scope="col" data-sort="number" { "largest force" }
                             th scope="col" data-sort="text" { (fails) }
@@ -213,7 +213,7 @@ fn line(row: &Row, link: &str, margins: bool) -> Markup {
                     None => td data-value="2" { "–" },
                 }
             }
-            td.number data-value=(row.friction) { (percent(row.friction)) }
+            td.number data-value=(row.friction.unwrap_or(-1.0)) { (row.friction_words()) }
             td.number data-value=(row.blocks) { (row.blocks) }
             td.number data-value=(row.largest) { (quantity(row.largest, "N")) }
             td.fails { bdi { (row.fails) } }
