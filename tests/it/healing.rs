@@ -1,12 +1,12 @@
 //! The structure that was meant: turned, rounded, split at extra vertices, a structure keeps its verdict, and its forces
 //! within the rounding.
 
-use drystone::analysis::{Contact, Options, Verdict};
+use drystone::analysis::{Contact, Verdict};
 use drystone::scene::{BlockId, BodyId, Frame, ToleranceSource};
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
 
-use crate::structure::{block, first, on_floor, rectangle, scene as checked};
+use crate::structure::{first, scene as checked};
 
 type Outline = Vec<[f64; 2]>;
 
@@ -456,23 +456,4 @@ fn a_slight_overlap_on_which_nothing_hinges_is_told_beside_the_verdict() {
     // Pushed against its neighbour it stands only if it leans on it.
     let (verdict, _, doubt) = judged(&file(-7.5));
     assert_eq!(verdict, Verdict::Undecided, "{doubt}");
-}
-
-/// Where only a slight overlap carries a lintel, a verdict alone is as undecided as a whole analysis.
-#[test]
-fn verdicts_alone_are_judged_both_ways_at_overlaps() {
-    let file = on_floor(
-        0.7,
-        vec![
-            block("left", rectangle(0.0, 0.0, 1.0, 1.0), 20.0),
-            block("right", rectangle(3.0, 0.0, 1.0, 1.001), 20.0),
-            block("lintel", rectangle(0.2, 1.0, 3.6, 0.5), 10.0),
-        ],
-    );
-    let scene = Scene::from_json(&file.to_string()).expect("a scene");
-    assert_eq!(scene.penetrations.len(), 1);
-    let frame = Analysis::of(&scene).frames.remove(0);
-    assert_eq!(frame.verdict, Verdict::Undecided, "{:?}", frame.notices);
-    let alone = drystone::analysis::verdicts(&scene, &Options::default());
-    assert_eq!(alone, [Verdict::Undecided]);
 }

@@ -201,6 +201,25 @@ fn slivers_between_large_blocks_are_judged_both_ways() {
     }
 }
 
+/// Where only a slight overlap carries a lintel, a verdict alone is as undecided as a whole analysis.
+#[test]
+fn verdicts_alone_are_judged_both_ways_at_overlaps() {
+    let file = on_floor(
+        0.7,
+        vec![
+            block("left", rectangle(0.0, 0.0, 1.0, 1.0), 20.0),
+            block("right", rectangle(3.0, 0.0, 1.0, 1.001), 20.0),
+            block("lintel", rectangle(0.2, 1.0, 3.6, 0.5), 10.0),
+        ],
+    );
+    let scene = Scene::from_json(&file.to_string()).expect("a scene");
+    assert_eq!(scene.penetrations.len(), 1);
+    let frame = Analysis::of(&scene).frames.remove(0);
+    assert_eq!(frame.verdict, Verdict::Undecided, "{:?}", frame.notices);
+    let alone = verdicts(&scene, &Options::default());
+    assert_eq!(alone, [Verdict::Undecided]);
+}
+
 /// A brick on two pins, as high as a gap may be that counts as a contact elsewhere: it stands on them and not on what is
 /// below, however low they are.
 #[test]
