@@ -6,6 +6,7 @@
 //! slide is ruled out by multipliers that show the balance and the springs' law to contradict each other ([`tree`]).
 
 mod band;
+mod certificate;
 mod law;
 mod spring;
 mod tree;
