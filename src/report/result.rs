@@ -236,9 +236,6 @@ struct Effect<'a> {
     unknowns: usize,
 }
 
-#[derive(Serialize)]
-}
-
 /// A plain number: −0 is written 0.0, a number that is not finite is written null.
 #[derive(Clone, Copy)]
 struct Number(f64);
