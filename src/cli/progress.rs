@@ -160,7 +160,7 @@ mod tests {
             margins: crate::analysis::Ask::Yes,
             ..Default::default()
         };
-        crate::analysis::Analysis::with(&scene.expect("sound"), &options);
+        crate::analysis::Analysis::with(scene.expect("sound"), &options);
         thread::sleep(Duration::from_millis(300));
         drop(progress);
         let drawn = paper.text();

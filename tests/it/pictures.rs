@@ -384,7 +384,7 @@ fn an_authors_fill_wins() {
 
 #[test]
 fn wide_ground_is_cut_and_the_structure_stays_large() {
-    let drawing = figure::forces(&Analysis::of(&slab("", "")), &Options::default());
+    let drawing = figure::forces(&Analysis::of(slab("", "")), &Options::default());
     let mut block = None;
     groups(&drawing.items, &mut |group| {
         if let ("block", Some(Item::Path(path))) = (group.class.as_str(), group.items.first()) {

@@ -11,7 +11,7 @@ fn asked(file: &Value) -> FrameAnalysis {
         wedging: Ask::Yes,
         ..Options::default()
     };
-    Analysis::with(&scene(file), &options).frames.remove(0)
+    Analysis::with(scene(file), &options).frames.remove(0)
 }
 
 #[track_caller]
