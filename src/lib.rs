@@ -68,29 +68,12 @@
 
 // Blank lines keep the order of reading: the formatter would sort them.
 
-pub mod text;
-
-pub mod geometry;
-
 pub mod scene;
 
 pub mod starter;
 
+#[cfg(feature = "import")]
 pub mod import;
-
-pub mod interface;
-
-pub mod assembly;
-
-pub mod effect;
-
-pub mod program;
-
-pub mod solve;
-
-pub mod proof;
-
-pub mod resultant;
 
 pub mod analysis;
 
@@ -102,19 +85,28 @@ pub mod figure;
 
 pub mod output;
 
-pub mod chart;
-
-pub mod study;
-
 pub mod report;
 
 pub mod batch;
 
 pub mod session;
 
+#[cfg(feature = "snapshot")]
 pub mod snapshot;
 
-pub mod cli;
+#[doc(hidden)]
+pub mod internals;
+
+// Every room is named by `crate::room`, public or not.
+#[cfg(feature = "cli")]
+use internals::cli;
+use internals::{assembly, effect, geometry, interface, program, proof, resultant, solve, text};
+#[cfg(feature = "report")]
+use internals::{chart, study};
+
+/// The nalgebra of [`scene::Point`] and [`scene::Vector`], whose version is part of this crate's interface: another one
+/// comes with another version of this crate.
+pub use nalgebra;
 
 pub use analysis::Analysis;
 pub use scene::Scene;

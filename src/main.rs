@@ -3,5 +3,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    drystone::cli::run()
+    drystone::internals::cli::run()
 }

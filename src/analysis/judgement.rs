@@ -5,8 +5,6 @@
 //! nothing. What it finds is believed for its proof, as anything else; where there is none, the frame is examined as
 //! [`Analysis`](super::Analysis) does, so that a guess can save work and decide nothing.
 
-use std::collections::BTreeMap;
-
 use super::component::Candidate;
 use super::{Analysis, Known, Options, Verdict, examined};
 use crate::assembly::Assembly;
@@ -51,9 +49,10 @@ pub fn verdicts(scene: &Scene, options: &Options) -> Vec<Verdict> {
         .collect()
 }
 
-/// Whether narrow gaps may decide, so that every frame is to be judged with them closed too.
+/// Whether narrow gaps, overlaps or contacts too short to count may decide, so that every frame is to be judged both ways.
 pub(crate) fn hinges_on_gaps(scene: &Scene, found: &Interfaces) -> bool {
-    scene.healed.source != ToleranceSource::Given && !found.near.is_empty()
+    let none = found.near.is_empty() && found.slivers.is_empty() && scene.penetrations.is_empty();
+    scene.healed.source != ToleranceSource::Given && !none
 }
 
 /// What a verdict came from.
@@ -147,15 +146,17 @@ impl Guess {
     /// Carries the used set over to the columns of another frame. A column of other values is another column.
     fn move_to(&mut self, assembly: &Assembly, columns: Vec<Column>) {
         let begins = begins(assembly, &columns);
-        let new: BTreeMap<Origin, usize> = begins.iter().map(|(k, origin)| (*origin, *k)).collect();
+        let mut new: Vec<(Origin, usize)> =
+            begins.iter().map(|(k, origin)| (*origin, *k)).collect();
+        new.sort_unstable();
         let (old, old_begins) = (&self.columns, &self.begins);
         self.nearest.renumber(|k| {
             let place = old_begins.partition_point(|(begin, _)| *begin <= k);
             let (begin, origin) = old_begins.get(place.checked_sub(1)?)?;
-            let number = new.get(origin)? + (k - begin);
+            let place = new.binary_search_by(|(other, _)| other.cmp(origin)).ok()?;
+            let number = new[place].1 + (k - begin);
             let (was, is) = (old.get(k)?, columns.get(number)?);
-            let values = |column: &Column| column.entries().map(|e| e.1).collect::<Vec<f64>>();
-            (values(was) == values(is) && was.limit == is.limit).then_some(number)
+            was.has_values_of(is).then_some(number)
         });
         self.columns = columns;
         self.begins = begins;

@@ -38,12 +38,12 @@ pub enum Toward {
     LoadFactor,
 }
 
-impl<'s> Analysis<'s> {
+impl Analysis {
     /// The same analysis with one elementary mechanism in place of each falling part's motion, as it is drawn: where a
     /// block slides it goes along its joint. The proofs and all else are those of the motions found.
     ///
     /// Units: velocities are per speed of the fastest point, as in [`FrameAnalysis::mechanism`].
-    pub fn elementary(&self) -> Analysis<'s> {
+    pub fn elementary(&self) -> Analysis {
         let mut analysis = self.clone();
         for (number, frame) in analysis.frames.iter_mut().enumerate() {
             if frame.verdict == Verdict::Unstable {
@@ -84,7 +84,7 @@ impl<'s> Analysis<'s> {
             .flatten()
             .min_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
         // Just at the edge the loads do no work along the mechanism: a hair beyond they do.
-        let (gravity, mut scene) = (self.scene.gravity, self.scene.clone());
+        let (gravity, mut scene) = (self.scene.gravity, Scene::clone(&self.scene));
         match toward {
             Toward::Tilt => {
                 let (sin, cos) = sin_cos_degrees(at + BEYOND * at.signum());
@@ -110,7 +110,7 @@ impl<'s> Analysis<'s> {
 
     fn mechanisms(&self, number: usize) -> Vec<Motion> {
         let found = &self.frames[number];
-        self.mechanisms_of(self.scene, found, &found.mechanism)
+        self.mechanisms_of(&self.scene, found, &found.mechanism)
     }
 
     /// One elementary mechanism of each part that falls by these motions, under this scene's loads.
@@ -127,7 +127,7 @@ impl<'s> Analysis<'s> {
         }
         let fastest = all
             .iter()
-            .map(|m| m.fastest(self.scene))
+            .map(|m| m.fastest(&self.scene))
             .fold(0.0, f64::max);
         if fastest > 0.0 {
             for motion in &mut all {

@@ -8,6 +8,7 @@
 mod component;
 mod cost;
 mod frame;
+mod gather;
 mod judgement;
 mod margin;
 mod mechanism;
@@ -17,26 +18,33 @@ mod pair;
 mod wedged;
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 use std::time::Instant;
 
+#[cfg(feature = "parallel")]
 use rayon::prelude::*;
 
 use crate::assembly::Assembly;
+#[doc(inline)]
 pub use crate::effect::EffectReport;
 use crate::effect::wedging::{self, Wedging};
 use crate::effect::{self, Situation};
 use crate::geometry::{Point, Vector};
-use crate::interface::{Interface, Interfaces};
+use crate::interface::Interfaces;
+#[doc(inline)]
+pub use crate::interface::{ContactKind, Interface};
 use crate::program::Count;
+#[doc(inline)]
 pub use crate::proof::{Demand, Motion, Proof};
+#[doc(inline)]
 pub use crate::resultant::Resultant;
-use crate::resultant::{friction_used, of as resultant_of};
 use crate::scene::{BlockId, BodyId, Note, RobotId, Scene};
 use crate::solve::{Effort, Until};
 pub use component::Method;
 use component::{Findings, solved};
 pub use cost::{SolveReport, Stages};
-use frame::{settle, worst};
+use frame::settle;
+use gather::{add, gathered};
 pub(crate) use judgement::{Guess, hinges_on_gaps};
 pub use judgement::{Source, verdicts};
 use margin::Part;
@@ -59,9 +67,9 @@ pub enum Verdict {
 
 /// A scene and what was found out about each of its frames.
 #[derive(Clone, Debug)]
-pub struct Analysis<'s> {
+pub struct Analysis {
     /// The scene examined.
-    pub scene: &'s Scene,
+    pub scene: Arc<Scene>,
     /// One entry per frame of the scene, in order.
     pub frames: Vec<FrameAnalysis>,
     /// What is allowed and seldom meant: the scene's notes, and gaps that are nearly contacts.
@@ -209,8 +217,8 @@ struct Known {
 /// What makes one component the same as one of an earlier frame: its blocks, who holds them where, and L.
 type Key = (Vec<BlockId>, Vec<(RobotId, BlockId, [u64; 2])>, u64);
 
-impl<'s> Analysis<'s> {
-    /// Examines every frame of a scene.
+impl Analysis {
+    /// Examines every frame of a scene, which it keeps: a scene is moved in, an `Arc` shared, and a reference cloned.
     ///
     /// ```
     /// use drystone::{Analysis, Scene, analysis::Verdict};
@@ -225,15 +233,16 @@ impl<'s> Analysis<'s> {
     /// assert!((frame.contacts[0].resultant.at.x - (2.5 + 1.0 / 3.0)).abs() < 1e-9);
     /// # Ok::<(), drystone::scene::Problems>(())
     /// ```
-    pub fn of(scene: &'s Scene) -> Analysis<'s> {
+    pub fn of(scene: impl Into<Arc<Scene>>) -> Analysis {
         Analysis::with(scene, &Options::default())
     }
 
     /// Examines every frame of a scene, and what else is asked for.
-    pub fn with(scene: &'s Scene, options: &Options) -> Analysis<'s> {
-        let (found, mut frames) = examine(scene, options);
-        near::judge(scene, &found, &mut frames, options);
-        let notes = near::notes(scene, &found);
+    pub fn with(scene: impl Into<Arc<Scene>>, options: &Options) -> Analysis {
+        let scene = scene.into();
+        let (found, mut frames) = examine(&scene, options);
+        near::judge(&scene, &found, &mut frames, options);
+        let notes = near::notes(&scene, &found);
         Analysis {
             scene,
             frames,
@@ -251,13 +260,31 @@ impl<'s> Analysis<'s> {
     }
 }
 
+impl From<&Scene> for Arc<Scene> {
+    fn from(scene: &Scene) -> Arc<Scene> {
+        Arc::new(scene.clone())
+    }
+}
+
+/// An analysis may be handed to another thread, and read by several.
+const _: () = {
+    const fn shared<T: Send + Sync + 'static>() {}
+    shared::<Analysis>();
+    shared::<Scene>();
+};
+
 /// Examines every frame of a scene with its gaps as they are.
 fn examine(scene: &Scene, options: &Options) -> (Interfaces, Vec<FrameAnalysis>) {
     let found = Interfaces::of(scene);
+    let frames = examine_found(scene, &found, options);
+    (found, frames)
+}
+
+/// Examines every frame of a scene whose interfaces are these.
+fn examine_found(scene: &Scene, found: &Interfaces, options: &Options) -> Vec<FrameAnalysis> {
     let mut known = Known::default();
-    let frames = scene
-        .frames
-        .iter()
+    let frames = scene.frames.iter();
+    frames
         .map(|frame| {
             let interfaces = found.in_frame(scene, frame);
             let situation = Situation {
@@ -269,8 +296,7 @@ fn examine(scene: &Scene, options: &Options) -> (Interfaces, Vec<FrameAnalysis>)
             analysis.notices.extend(found.notices.iter().cloned());
             analysis
         })
-        .collect();
-    (found, frames)
+        .collect()
 }
 
 /// Examines one frame.
@@ -291,11 +317,14 @@ fn examined(situation: &Situation, options: Options, known: &mut Known) -> Frame
         solved(&components[*k], options)
     };
     // Many small components are worth the threads; the order of the results is that of the components either way.
+    #[cfg(feature = "parallel")]
     let findings: Vec<Findings> = if fresh.len() > 16 {
         fresh.par_iter().map(one).collect()
     } else {
         fresh.iter().map(one).collect()
     };
+    #[cfg(not(feature = "parallel"))]
+    let findings: Vec<Findings> = fresh.iter().map(one).collect();
     let effort = findings
         .iter()
         .fold(Effort::default(), |sum, f| sum.and(f.effort));
@@ -382,125 +411,4 @@ fn key(component: &Assembly) -> Key {
         holds.collect(),
         component.length.to_bits(),
     )
-}
-
-/// The frame before any component is added: every contact and grip without force.
-fn gathered(
-    situation: &Situation,
-    assembly: &Assembly,
-    effects: Vec<EffectReport>,
-) -> FrameAnalysis {
-    let (scene, frame) = (situation.scene, situation.frame);
-    let contacts = situation
-        .interfaces
-        .iter()
-        .map(|interface| Contact {
-            interface: (*interface).clone(),
-            application_points: interface.application_points(scene.kernel),
-            normal_forces: [0.0; 2],
-            friction_force: 0.0,
-            resultant: resultant_of(interface, scene.kernel, [0.0; 2], 0.0),
-            friction_used: 0.0,
-        })
-        .collect();
-    let robots = frame
-        .holds
-        .iter()
-        .map(|h| RobotForce {
-            robot: h.robot,
-            block: h.block,
-            at: h.at,
-            force: Vector::zeros(),
-            torque: 0.0,
-            limit_used: 0.0,
-        })
-        .collect();
-    FrameAnalysis {
-        verdict: Verdict::Stable,
-        doubt: String::new(),
-        length: assembly.length,
-        total_force: 0.0,
-        force_bound: Some(0.0),
-        least_force: true,
-        total_sticking: 0.0,
-        weight: frame.placed.iter().map(|b| scene.blocks[b.0].weight).sum(),
-        contacts,
-        robots,
-        failures: Vec::new(),
-        unsupported: Vec::new(),
-        mechanism: Vec::new(),
-        margins: None,
-        only_by_wedging: None,
-        wedged: None,
-        effects,
-        proof: Proof::Forces {
-            worst_imbalance: 0.0,
-            worst_share: 0.0,
-            worst_pull: 0.0,
-            worst_slip: 0.0,
-        },
-        solve: SolveReport {
-            method: Method::ClosedForm,
-            iterations: 0,
-            programs: 0,
-            groups: 0,
-            reused: 0,
-            seconds: 0.0,
-            stages: Stages::default(),
-        },
-        notices: Vec::new(),
-    }
-}
-
-/// Enters what was found for one component.
-fn add(analysis: &mut FrameAnalysis, component: &Assembly, found: &Findings, kernel: f64) {
-    for (at, pressed) in component.contacts.iter().zip(&found.forces.contacts) {
-        let contact = &mut analysis.contacts[at.interface];
-        let (normal, friction) = (pressed.normal, pressed.friction);
-        contact.normal_forces = normal;
-        contact.friction_force = friction;
-        contact.resultant = resultant_of(&contact.interface, kernel, normal, friction);
-        contact.friction_used = friction_used(&contact.interface, normal, friction);
-        analysis.total_force += normal[0] + normal[1] + friction.abs();
-    }
-    for (grip, held) in component.grips.iter().zip(&found.forces.grips) {
-        let share = |amount: f64, limit: f64| {
-            if limit.is_finite() && limit > 0.0 {
-                amount.abs() / limit
-            } else {
-                0.0
-            }
-        };
-        let (force, torque, limits) = (held.force, held.torque, grip.limits);
-        let robot = &mut analysis.robots[grip.hold];
-        robot.force = force;
-        robot.torque = torque;
-        robot.limit_used = share(force.x, limits.fx)
-            .max(share(force.y, limits.fy))
-            .max(share(torque, limits.torque));
-        analysis.total_force += force.x.abs() + force.y.abs() + torque.abs() / component.length;
-    }
-    analysis.force_bound = match (analysis.force_bound, found.force_bound) {
-        (Some(sum), Some(own)) if found.verdict == Verdict::Stable => Some(sum + own),
-        _ => None,
-    };
-    analysis.least_force &= found.least_force;
-    analysis.total_sticking += found.total_sticking;
-    analysis.failures.extend(found.failures.iter().copied());
-    analysis.mechanism.extend(found.mechanism.iter().copied());
-    if found.unsupported {
-        let blocks = component.bodies.iter().map(|body| body.block);
-        analysis.unsupported.extend(blocks);
-    }
-    if found.verdict == Verdict::Undecided && !analysis.doubt.is_empty() {
-        analysis.doubt.push_str("; ");
-    }
-    analysis.doubt.push_str(&found.doubt);
-    analysis.proof = match (analysis.verdict, found.verdict) {
-        // Components of the same verdict: the worst of their numbers. Otherwise the worse verdict brings its own proof.
-        (a, b) if a == b => worst(analysis.proof, found.proof),
-        (a, b) if a < b => found.proof,
-        _ => analysis.proof,
-    };
-    analysis.verdict = analysis.verdict.max(found.verdict);
 }

@@ -6,11 +6,9 @@
 //! differ nobody can say which structure was meant: the frame is undecided, with the places and the tolerance that settles
 //! it. If they agree an overlap is reported beside the verdict. A tolerance that somebody gave settles it already.
 
-use std::collections::BTreeMap;
-
-use super::{Ask, FrameAnalysis, Options, Verdict, examine};
+use super::{Ask, FrameAnalysis, Options, Verdict, examine, examine_found};
 use crate::geometry::Point;
-use crate::interface::{Interface, Interfaces, Near};
+use crate::interface::{Interface, Interfaces, Near, Touching, held_open};
 use crate::scene::{BodyId, Note, NoteCode, Penetration, Scene, ToleranceSource};
 
 /// So many places are named.
@@ -59,16 +57,14 @@ pub(super) fn judge(
     frames: &mut [FrameAnalysis],
     options: &Options,
 ) {
-    let none = found.near.is_empty() && scene.penetrations.is_empty();
-    if scene.healed.source == ToleranceSource::Given || none {
+    if scene.healed.source == ToleranceSource::Given {
         return;
     }
-    let mut touching: BTreeMap<BodyId, Vec<&Interface>> = BTreeMap::new();
-    for interface in &found.all {
-        for body in interface.bodies {
-            touching.entry(body).or_default().push(interface);
-        }
+    judge_slivers(scene, found, frames, options);
+    if found.near.is_empty() && scene.penetrations.is_empty() {
+        return;
     }
+    let touching = Touching::of(&found.all);
     let places: Vec<Vec<Place>> = (scene.frames.iter())
         .map(|frame| {
             let mut placed = vec![false; scene.blocks.len()];
@@ -81,7 +77,7 @@ pub(super) fn judge(
             };
             let gaps = (found.near.iter())
                 .filter(|gap| gap.bodies.iter().all(stands))
-                .filter(|gap| !held_open(gap, &touching, stands, scene.tolerance.gap));
+                .filter(|gap| held_open(gap, &touching, stands, scene.tolerance.gap).is_none());
             let overlaps = (scene.penetrations.iter()).filter(|o| o.bodies.iter().all(stands));
             gaps.map(Place::from)
                 .chain(overlaps.map(Place::from))
@@ -120,6 +116,63 @@ pub(super) fn judge(
     }
 }
 
+/// Makes frames undecided that stand on contacts too short to count, and fall without them.
+fn judge_slivers(
+    scene: &Scene,
+    found: &Interfaces,
+    frames: &mut [FrameAnalysis],
+    options: &Options,
+) {
+    let falls = frames.iter().any(|f| f.verdict == Verdict::Unstable);
+    if found.slivers.is_empty() || !falls {
+        return;
+    }
+    let options = Options {
+        margins: Ask::No,
+        wedging: Ask::No,
+        ..*options
+    };
+    let others = examine_found(scene, &found.with_slivers(), &options);
+    for ((frame, other), played) in frames.iter_mut().zip(&others).zip(&scene.frames) {
+        if [frame.verdict, other.verdict] != [Verdict::Unstable, Verdict::Stable] {
+            continue;
+        }
+        let placed = |body: &BodyId| match body {
+            BodyId::Ground(_) => true,
+            BodyId::Block(id) => played.placed.contains(id),
+        };
+        let slivers = (found.slivers.iter()).filter(|s| s.bodies.iter().all(placed));
+        frame.doubt = sliver_words(scene, &slivers.collect::<Vec<&Interface>>());
+        frame.verdict = Verdict::Undecided;
+    }
+}
+
+fn sliver_words(scene: &Scene, slivers: &[&Interface]) -> String {
+    let mut slivers = slivers.to_vec();
+    slivers.sort_by(|a, b| b.length().total_cmp(&a.length()));
+    let named = slivers.iter().take(NAMED).map(|sliver| {
+        let [a, b] = sliver.bodies.map(|body| scene.name(body));
+        let (length, at) = (sliver.length(), sliver.middle());
+        format!(
+            "{length:.2e} m between {a} and {b} at ({:.4}, {:.4})",
+            at.x, at.y
+        )
+    });
+    let named: Vec<String> = named.collect();
+    let more = match slivers.len() - named.len() {
+        0 => String::new(),
+        n => format!(" and {n} more"),
+    };
+    let length = |sliver: Option<&&Interface>| sliver.map_or(0.0, |s| s.length());
+    format!(
+        "it stands where contacts of next to no length carry force and falls where they are touching corners: {}{more}; a \
+         contact_tolerance of {:.2e} m counts them, one of {:.2e} m does not",
+        named.join(", "),
+        0.5 * length(slivers.last()),
+        ENOUGH * length(slivers.first()),
+    )
+}
+
 /// The scene's own notes, and one for each of the first few gaps that are nearly contacts.
 pub(super) fn notes(scene: &Scene, found: &Interfaces) -> Vec<Note> {
     let mut notes = scene.notes.clone();
@@ -127,12 +180,7 @@ pub(super) fn notes(scene: &Scene, found: &Interfaces) -> Vec<Note> {
     if scene.healed.source == ToleranceSource::Given || scene.silences(code) {
         return notes;
     }
-    let mut touching: BTreeMap<BodyId, Vec<&Interface>> = BTreeMap::new();
-    for interface in &found.all {
-        for body in interface.bodies {
-            touching.entry(body).or_default().push(interface);
-        }
-    }
+    let touching = Touching::of(&found.all);
     let gaps: Vec<&Near> = (found.near.iter())
         .filter(|gap| {
             scene.frames.iter().any(|frame| {
@@ -141,7 +189,7 @@ pub(super) fn notes(scene: &Scene, found: &Interfaces) -> Vec<Note> {
                     BodyId::Block(id) => frame.placed.contains(id),
                 };
                 gap.bodies.iter().all(stands)
-                    && !held_open(gap, &touching, stands, scene.tolerance.gap)
+                    && held_open(gap, &touching, stands, scene.tolerance.gap).is_none()
             })
         })
         .take(NOTED + 1)
@@ -167,37 +215,6 @@ pub(super) fn notes(scene: &Scene, found: &Interfaces) -> Vec<Note> {
         notes.push(scene.note(code, body, &message, &hint));
     }
     notes
-}
-
-/// Whether a stone that stands between the two bodies keeps the gap open: a pinning stone is meant, and so is its gap.
-///
-/// Such a stone touches both, on opposite sides, and is as high between them as the gap is wide.
-fn held_open(
-    gap: &Near,
-    touching: &BTreeMap<BodyId, Vec<&Interface>>,
-    stands: impl Fn(&BodyId) -> bool,
-    tolerance: f64,
-) -> bool {
-    let [one, other] = gap.bodies;
-    let of = |body: BodyId| touching.get(&body).map_or(&[][..], |list| &list[..]);
-    of(one).iter().any(|below| {
-        let stone = partner(below, one);
-        let is_stone = matches!(stone, BodyId::Block(_)) && stands(&stone);
-        is_stone
-            && of(other).iter().any(|above| {
-                let across = (above.middle() - below.middle()).dot(&below.normal).abs();
-                let opposite = below.normal.dot(&above.normal).abs() > 0.99;
-                partner(above, other) == stone
-                    && opposite
-                    && across > 0.5 * gap.distance
-                    && across <= 1.1 * gap.distance + tolerance
-            })
-    })
-}
-
-fn partner(interface: &Interface, body: BodyId) -> BodyId {
-    let [a, b] = interface.bodies;
-    if a == body { b } else { a }
 }
 
 fn words(scene: &Scene, verdicts: [Verdict; 2], places: &[Place]) -> String {

@@ -17,11 +17,11 @@ const ALIKE: f64 = 1e-9;
 /// # Errors
 /// In words, why the two cannot stand in one scene: another ground, or another direction of gravity.
 pub fn pair(
-    before: (&Analysis<'_>, usize),
-    after: (&Analysis<'_>, usize),
+    before: (&Analysis, usize),
+    after: (&Analysis, usize),
     titles: [String; 2],
 ) -> Result<(Scene, Vec<FrameAnalysis>), String> {
-    let (first, second) = (before.0.scene, after.0.scene);
+    let (first, second) = (&*before.0.scene, &*after.0.scene);
     if (first.down() - second.down()).norm() > ALIKE {
         return Err("gravity points another way in the second; turn one of the two".into());
     }

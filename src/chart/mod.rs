@@ -89,7 +89,7 @@ pub fn power_of_ten(exponent: i32) -> String {
 ///
 /// # Example
 /// ```
-/// use drystone::chart::{Point, Scatter, Series, scatter};
+/// use drystone::internals::chart::{Point, Scatter, Series, scatter};
 /// let point = |x, y| Point { x, y, wrong: false };
 /// let svg = scatter(&Scatter {
 ///     title: "Time and error".into(),
@@ -100,7 +100,7 @@ pub fn power_of_ten(exponent: i32) -> String {
 ///     front: (String::new(), Vec::new()),
 /// })?;
 /// assert!(svg.starts_with("<svg") && svg.contains("10⁻⁹") && svg.contains("ours"));
-/// # Ok::<(), drystone::chart::Undrawn>(())
+/// # Ok::<(), drystone::internals::chart::Undrawn>(())
 /// ```
 pub fn scatter(chart: &Scatter) -> Result<String, Undrawn> {
     plot::document(SIZE, &chart.title, |svg| plot::scatter(chart, svg))
@@ -128,7 +128,7 @@ impl Bars {
     /// A value on an edge counts with the bar above, the largest edge with the last bar.
     ///
     /// ```
-    /// use drystone::chart::Bars;
+    /// use drystone::internals::chart::Bars;
     /// let bars = Bars::counted(&[0.5, 1.0, 7.0, 9.9], None);
     /// assert_eq!((bars.edges[1], bars.counts[0], bars.counts[1], bars.counts[9]), (1.0, 1, 1, 1));
     /// ```

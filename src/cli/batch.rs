@@ -260,14 +260,14 @@ impl Work {
 
 impl Drawn {
     /// Draws a scene into its file. The file is there, whole, before the line that tells of it.
-    fn draw(&self, analysis: &Analysis<'_>, name: &str) -> Result<PictureState, Complaint> {
+    fn draw(&self, analysis: &Analysis, name: &str) -> Result<PictureState, Complaint> {
         let name = format!("{name}.{}", self.format.ending());
         let legible = match self.picture.draws_words(self.format) {
-            true => script::legible(analysis.scene, &self.fonts),
-            false => analysis.scene.clone(),
+            true => Arc::new(script::legible(&analysis.scene, &self.fonts)),
+            false => Arc::clone(&analysis.scene),
         };
         let shown = Analysis {
-            scene: &legible,
+            scene: legible,
             frames: analysis.frames.clone(),
             notes: Vec::new(),
         };
@@ -295,6 +295,7 @@ fn problem(code: Code, message: &str, help: &str) -> Problem {
         span: None,
         message: message.into(),
         help: help.into(),
+        place: None,
     }
 }
 

@@ -88,6 +88,7 @@ impl Complaint {
                 span: None,
                 message: line(&message),
                 help: help.into(),
+                place: None,
             }]
         };
         match self {
@@ -111,6 +112,11 @@ impl Complaint {
         match self {
             Complaint::Scene { name, problems } => {
                 page.block(&all(name, problems.text.as_deref(), &problems.list));
+                if problems.list.iter().any(|problem| problem.place.is_some()) {
+                    page.line(
+                        "drystone render --broken draws its outlines with these problems marked",
+                    );
+                }
             }
             Complaint::Style { name, problems } => {
                 for problem in &problems.0 {
@@ -280,6 +286,7 @@ mod tests {
             span: Some(start..start + needle.len()),
             message: "a weight of -3 N".into(),
             help: "give 0 or more".into(),
+            place: None,
         }
     }
 

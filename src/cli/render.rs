@@ -1,5 +1,6 @@
 //! `drystone render`: scenes in, figures out.
 
+mod broken;
 mod choice;
 mod pair;
 mod target;
@@ -29,7 +30,8 @@ use crate::figure;
 use crate::output::file::Existing;
 use crate::output::fonts::Fonts;
 use crate::report::result::word;
-use crate::scene::{self, BlockId, Scene};
+use crate::scene::{BlockId, Scene};
+use crate::text::nearest;
 
 /// Draw scenes with their forces, and what fails, as SVG, PNG, PDF or TikZ
 #[derive(Debug, Args)]
@@ -104,6 +106,9 @@ pub(crate) struct Render {
     /// Panels per row of a strip
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     columns: Option<u16>,
+    /// Draw the outlines alone with the problems of a refused scene marked and numbered; ends with 2 where there are any
+    #[arg(long, conflicts_with_all = ["animate", "panels", "pages", "frame", "zoom", "block", "margin", "corners"])]
+    broken: bool,
     /// Draw again whenever a scene or the style file is saved, until the program is stopped
     #[arg(long)]
     watch: bool,
@@ -183,6 +188,9 @@ impl Render {
             return Err(vec![Complaint::CommandLine(why.into())]);
         }
         let fonts = self.picture.fonts().map_err(|c| vec![c])?;
+        if self.broken {
+            return self.sketched(&scenes, &destination, format, &fonts, terminal);
+        }
         let (theme, sources) = match (
             self.look.theme(),
             source::read(&scenes, self.frame, self.level.contact_tolerance),
@@ -194,9 +202,9 @@ impl Render {
             }
         };
         let options = self.options(theme);
-        let paths = paths(&destination, &sources, format).map_err(|c| vec![c])?;
-        let inputs = scenes.iter().map(PathBuf::as_path);
-        let inputs: Vec<&Path> = inputs.chain(self.look.file()).collect();
+        let read: Vec<&Path> = scenes.iter().map(PathBuf::as_path).collect();
+        let paths = paths(&destination, &read, format).map_err(|c| vec![c])?;
+        let inputs: Vec<&Path> = read.into_iter().chain(self.look.file()).collect();
         destination::apart(&paths, &inputs).map_err(|c| vec![c])?;
 
         let shown = if terminal.shows_progress() {
@@ -365,7 +373,7 @@ impl Render {
     fn drawing(
         &self,
         source: &Source,
-        analysis: &Analysis<'_>,
+        analysis: &Analysis,
         options: &figure::Options,
     ) -> Result<Drawing, Complaint> {
         if let Some(kind) = self.kind.panels() {
@@ -406,7 +414,7 @@ impl Render {
         let number = scene.blocks.iter().position(|b| b.id == name);
         number.map(BlockId).ok_or_else(|| {
             let known = scene.blocks.iter().map(|b| b.id.as_str());
-            let near = scene::nearest(name, known)
+            let near = nearest(name, known)
                 .map_or_else(String::new, |near| format!("; did you mean {near}?"));
             format!("it has no block {name}{near}")
         })

@@ -303,7 +303,7 @@ impl Report {
                 source.scene = script::legible(&source.scene, &Fonts::default());
             }
         }
-        let analyses: Vec<Analysis<'_>> = read
+        let analyses: Vec<Analysis> = read
             .iter()
             .map(|(source, _)| Analysis::with(&source.scene, options))
             .collect();

@@ -21,11 +21,7 @@ pub(crate) struct Source {
 impl Source {
     /// The file's name without folders and ending; `scene` for standard input.
     pub(crate) fn stem(&self) -> String {
-        if self.path == Path::new("-") {
-            return "scene".into();
-        }
-        let stem = self.path.file_stem().unwrap_or(OsStr::new("scene"));
-        stem.to_string_lossy().into_owned()
+        stem(&self.path)
     }
 
     /// How a person is shown which scene is meant.
@@ -200,6 +196,15 @@ pub(crate) fn with_text(
     };
     let text = String::from_utf8_lossy(&bytes);
     Ok((source, text.trim_start_matches('\u{feff}').to_owned()))
+}
+
+/// A file's name without folders and ending; `scene` for standard input.
+pub(crate) fn stem(path: &Path) -> String {
+    if path == Path::new("-") {
+        return "scene".into();
+    }
+    let stem = path.file_stem().unwrap_or(OsStr::new("scene"));
+    stem.to_string_lossy().into_owned()
 }
 
 /// How a person is shown which file is meant.

@@ -30,7 +30,7 @@ const HEADING: usize = 60;
 
 /// The table of one scene.
 pub(crate) fn of(name: &str, analysis: &Analysis, timing: Timing) -> Page {
-    let scene = analysis.scene;
+    let scene = &analysis.scene;
     let mut page = Page::default();
     page.styled(Style::new().bold(), name);
     if !scene.title.is_empty() {

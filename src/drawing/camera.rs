@@ -16,7 +16,7 @@ impl Camera {
     ///
     /// ```
     /// use drystone::drawing::{Camera, PagePoint};
-    /// use drystone::geometry::{Bounds, Point};
+    /// use drystone::scene::{Bounds, Point};
     /// let view = Bounds { min: Point::new(2.0, 1.0), max: Point::new(5.0, 7.0) };
     /// let camera = Camera::new(view, PagePoint::new(10.0, 20.0), 8.0);
     /// assert_eq!(camera.place(Point::new(3.0, 6.0)), PagePoint::new(18.0, 28.0));

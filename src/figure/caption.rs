@@ -16,8 +16,8 @@ use crate::wording::verdict::lacks;
 /// assert_eq!(words, "An overhang. It falls: block plank would have to stick to the ground with 8 N.");
 /// # Ok::<(), drystone::scene::Problems>(())
 /// ```
-pub fn caption(analysis: &Analysis<'_>) -> String {
-    let scene = analysis.scene;
+pub fn caption(analysis: &Analysis) -> String {
+    let scene = &analysis.scene;
     let mut sentences = Vec::new();
     if !scene.title.is_empty() {
         sentences.push(format!("{}.", scene.title.trim_end_matches('.')));

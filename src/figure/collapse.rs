@@ -15,7 +15,7 @@ const MOST_NAMED: usize = 4;
 const TURNS: f64 = 0.02;
 
 /// What is written below a panel of a mechanism.
-pub(crate) fn reason(analysis: &Analysis<'_>, frame: usize) -> String {
+pub(crate) fn reason(analysis: &Analysis, frame: usize) -> String {
     let found = &analysis.frames[frame];
     match found.verdict {
         Verdict::Stable => "there is no mechanism".into(),
@@ -24,7 +24,7 @@ pub(crate) fn reason(analysis: &Analysis<'_>, frame: usize) -> String {
     }
 }
 
-fn collapse(analysis: &Analysis<'_>, frame: usize) -> String {
+fn collapse(analysis: &Analysis, frame: usize) -> String {
     let joints = joints(analysis, frame);
     let bodies = bodies(analysis, frame, &joints);
     let teller = Teller {
@@ -59,7 +59,7 @@ fn collapse(analysis: &Analysis<'_>, frame: usize) -> String {
 }
 
 /// The blocks that move, those that stay together as one body; in the order of their first blocks.
-fn bodies(analysis: &Analysis<'_>, frame: usize, joints: &[Joint]) -> Vec<Vec<Motion>> {
+fn bodies(analysis: &Analysis, frame: usize, joints: &[Joint]) -> Vec<Vec<Motion>> {
     let mut parted = vec![false; analysis.frames[frame].contacts.len()];
     for joint in joints {
         parted[joint.contact] = true;
@@ -68,7 +68,7 @@ fn bodies(analysis: &Analysis<'_>, frame: usize, joints: &[Joint]) -> Vec<Vec<Mo
 }
 
 struct Teller<'a> {
-    analysis: &'a Analysis<'a>,
+    analysis: &'a Analysis,
     frame: usize,
     joints: &'a [Joint],
     bodies: &'a [Vec<Motion>],
@@ -77,7 +77,7 @@ struct Teller<'a> {
 impl Teller<'_> {
     /// What one rigid body does: `blocks 4 and 5 slide on block 3`.
     fn body(&self, body: &[Motion]) -> String {
-        let scene = self.analysis.scene;
+        let scene = &self.analysis.scene;
         let names: Vec<String> = body
             .iter()
             .map(|m| scene.blocks[m.block.0].id.clone())
@@ -128,7 +128,7 @@ impl Teller<'_> {
 
     /// Whether turning is a part of a body's motion that is seen.
     fn turning(&self, body: &[Motion], fastest: f64) -> bool {
-        let scene = self.analysis.scene;
+        let scene = &self.analysis.scene;
         let turned = |m: &Motion| {
             let block = &scene.blocks[m.block.0];
             let corners = block.body.polygon.outline().iter();
@@ -169,7 +169,7 @@ impl Teller<'_> {
 
     /// The robot about whose grip a body turns.
     fn pinned(&self, body: &[Motion], fastest: f64) -> Option<&str> {
-        let scene = self.analysis.scene;
+        let scene = &self.analysis.scene;
         let robots = &self.analysis.frames[self.frame].robots;
         let holding = robots.iter().find(|robot| {
             body.iter()

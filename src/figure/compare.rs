@@ -32,7 +32,7 @@ struct Change<'a> {
 }
 
 /// Blocks that a frame has and the one before it has not, and the other way round.
-fn blocks(analysis: &Analysis<'_>, frame: usize) -> [Vec<BlockId>; 2] {
+fn blocks(analysis: &Analysis, frame: usize) -> [Vec<BlockId>; 2] {
     let Some(earlier) = frame.checked_sub(1) else {
         return [Vec::new(), Vec::new()];
     };
@@ -59,7 +59,7 @@ fn force(contact: &Contact) -> Vector {
 }
 
 /// The interfaces of both frames whose forces differ, and how many interfaces the two share.
-fn changes<'a>(analysis: &'a Analysis<'_>, frame: usize) -> (Vec<Change<'a>>, usize) {
+fn changes<'a>(analysis: &'a Analysis, frame: usize) -> (Vec<Change<'a>>, usize) {
     let Some(earlier) = frame.checked_sub(1) else {
         return (Vec::new(), 0);
     };
@@ -96,7 +96,7 @@ fn changes<'a>(analysis: &'a Analysis<'_>, frame: usize) -> (Vec<Change<'a>>, us
 }
 
 /// A box around the blocks of the frame before that are gone.
-pub(crate) fn reach(analysis: &Analysis<'_>, frame: usize) -> Option<Bounds> {
+pub(crate) fn reach(analysis: &Analysis, frame: usize) -> Option<Bounds> {
     let [_, gone] = blocks(analysis, frame);
     let bounds = |id: &BlockId| analysis.scene.blocks[id.0].body.polygon.bounds();
     gone.iter().map(bounds).reduce(Bounds::union)
@@ -105,7 +105,7 @@ pub(crate) fn reach(analysis: &Analysis<'_>, frame: usize) -> Option<Bounds> {
 /// What the camera sees of a frame and of what changed.
 pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Camera) -> Group {
     let pen = Pen::of(stage, frame, camera);
-    let (scene, theme) = (stage.analysis.scene, &stage.options.theme);
+    let (scene, theme) = (&stage.analysis.scene, &stage.options.theme);
     let mut ink = label::ink(&pen);
     let outlines = |ids: &[BlockId]| {
         let mut outline = Outline::default();
@@ -178,7 +178,7 @@ pub(crate) fn entries(stage: &Stage<'_>, unit: f64) -> Vec<Entry> {
 }
 
 /// What is written below a frame's verdict.
-pub(crate) fn reason(analysis: &Analysis<'_>, frame: usize) -> String {
+pub(crate) fn reason(analysis: &Analysis, frame: usize) -> String {
     let Some(earlier) = frame.checked_sub(1) else {
         return match analysis.frames.len() {
             1 => "one frame: nothing to compare it with".to_owned(),

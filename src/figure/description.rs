@@ -32,7 +32,7 @@ pub(crate) fn dotted(arrow: &ForceArrow, seen: bool) -> bool {
 
 /// An arrow's numbers in words.
 pub(crate) fn arrow(stage: &Stage<'_>, arrow: &ForceArrow) -> String {
-    let scene = stage.analysis.scene;
+    let scene = &stage.analysis.scene;
     let named = |id: BodyId| named(scene, id);
     let robot = |id: crate::scene::RobotId| format!("robot {}", scene.robots[id.0].id);
     let (on, amount) = (named(arrow.on), force(arrow.force));
@@ -66,7 +66,7 @@ pub(crate) fn arrow(stage: &Stage<'_>, arrow: &ForceArrow) -> String {
 
 /// A turning arrow's numbers in words.
 pub(crate) fn turn(stage: &Stage<'_>, turn: &TurnArrow) -> String {
-    let scene = stage.analysis.scene;
+    let scene = &stage.analysis.scene;
     let direction = if turn.torque > 0.0 {
         "anticlockwise"
     } else {

@@ -79,7 +79,7 @@ impl Displacement {
 /// Blocks that touch go equally far for their speed; a heap that falls apart from others has its own measure. `share` of
 /// the way is drawn, 0 … 1.
 pub(crate) fn displacements(
-    analysis: &Analysis<'_>,
+    analysis: &Analysis,
     frame: usize,
     unit: f64,
     share: f64,
@@ -92,7 +92,7 @@ pub(crate) fn displacements(
 }
 
 /// How far the motion of a heap is followed so that no block lies in another.
-fn clear(analysis: &Analysis<'_>, frame: usize, heap: &[Motion], unit: f64) -> f64 {
+fn clear(analysis: &Analysis, frame: usize, heap: &[Motion], unit: f64) -> f64 {
     let mut way = amplitude(analysis, heap, unit);
     if heap.len() > MOST_ASKED {
         return way;
@@ -108,8 +108,8 @@ fn clear(analysis: &Analysis<'_>, frame: usize, heap: &[Motion], unit: f64) -> f
 }
 
 /// Whether two bodies that touch lie in each other where a heap has gone so far.
-fn dips(analysis: &Analysis<'_>, frame: usize, heap: &[Motion], way: f64) -> bool {
-    let scene = analysis.scene;
+fn dips(analysis: &Analysis, frame: usize, heap: &[Motion], way: f64) -> bool {
+    let scene = &analysis.scene;
     let moves = |body: BodyId| {
         let BodyId::Block(id) = body else { return None };
         heap.iter().find(|m| m.block == id)
@@ -142,8 +142,8 @@ fn dips(analysis: &Analysis<'_>, frame: usize, heap: &[Motion], way: f64) -> boo
 }
 
 /// How far the motion of a heap is followed: the way in metres of a point of speed 1.
-fn amplitude(analysis: &Analysis<'_>, heap: &[Motion], unit: f64) -> f64 {
-    let scene = analysis.scene;
+fn amplitude(analysis: &Analysis, heap: &[Motion], unit: f64) -> f64 {
+    let scene = &analysis.scene;
     let fastest = heap.iter().map(|m| m.fastest(scene)).fold(0.0, f64::max);
     let spin = heap.iter().map(|m| m.spin.abs()).fold(0.0, f64::max);
     let size = heap
@@ -163,11 +163,11 @@ fn amplitude(analysis: &Analysis<'_>, heap: &[Motion], unit: f64) -> f64 {
 }
 
 fn followed(
-    analysis: &Analysis<'_>,
+    analysis: &Analysis,
     frame: usize,
     amplitude: impl Fn(&[Motion]) -> f64,
 ) -> Vec<Option<Displacement>> {
-    let scene = analysis.scene;
+    let scene = &analysis.scene;
     let mut displacements = vec![None; scene.blocks.len()];
     for heap in together(analysis, frame, |_| true) {
         let amplitude = amplitude(&heap);
@@ -182,7 +182,7 @@ fn followed(
 /// The motions of the blocks that move, those together whose blocks are joined by contacts that `joins` tells by their
 /// numbers; in the order of their first blocks.
 pub(crate) fn together(
-    analysis: &Analysis<'_>,
+    analysis: &Analysis,
     frame: usize,
     joins: impl Fn(usize) -> bool,
 ) -> Vec<Vec<Motion>> {
@@ -218,8 +218,8 @@ pub(crate) fn together(
 }
 
 /// The motions of the blocks of a frame that are seen to move.
-fn moving<'a>(analysis: &'a Analysis<'_>, frame: usize) -> impl Iterator<Item = &'a Motion> {
-    let (scene, motions) = (analysis.scene, &analysis.frames[frame].mechanism);
+fn moving<'a>(analysis: &'a Analysis, frame: usize) -> impl Iterator<Item = &'a Motion> {
+    let (scene, motions) = (&analysis.scene, &analysis.frames[frame].mechanism);
     let speed = |m: &Motion| m.fastest(scene);
     let fastest = motions.iter().map(speed).fold(0.0, f64::max);
     motions
@@ -271,7 +271,7 @@ mod tests {
     }
 
     /// How much displaced blocks lie in each other, m².
-    fn shared(analysis: &Analysis<'_>, amplitude: f64) -> f64 {
+    fn shared(analysis: &Analysis, amplitude: f64) -> f64 {
         let displaced = followed(analysis, 0, |_| amplitude);
         let blocks: Vec<Polygon> = analysis
             .scene

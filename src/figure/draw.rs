@@ -13,7 +13,7 @@ const WAY: u32 = 12;
 /// A figure of this kind, one panel per frame.
 ///
 /// Units: the page is in pixels at natural size.
-pub fn draw(analysis: &Analysis<'_>, kind: Kind, options: &Options) -> Drawing {
+pub fn draw(analysis: &Analysis, kind: Kind, options: &Options) -> Drawing {
     if kind == Kind::Mechanism {
         return strip(&analysis.elementary(), kind, &kind.options(options));
     }
@@ -22,7 +22,7 @@ pub fn draw(analysis: &Analysis<'_>, kind: Kind, options: &Options) -> Drawing {
 
 /// The panels of [`draw`] a page each, all alike in size and scale: the pictures of an animation. A frame that falls by a
 /// mechanism has several, along its way.
-pub fn pages(analysis: &Analysis<'_>, kind: Kind, options: &Options) -> Vec<Drawing> {
+pub fn pages(analysis: &Analysis, kind: Kind, options: &Options) -> Vec<Drawing> {
     if kind == Kind::Mechanism {
         return moving(&analysis.elementary(), &kind.options(options));
     }
@@ -35,14 +35,14 @@ pub fn pages(analysis: &Analysis<'_>, kind: Kind, options: &Options) -> Vec<Draw
 }
 
 /// The panels of [`draw`] a page each, one per frame, all alike in size and scale.
-pub fn panels(analysis: &Analysis<'_>, kind: Kind, options: &Options) -> Vec<Drawing> {
+pub fn panels(analysis: &Analysis, kind: Kind, options: &Options) -> Vec<Drawing> {
     let all: Vec<usize> = (0..analysis.frames.len()).collect();
     panels_of(analysis, kind, options, &all)
 }
 
 /// As [`panels`], of these frames alone, counted from 0; frames that there are not are passed over.
 pub fn panels_of(
-    analysis: &Analysis<'_>,
+    analysis: &Analysis,
     kind: Kind,
     options: &Options,
     frames: &[usize],
@@ -57,7 +57,7 @@ pub fn panels_of(
 
 /// The panels of [`draw`] in rows on pages no higher than `high` times their width, each with its title and key; all to one
 /// scale. A single row that is higher has a page of its own.
-pub fn split(analysis: &Analysis<'_>, kind: Kind, options: &Options, high: f64) -> Vec<Drawing> {
+pub fn split(analysis: &Analysis, kind: Kind, options: &Options, high: f64) -> Vec<Drawing> {
     if kind == Kind::Mechanism {
         return strip::split(&analysis.elementary(), kind, &kind.options(options), high);
     }
@@ -66,14 +66,14 @@ pub fn split(analysis: &Analysis<'_>, kind: Kind, options: &Options, high: f64) 
 
 /// A width and a height that [`draw`] makes no smaller, pixels: told without drawing, so that what is too large for a file
 /// can be refused soon.
-pub fn least_size(analysis: &Analysis<'_>, kind: Kind, options: &Options) -> (f64, f64) {
+pub fn least_size(analysis: &Analysis, kind: Kind, options: &Options) -> (f64, f64) {
     let options = kind.options(options);
     let stage = kind.stage(analysis, &options);
     Layout::of(&stage, analysis.frames.len()).least(&stage)
 }
 
 /// The pages of a mechanism: each frame that falls in steps along its way, each other frame once.
-fn moving(analysis: &Analysis<'_>, options: &Options) -> Vec<Drawing> {
+fn moving(analysis: &Analysis, options: &Options) -> Vec<Drawing> {
     let at = |step: u32| {
         let options = Options {
             way: f64::from(step) / f64::from(WAY),

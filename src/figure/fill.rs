@@ -37,8 +37,8 @@ pub(crate) struct Fills {
 
 impl Fills {
     /// The shares of every frame.
-    pub fn of(analysis: &Analysis<'_>, rule: Fill) -> Fills {
-        let scene = analysis.scene;
+    pub fn of(analysis: &Analysis, rule: Fill) -> Fills {
+        let scene = &analysis.scene;
         let each = |amount: fn(&Scene, &Frame, &FrameAnalysis) -> Vec<f64>| -> Vec<Vec<f64>> {
             let frames = scene.frames.iter().zip(&analysis.frames);
             frames
@@ -154,8 +154,8 @@ fn to_largest(
 }
 
 /// The source's rule.
-fn source(analysis: &Analysis<'_>, amplitudes: Vec<Vec<f64>>) -> (FillScale, Vec<Vec<f64>>) {
-    let scene = analysis.scene;
+fn source(analysis: &Analysis, amplitudes: Vec<Vec<f64>>) -> (FillScale, Vec<Vec<f64>>) {
+    let scene = &analysis.scene;
     let limits = scene.robots.iter().flat_map(|r| [r.limits.fx, r.limits.fy]);
     let limit = limits.fold(f64::INFINITY, f64::min);
     if !limit.is_finite() {

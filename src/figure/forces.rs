@@ -27,6 +27,6 @@ use crate::drawing::Drawing;
 /// let png = output::png::render(&svg, output::png::Size::Width(800))?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn forces(analysis: &Analysis<'_>, options: &Options) -> Drawing {
+pub fn forces(analysis: &Analysis, options: &Options) -> Drawing {
     strip(analysis, Kind::Forces, options)
 }

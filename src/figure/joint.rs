@@ -24,7 +24,7 @@ pub(crate) struct Joint {
 }
 
 /// Every interface of a frame whose bodies move against each other.
-pub(crate) fn joints(analysis: &Analysis<'_>, frame: usize) -> Vec<Joint> {
+pub(crate) fn joints(analysis: &Analysis, frame: usize) -> Vec<Joint> {
     let found = &analysis.frames[frame];
     let motions = by_block(analysis, found);
     let relative: Vec<[Vector; 2]> = found
@@ -104,7 +104,7 @@ fn joint(contact: &Contact, relative: [Vector; 2], turning: f64, noise: f64) -> 
 }
 
 /// The motion of each block by its number, `None` for those that stay.
-fn by_block(analysis: &Analysis<'_>, found: &FrameAnalysis) -> Vec<Option<Motion>> {
+fn by_block(analysis: &Analysis, found: &FrameAnalysis) -> Vec<Option<Motion>> {
     let mut motions = vec![None; analysis.scene.blocks.len()];
     for motion in &found.mechanism {
         motions[motion.block.0] = Some(*motion);
@@ -112,15 +112,10 @@ fn by_block(analysis: &Analysis<'_>, found: &FrameAnalysis) -> Vec<Option<Motion
     motions
 }
 
-fn velocity(
-    analysis: &Analysis<'_>,
-    motions: &[Option<Motion>],
-    body: BodyId,
-    at: Point,
-) -> Vector {
+fn velocity(analysis: &Analysis, motions: &[Option<Motion>], body: BodyId, at: Point) -> Vector {
     match body {
         BodyId::Ground(_) => Vector::zeros(),
-        BodyId::Block(id) => motions[id.0].map_or(Vector::zeros(), |m| m.at(analysis.scene, at)),
+        BodyId::Block(id) => motions[id.0].map_or(Vector::zeros(), |m| m.at(&analysis.scene, at)),
     }
 }
 

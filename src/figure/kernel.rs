@@ -85,7 +85,7 @@ pub(crate) fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
 
 /// What the signs mean, those that occur.
 pub(crate) fn entries(stage: &Stage<'_>) -> Vec<Entry> {
-    let scene = stage.analysis.scene;
+    let scene = &stage.analysis.scene;
     let frames = &stage.analysis.frames;
     let mut entries = Vec::new();
     if frames.iter().any(|f| !f.contacts.is_empty()) {
@@ -135,7 +135,7 @@ fn rest(theme: &Theme, bold: f64) -> Stroke {
 }
 
 fn stretches(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
-    let (scene, theme) = (pen.stage.analysis.scene, &pen.stage.options.theme);
+    let (scene, theme) = (&pen.stage.analysis.scene, &pen.stage.options.theme);
     let bold = bold(pen.unit());
     let mut group = Group::of_class("interfaces");
     let (mut all_safe, mut all_rests) = (Outline::default(), Outline::default());
@@ -192,7 +192,7 @@ fn stretches(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
 
 /// A mark where each resultant sits, in a frame that stands.
 fn dots(pen: &Pen<'_>, found: &FrameAnalysis, ink: &mut dyn FnMut(PagePoint)) -> Group {
-    let (scene, theme) = (pen.stage.analysis.scene, &pen.stage.options.theme);
+    let (scene, theme) = (&pen.stage.analysis.scene, &pen.stage.options.theme);
     let mut group = Group::of_class("resultants");
     if found.verdict != Verdict::Stable {
         return group;

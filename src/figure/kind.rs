@@ -90,7 +90,7 @@ impl Kind {
     }
 
     /// What all panels of a figure of this kind share.
-    pub(crate) fn stage<'a>(self, analysis: &'a Analysis<'a>, options: &'a Options) -> Stage<'a> {
+    pub(crate) fn stage<'a>(self, analysis: &'a Analysis, options: &'a Options) -> Stage<'a> {
         let content = Content {
             tells_amplitudes: self.tells_amplitudes(),
             largest: &|frame| self.largest(analysis, frame, options),
@@ -124,8 +124,8 @@ impl Kind {
     }
 
     /// The amount that a frame's own scale takes as one unit edge, N; 0 where the kind draws no arrows.
-    fn largest(self, analysis: &Analysis<'_>, frame: usize, options: &Options) -> f64 {
-        let scene = analysis.scene;
+    fn largest(self, analysis: &Analysis, frame: usize, options: &Options) -> f64 {
+        let scene = &analysis.scene;
         let (placed, found) = (&scene.frames[frame], &analysis.frames[frame]);
         match self {
             Kind::Forces | Kind::Build | Kind::Polygon | Kind::Compare => {
@@ -140,7 +140,7 @@ impl Kind {
     /// The arrows of a frame, `newtons_per_unit` N being one unit edge long.
     fn marks(
         self,
-        analysis: &Analysis<'_>,
+        analysis: &Analysis,
         frame: usize,
         options: &Options,
         newtons_per_unit: f64,
@@ -161,7 +161,7 @@ impl Kind {
     /// A box around what a frame's picture shows beside blocks, ground, robots and arrows.
     fn reach(
         self,
-        analysis: &Analysis<'_>,
+        analysis: &Analysis,
         frame: usize,
         unit: f64,
         marks: &Marks,
@@ -179,7 +179,7 @@ impl Kind {
     /// their places.
     fn displacements(
         self,
-        analysis: &Analysis<'_>,
+        analysis: &Analysis,
         frame: usize,
         unit: f64,
         share: f64,
@@ -226,7 +226,7 @@ impl Kind {
 
     /// What is written below a frame's verdict.
     fn reason(self, stage: &Stage<'_>, frame: usize) -> String {
-        let (scene, found) = (stage.analysis.scene, &stage.analysis.frames[frame]);
+        let (scene, found) = (&stage.analysis.scene, &stage.analysis.frames[frame]);
         match self {
             Kind::Forces | Kind::Build => verdict::reason(scene, found),
             Kind::Mechanism => collapse::reason(stage.analysis, frame),

@@ -159,7 +159,7 @@ fn wanted(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
 
 /// The blocks that the words below a frame name, in placing order.
 fn mentioned(stage: &Stage<'_>, frame: usize) -> Vec<BlockId> {
-    let scene = stage.analysis.scene;
+    let scene = &stage.analysis.scene;
     let stated = &stage.statements[frame];
     let placed = scene.frames[frame].placed.iter().copied();
     placed
@@ -231,7 +231,7 @@ fn name(pen: &Pen<'_>, id: BlockId, view: Bounds) -> Option<Label> {
 }
 
 fn robots(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
-    let scene = pen.stage.analysis.scene;
+    let scene = &pen.stage.analysis.scene;
     let size = name_size(pen, pen.unit());
     // Above the smallest letters names of robots stand back a little.
     let size = (0.9 * size).max(size.min(SMALLEST));
@@ -359,7 +359,7 @@ fn inside(polygon: &Polygon, middle: Point, view: Option<Bounds>) -> Vec<Point> 
 /// The ink of ground, blocks, plans, discs and arrows.
 pub(crate) fn ink(pen: &Pen<'_>) -> Ink {
     let mut ink = Ink::default();
-    let scene = pen.stage.analysis.scene;
+    let scene = &pen.stage.analysis.scene;
     let frame = &scene.frames[pen.number];
     let planned = frame.plans.iter().map(|p| p.block);
     let blocks = frame.placed.iter().copied().chain(planned);

@@ -178,7 +178,7 @@ fn dimensions(stage: &Stage<'_>) -> f64 {
 
 /// How high the longest caption is in panels of this width, pixels.
 fn words(stage: &Stage<'_>, count: usize, panel: f64) -> f64 {
-    let (scene, size) = (stage.analysis.scene, stage.options.theme.sizes.caption);
+    let (scene, size) = (&stage.analysis.scene, stage.options.theme.sizes.caption);
     if !stage.options.captions || count < 2 {
         return 0.0;
     }

@@ -279,7 +279,7 @@ pub(crate) fn scale(newtons: f64, unit: f64, options: &Options) -> Option<Entry>
 
 /// Everything that occurs in the figure, `unit` pixels being one unit edge.
 pub(crate) fn entries(stage: &Stage<'_>, unit: f64) -> Vec<Entry> {
-    let (scene, theme) = (stage.analysis.scene, &stage.options.theme);
+    let (scene, theme) = (&stage.analysis.scene, &stage.options.theme);
     let mut entries = Vec::new();
     if stage.options.scale == ArrowScale::Strip {
         let newtons = stage
@@ -393,7 +393,7 @@ pub(crate) fn metres(scale: f64, content: f64) -> Option<Entry> {
 
 /// What a load looks like and how large loads are; none where no frame shows one.
 pub(crate) fn loads(stage: &Stage<'_>) -> Option<Entry> {
-    let scene = stage.analysis.scene;
+    let scene = &stage.analysis.scene;
     let placed = |block| scene.frames.iter().any(|f| f.placed.contains(&block));
     let loads = scene.loads.iter().filter(|l| placed(l.block));
     let turns = loads.clone().any(|l| l.torque != 0.0);
@@ -418,7 +418,7 @@ pub(crate) fn loads(stage: &Stage<'_>) -> Option<Entry> {
 
 /// The robots that hold or plan in any frame, and what a plan looks like.
 pub(crate) fn robots(stage: &Stage<'_>) -> Vec<Entry> {
-    let (scene, theme) = (stage.analysis.scene, &stage.options.theme);
+    let (scene, theme) = (&stage.analysis.scene, &stage.options.theme);
     let mut entries = Vec::new();
     let holds = |number: usize| {
         scene

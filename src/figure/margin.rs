@@ -34,13 +34,13 @@ pub(crate) fn largest_load(scene: &Scene, frame: &Frame, options: &Options) -> f
 }
 
 /// How far the edge of a frame that stands is, and how it would fall beyond.
-fn beyond(analysis: &Analysis<'_>, frame: usize, toward: Toward) -> Option<(f64, Vec<Motion>)> {
+fn beyond(analysis: &Analysis, frame: usize, toward: Toward) -> Option<(f64, Vec<Motion>)> {
     let stands = analysis.frames.get(frame)?.verdict == Verdict::Stable;
     analysis.edge(frame, toward).filter(|_| stands)
 }
 
 /// The frame's analysis with the mechanism at the edge in place of its own, and how far the edge is.
-fn ghost<'s>(analysis: &Analysis<'s>, frame: usize, toward: Toward) -> Option<(Analysis<'s>, f64)> {
+fn ghost(analysis: &Analysis, frame: usize, toward: Toward) -> Option<(Analysis, f64)> {
     let (edge, motions) = beyond(analysis, frame, toward)?;
     let mut ghost = analysis.clone();
     let found = ghost.frames.get_mut(frame)?;
@@ -51,7 +51,7 @@ fn ghost<'s>(analysis: &Analysis<'s>, frame: usize, toward: Toward) -> Option<(A
 
 /// Where the blocks of a frame would go, by their numbers, and how far the edge is.
 fn gone(
-    analysis: &Analysis<'_>,
+    analysis: &Analysis,
     frame: usize,
     unit: f64,
     toward: Toward,
@@ -67,8 +67,8 @@ struct Gravity {
     there: Point,
 }
 
-fn gravity(analysis: &Analysis<'_>, frame: usize, edge: f64, toward: Toward) -> Option<Gravity> {
-    let scene = analysis.scene;
+fn gravity(analysis: &Analysis, frame: usize, edge: f64, toward: Toward) -> Option<Gravity> {
+    let scene = &analysis.scene;
     let blocks = scene.frames[frame].placed.iter();
     let structure = blocks
         .map(|id| scene.blocks[id.0].body.polygon.bounds())
@@ -103,7 +103,7 @@ fn gravity(analysis: &Analysis<'_>, frame: usize, edge: f64, toward: Toward) -> 
 
 /// A box around ghosts and gravity.
 pub(crate) fn reach(
-    analysis: &Analysis<'_>,
+    analysis: &Analysis,
     frame: usize,
     unit: f64,
     options: &Options,
@@ -119,7 +119,7 @@ pub(crate) fn reach(
 pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Camera) -> Group {
     let pen = Pen::of(stage, frame, camera);
     let mut ink = label::ink(&pen);
-    let (scene, theme) = (stage.analysis.scene, &stage.options.theme);
+    let (scene, theme) = (&stage.analysis.scene, &stage.options.theme);
     let mut parts = Vec::new();
     let toward = stage.options.toward;
     if let Some((displaced, edge)) = gone(stage.analysis, frame, stage.unit, toward) {

@@ -24,8 +24,8 @@ const THINNEST: f64 = 0.65;
 const SOURCE_FAILURE: f64 = 0.4;
 
 /// The straight arrows of frame `frame` (from 0), as [`marks`] has them. No arrows for a frame there is not.
-pub fn arrows(analysis: &Analysis<'_>, frame: usize, options: &Options) -> Vec<ForceArrow> {
-    let one = |f: &FrameAnalysis, s: &Frame| largest(analysis.scene, s, f, options);
+pub fn arrows(analysis: &Analysis, frame: usize, options: &Options) -> Vec<ForceArrow> {
+    let one = |f: &FrameAnalysis, s: &Frame| largest(&analysis.scene, s, f, options);
     let reference = match (analysis.frames.get(frame), analysis.scene.frames.get(frame)) {
         (Some(found), Some(placed)) => one(found, placed),
         _ => 0.0,
@@ -107,12 +107,7 @@ fn place(failure: &Failure) -> Point {
 ///
 /// The unit edge is the lattice's side, or a typical size of a block (see [`Options`]). No arrows for a frame there is
 /// not.
-pub fn marks(
-    analysis: &Analysis<'_>,
-    frame: usize,
-    options: &Options,
-    newtons_per_unit: f64,
-) -> Marks {
+pub fn marks(analysis: &Analysis, frame: usize, options: &Options, newtons_per_unit: f64) -> Marks {
     let mut marks = Marks {
         newtons_per_unit,
         ..Marks::default()
@@ -125,7 +120,7 @@ pub fn marks(
     if newtons_per_unit.is_nan() || newtons_per_unit <= 0.0 {
         return marks;
     }
-    let scene = analysis.scene;
+    let scene = &analysis.scene;
     let edge = unit(scene, options.zoom);
     let pen = Pen {
         scene,

@@ -31,7 +31,7 @@ const ARROW: (f64, f64) = (0.5, 0.11);
 const BARB: f64 = 0.34;
 
 /// A box around all blocks that move, where they are drawn.
-pub(crate) fn reach(analysis: &Analysis<'_>, displaced: &[Option<Displacement>]) -> Option<Bounds> {
+pub(crate) fn reach(analysis: &Analysis, displaced: &[Option<Displacement>]) -> Option<Bounds> {
     let blocks = displaced.iter().zip(&analysis.scene.blocks);
     let moved = blocks.filter_map(|(displacement, block)| Some((displacement.as_ref()?, block)));
     Bounds::of(moved.flat_map(|(displacement, block)| {
@@ -136,7 +136,7 @@ fn moved<'a>(pen: &'a Pen<'_>) -> impl Iterator<Item = (BlockId, &'a Motion)> {
 
 /// Outlines of the blocks that move, where they stand: dashed.
 fn ghosts(pen: &Pen<'_>) -> Option<Item> {
-    let (scene, theme) = (pen.stage.analysis.scene, &pen.stage.options.theme);
+    let (scene, theme) = (&pen.stage.analysis.scene, &pen.stage.options.theme);
     let mut outline = Outline::default();
     for (id, _) in moved(pen) {
         outline.extend(pen.camera.polygon(&scene.blocks[id.0].body.polygon));
@@ -152,7 +152,7 @@ fn ghosts(pen: &Pen<'_>) -> Option<Item> {
 
 /// The blocks that move, where their motion leads.
 fn displaced(pen: &Pen<'_>) -> Vec<Item> {
-    let (scene, theme) = (pen.stage.analysis.scene, &pen.stage.options.theme);
+    let (scene, theme) = (&pen.stage.analysis.scene, &pen.stage.options.theme);
     let edge = theme.motion.mixed(theme.ink, 0.25);
     let drawn = |group: Group, outline: Outline| -> Item {
         let fill = Path::filled(outline.clone(), theme.motion).with_opacity(MOVED);
@@ -206,7 +206,7 @@ fn ring_radius(pen: &Pen<'_>) -> f64 {
 
 /// A ring at the end that keeps contact.
 fn hinge(pen: &Pen<'_>, contact: &Contact, at: Point, ink: &mut Ink) -> Item {
-    let (scene, theme) = (pen.stage.analysis.scene, &pen.stage.options.theme);
+    let (scene, theme) = (&pen.stage.analysis.scene, &pen.stage.options.theme);
     let (centre, radius) = (
         pen.camera.place(between(pen, contact, at)),
         ring_radius(pen),
@@ -226,7 +226,7 @@ fn ring(centre: PagePoint, radius: f64, theme: &Theme) -> Path {
 
 /// A half-arrow on each side of the interface, each the way its body slides past the other.
 fn slip(pen: &Pen<'_>, contact: &Contact, joint: &Joint, ink: &mut Ink) -> Item {
-    let (scene, theme) = (pen.stage.analysis.scene, &pen.stage.options.theme);
+    let (scene, theme) = (&pen.stage.analysis.scene, &pen.stage.options.theme);
     let interface = &contact.interface;
     let unit = pen.stage.unit;
     let length = match interface.length() {

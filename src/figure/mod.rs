@@ -7,6 +7,7 @@
 mod apart;
 mod arrow;
 mod bearing;
+mod broken;
 mod by_colour;
 mod caption;
 mod collapse;
@@ -47,6 +48,7 @@ mod view;
 mod words;
 
 pub use arrow::{ArrowKind, ForceArrow, Head, Marks, TurnArrow, TurnKind};
+pub use broken::broken;
 pub use caption::caption;
 pub use draw::{draw, least_size, pages, panels, panels_of, split};
 pub use forces::forces;
@@ -57,5 +59,6 @@ pub use mark::{arrows, marks};
 pub use option::{ArrowScale, Corners, Fill, ForceStyle, Normalisation, Options};
 pub use ring::ring;
 pub use shapes::shapes;
+#[cfg(feature = "report")]
 pub(crate) use words::letter;
 pub use words::quantity;

@@ -74,7 +74,7 @@ pub(crate) struct Pen<'a> {
 impl<'a> Pen<'a> {
     pub(crate) fn of(stage: &'a Stage<'a>, number: usize, camera: &'a Camera) -> Pen<'a> {
         let unit = camera.length(stage.unit);
-        let (scene, widths) = (stage.analysis.scene, &stage.options.theme.widths);
+        let (scene, widths) = (&stage.analysis.scene, &stage.options.theme.widths);
         let mut places = vec![None; scene.blocks.len()];
         for (place, id) in scene.frames[number].placed.iter().enumerate() {
             places[id.0] = Some(place);
@@ -102,7 +102,7 @@ impl<'a> Pen<'a> {
 
     pub(crate) fn ground(&self, view: Bounds) -> Group {
         let theme = &self.stage.options.theme;
-        let scene = self.stage.analysis.scene;
+        let scene = &self.stage.analysis.scene;
         let mut group = Group::of_class("ground").titled("Ground");
         if scene.ground.is_empty() {
             return group;
@@ -135,7 +135,7 @@ impl<'a> Pen<'a> {
     }
 
     fn fill(&self, place: usize, id: BlockId) -> Colour {
-        let scene = self.stage.analysis.scene;
+        let scene = &self.stage.analysis.scene;
         if self.displacement(id).is_some() {
             let theme = &self.stage.options.theme;
             return theme.page.mixed(theme.motion, MOVED);
@@ -152,7 +152,7 @@ impl<'a> Pen<'a> {
 
     /// The colour that a block, ground or the page has at a place.
     pub(crate) fn below(&self, at: PagePoint) -> Colour {
-        let (scene, theme) = (self.stage.analysis.scene, &self.stage.options.theme);
+        let (scene, theme) = (&self.stage.analysis.scene, &self.stage.options.theme);
         let at = self.camera.back(at);
         let placed = &scene.frames[self.number].placed;
         let block = placed.iter().position(|id| {
@@ -193,7 +193,7 @@ impl<'a> Pen<'a> {
         if self.many() {
             return self.blocks_by_colour();
         }
-        let (scene, theme) = (self.stage.analysis.scene, &self.stage.options.theme);
+        let (scene, theme) = (&self.stage.analysis.scene, &self.stage.options.theme);
         let frame = &scene.frames[self.number];
         let mut group = Group::of_class("blocks");
         for (place, id) in frame.placed.iter().enumerate() {
@@ -221,7 +221,7 @@ impl<'a> Pen<'a> {
 
     /// As [`Pen::blocks`] for scenes of very many blocks: one path for all blocks of a colour.
     fn blocks_by_colour(&self) -> Group {
-        let (scene, theme) = (self.stage.analysis.scene, &self.stage.options.theme);
+        let (scene, theme) = (&self.stage.analysis.scene, &self.stage.options.theme);
         let frame = &scene.frames[self.number];
         let mut group = Group::of_class("blocks").titled(format!("{} blocks", frame.placed.len()));
         let mut colours = ByColour::default();
@@ -239,7 +239,7 @@ impl<'a> Pen<'a> {
     }
 
     pub(crate) fn plans(&self) -> Group {
-        let scene = self.stage.analysis.scene;
+        let scene = &self.stage.analysis.scene;
         let mut group = Group::of_class("plans");
         for plan in &scene.frames[self.number].plans {
             let (block, robot) = (&scene.blocks[plan.block.0], &scene.robots[plan.robot.0]);
@@ -257,7 +257,7 @@ impl<'a> Pen<'a> {
     }
 
     pub(crate) fn discs(&self) -> Group {
-        let (scene, theme) = (self.stage.analysis.scene, &self.stage.options.theme);
+        let (scene, theme) = (&self.stage.analysis.scene, &self.stage.options.theme);
         let mut group = Group::of_class("robots");
         for hold in &scene.frames[self.number].holds {
             let at = self.moved(hold.block, hold.at);

@@ -21,7 +21,7 @@ pub(crate) struct Panel {
 
 /// These panels in rows of `columns`, in their order, the structures of a row on one level.
 pub(crate) fn plate(
-    analyses: &[Analysis<'_>],
+    analyses: &[Analysis],
     panels: &[Panel],
     title: &str,
     columns: usize,

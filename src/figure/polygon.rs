@@ -45,7 +45,7 @@ fn outer(marks: &Marks) -> impl Iterator<Item = &ForceArrow> {
 /// What acts on a frame's structure from outside: weights, loads, what ground and robots give, and what is missing there;
 /// and what is missing inside, which is drawn on the structure alone.
 pub(crate) fn marks(
-    analysis: &Analysis<'_>,
+    analysis: &Analysis,
     frame: usize,
     options: &Options,
     newtons_per_unit: f64,
@@ -107,8 +107,8 @@ fn covers(acting: &[Point], answering: &[Point], size: f64) -> bool {
 }
 
 /// The forces of `marks` tip to tail, to the right of the blocks of a frame.
-fn chain(analysis: &Analysis<'_>, frame: usize, marks: &Marks) -> Option<Chain> {
-    let scene = analysis.scene;
+fn chain(analysis: &Analysis, frame: usize, marks: &Marks) -> Option<Chain> {
+    let scene = &analysis.scene;
     let blocks = scene.frames[frame].placed.iter();
     let structure = blocks
         .map(|id| scene.blocks[id.0].body.polygon.bounds())
@@ -176,10 +176,10 @@ fn larger(times: f64) -> String {
 }
 
 /// A box around the polygon of a frame, arrows of so many newtons per unit edge.
-pub(crate) fn reach(analysis: &Analysis<'_>, frame: usize, marks: &Marks) -> Option<Bounds> {
+pub(crate) fn reach(analysis: &Analysis, frame: usize, marks: &Marks) -> Option<Bounds> {
     let chain = chain(analysis, frame, marks)?;
     let own = Bounds::of(chain.sides.into_iter().flatten())?;
-    Some(own.grown(0.3 * unit(analysis.scene, None)))
+    Some(own.grown(0.3 * unit(&analysis.scene, None)))
 }
 
 /// What the camera sees of a frame: the structure with the forces on it from outside, and their polygon.
@@ -231,7 +231,7 @@ pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Ca
     let parts = vec![pen.arrows(false), pen.arrows(true), polygon];
     let mut picture = composed(&pen, view, pen.blocks(), parts, ink);
     // The polygon stands on nothing: ground ends beside it.
-    let shown = view::ground_shown(stage.analysis.scene, unit(stage.analysis.scene, None));
+    let shown = view::ground_shown(&stage.analysis.scene, unit(&stage.analysis.scene, None));
     for item in &mut picture.items {
         if let (Item::Group(group), Some(shown)) = (item, shown)
             && group.class == "ground"
@@ -299,7 +299,7 @@ pub(crate) fn entries(stage: &Stage<'_>, unit: f64) -> Vec<Entry> {
 
 /// What is written below a frame's verdict.
 pub(crate) fn reason(stage: &Stage<'_>, frame: usize) -> String {
-    let why = verdict::reason(stage.analysis.scene, &stage.analysis.frames[frame]);
+    let why = verdict::reason(&stage.analysis.scene, &stage.analysis.frames[frame]);
     let marks = &stage.marks[frame];
     let lacks = outer(marks).any(|a| a.kind.is_failure());
     if outer(marks).next().is_none() {

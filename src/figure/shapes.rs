@@ -43,6 +43,7 @@ fn sheet(lattice: Lattice, named: &[(&str, Vec<Cell>)], theme: &Theme) -> Drawin
                 friction: 0.0,
                 fill: None,
                 gap: 0.0,
+                rounding: 0.0,
             },
             view,
         ));

@@ -25,7 +25,7 @@ const FEW_SEEN: f64 = 0.2;
 
 /// What all panels of a figure share.
 pub(crate) struct Stage<'a> {
-    pub analysis: &'a Analysis<'a>,
+    pub analysis: &'a Analysis,
     /// Whether blocks tell amplitudes by their colour; otherwise they are plain.
     pub tells_amplitudes: bool,
     pub options: &'a Options,
@@ -61,12 +61,8 @@ pub(crate) struct Content<'c> {
 }
 
 impl<'a> Stage<'a> {
-    pub fn of(
-        analysis: &'a Analysis<'a>,
-        options: &'a Options,
-        content: &Content<'_>,
-    ) -> Stage<'a> {
-        let scene = analysis.scene;
+    pub fn of(analysis: &'a Analysis, options: &'a Options, content: &Content<'_>) -> Stage<'a> {
+        let scene = &analysis.scene;
         let frames = 0..analysis.frames.len();
         let own: Vec<f64> = frames.clone().map(content.largest).collect();
         let shared = own.iter().copied().fold(0.0, f64::max);
@@ -129,7 +125,7 @@ impl<'a> Stage<'a> {
     /// With more room around what every frame shows, metres across and up.
     pub fn with_room(mut self, across: f64, up: f64) -> Stage<'a> {
         // Where ground is shown, it is the lower edge.
-        let down = match view::ground_shown(self.analysis.scene, self.unit) {
+        let down = match view::ground_shown(&self.analysis.scene, self.unit) {
             Some(ground) if ground.min.y <= self.view.min.y + self.unit => 0.0,
             _ => up,
         };

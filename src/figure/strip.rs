@@ -30,7 +30,7 @@ const MOST_REASON_LINES: usize = 12;
 const MOST_LISTED: usize = 30;
 
 /// The figure of an analysis: a panel of this kind for each frame.
-pub(crate) fn strip(analysis: &Analysis<'_>, kind: Kind, options: &Options) -> Drawing {
+pub(crate) fn strip(analysis: &Analysis, kind: Kind, options: &Options) -> Drawing {
     let stage = kind.stage(analysis, options);
     let count = analysis.frames.len();
     let drawn = |stage: &Stage<'_>| {
@@ -61,7 +61,7 @@ pub(crate) fn strip(analysis: &Analysis<'_>, kind: Kind, options: &Options) -> D
 
 /// Panels of [`strip`] a page each, of these frames, all alike in size and scale, so that they can follow one another.
 pub(crate) fn pages(
-    analysis: &Analysis<'_>,
+    analysis: &Analysis,
     kind: Kind,
     options: &Options,
     frames: impl Iterator<Item = usize>,
@@ -87,12 +87,7 @@ pub(crate) fn pages(
 
 /// The panels of [`strip`] on pages no higher than `high` times their width, one below the other in as many rows as fit, at
 /// least one; all to one scale.
-pub(crate) fn split(
-    analysis: &Analysis<'_>,
-    kind: Kind,
-    options: &Options,
-    high: f64,
-) -> Vec<Drawing> {
+pub(crate) fn split(analysis: &Analysis, kind: Kind, options: &Options, high: f64) -> Vec<Drawing> {
     let stage = kind.stage(analysis, options);
     let count = analysis.frames.len();
     let layout = Layout::roomy(&stage, count);
@@ -431,7 +426,7 @@ impl Strip<'_> {
     /// `(a) Initial situation`; without a letter where there is but one frame, without what the heading says already;
     /// and around which block where that is all that is shown.
     fn caption(&self, frame: usize, between: &str) -> String {
-        let scene = self.stage.analysis.scene;
+        let scene = &self.stage.analysis.scene;
         if let Some(caption) = self.captions.and_then(|all| all.get(frame)) {
             return caption.clone();
         }
@@ -452,7 +447,7 @@ impl Strip<'_> {
     /// A frame in a sentence.
     fn described(&self, frame: usize) -> String {
         let (scene, found) = (
-            self.stage.analysis.scene,
+            &self.stage.analysis.scene,
             &self.stage.analysis.frames[frame],
         );
         let blocks = counted(scene.frames[frame].placed.len(), "block");

@@ -34,7 +34,7 @@ const FAINT: f64 = 0.35;
 /// What the camera sees of a frame and its line of thrust.
 pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Camera) -> Group {
     let pen = Pen::of(stage, frame, camera);
-    let scene = stage.analysis.scene;
+    let scene = &stage.analysis.scene;
     let found = &stage.analysis.frames[frame];
     let stretches = stretches(scene, &scene.frames[frame], found, stage.unit);
     let mut ink = label::ink(&pen);
@@ -57,7 +57,7 @@ pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Ca
 
 /// The loads of a frame as arrows that end where they act; `newtons_per_unit` N are one unit edge long.
 pub(crate) fn marks(
-    analysis: &Analysis<'_>,
+    analysis: &Analysis,
     frame: usize,
     options: &Options,
     newtons_per_unit: f64,
@@ -105,7 +105,7 @@ pub(crate) fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
 
 /// What the signs of a line of thrust mean, those that occur; `unit` pixels being one unit edge.
 pub(crate) fn entries(stage: &Stage<'_>, unit: f64) -> Vec<Entry> {
-    let (scene, theme) = (stage.analysis.scene, &stage.options.theme);
+    let (scene, theme) = (&stage.analysis.scene, &stage.options.theme);
     let frames = scene.frames.iter().zip(&stage.analysis.frames);
     let (mut through, mut stopped) = (false, false);
     for (frame, found) in frames {
@@ -227,7 +227,7 @@ fn lines(pen: &Pen<'_>, scene: &Scene, found: &FrameAnalysis, stretches: &[Stret
 
 /// A dot where each interface's resultant sits, and where a robot grips.
 fn dots(pen: &Pen<'_>, found: &FrameAnalysis, ink: &mut dyn FnMut(PagePoint, f64)) -> Group {
-    let (scene, theme) = (pen.stage.analysis.scene, &pen.stage.options.theme);
+    let (scene, theme) = (&pen.stage.analysis.scene, &pen.stage.options.theme);
     let radius = (0.06 * pen.unit()).clamp(1.1, 3.6);
     let mut group = Group::of_class("resultants");
     let mut joined = ByColour::default();

@@ -56,7 +56,7 @@ pub(crate) fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
 
 /// What the signs mean, those that occur.
 pub(crate) fn entries(stage: &Stage<'_>) -> Vec<Entry> {
-    let scene = stage.analysis.scene;
+    let scene = &stage.analysis.scene;
     let frames = &stage.analysis.frames;
     let all: Vec<Option<Bearing>> = frames.iter().flat_map(|f| bearings(scene, f)).collect();
     let robots = frames
@@ -171,7 +171,7 @@ fn idle_stroke(theme: &Theme, bold: f64) -> Stroke {
 
 /// Interfaces without force, and those with.
 fn interfaces(pen: &Pen<'_>, found: &FrameAnalysis) -> (Group, Group) {
-    let (scene, theme) = (pen.stage.analysis.scene, &pen.stage.options.theme);
+    let (scene, theme) = (&pen.stage.analysis.scene, &pen.stage.options.theme);
     let bold = bold(pen.unit());
     let (mut idle, mut used) = (Group::of_class("idle"), Group::of_class("interfaces"));
     let mut lines = ByColour::default();
@@ -258,7 +258,7 @@ fn across(pen: &Pen<'_>, contact: &Contact) -> [PagePoint; 2] {
 
 /// The discs of robots with limits once more, filled by how far those are used.
 fn robots(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
-    let (scene, theme) = (pen.stage.analysis.scene, &pen.stage.options.theme);
+    let (scene, theme) = (&pen.stage.analysis.scene, &pen.stage.options.theme);
     let mut group = Group::of_class("limits");
     for robot in found.robots.iter().filter(|r| limited(scene, r.robot.0)) {
         let at = pen.camera.place(robot.at);

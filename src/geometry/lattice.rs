@@ -141,7 +141,7 @@ impl Lattice {
     /// Where a lattice point lies, in metres. The coordinates need not be whole.
     ///
     /// ```
-    /// use drystone::geometry::{Lattice, LatticeKind};
+    /// use drystone::internals::geometry::{Lattice, LatticeKind};
     /// let lattice = Lattice { kind: LatticeKind::Triangular, side: 2.0 };
     /// let p = lattice.point(3.0, 1.0);
     /// assert_eq!(p.x, 7.0);

@@ -5,6 +5,7 @@
 //! [`Tolerance`]. Nothing here knows of forces.
 
 mod lattice;
+mod nearby;
 mod overlap;
 mod polygon;
 mod sum;
@@ -14,6 +15,7 @@ mod zonotope;
 
 pub(crate) use lattice::boundary;
 pub use lattice::{Cell, Half, Lattice, LatticeKind};
+pub(crate) use nearby::Nearby;
 pub use overlap::{Overlap, Pieces, overlap};
 pub(crate) use polygon::sin_cos_degrees;
 pub use polygon::{Bounds, Edge, Flaw, Polygon};
@@ -30,7 +32,7 @@ pub type Vector = nalgebra::Vector2<f64>;
 /// The plane's cross product `a_x b_y − a_y b_x`: the moment of force `b` with arm `a`, anticlockwise positive.
 ///
 /// ```
-/// use drystone::geometry::{Vector, cross};
+/// use drystone::internals::geometry::{Vector, cross};
 /// assert_eq!(cross(Vector::new(2.0, 0.0), Vector::new(5.0, 3.0)), 6.0);
 /// ```
 pub fn cross(a: Vector, b: Vector) -> f64 {

@@ -4,9 +4,9 @@
 //! of an edge and [`Edge::outward`] always points out of it. Repeated corners are dropped; corners on a straight line
 //! stay, they are the author's.
 
-use rstar::{AABB, RTree, RTreeObject};
+use rstar::{AABB, RTreeObject};
 
-use super::{Point, Vector, cross};
+use super::{Nearby, Point, Vector, cross};
 
 /// A simple polygon, perhaps with holes.
 #[derive(Clone, Debug, PartialEq)]
@@ -142,11 +142,11 @@ impl Polygon {
     ///
     /// # Example
     /// ```
-    /// use drystone::geometry::{Point, Polygon};
+    /// use drystone::internals::geometry::{Point, Polygon};
     /// let wedge = Polygon::new(vec![Point::new(0.0, 0.0), Point::new(1.0, 3.0), Point::new(4.0, 0.0)], vec![])?;
     /// assert_eq!(wedge.area(), 6.0);
     /// assert!((wedge.centroid() - Point::new(5.0 / 3.0, 1.0)).norm() < 1e-15);
-    /// # Ok::<(), Vec<drystone::geometry::Flaw>>(())
+    /// # Ok::<(), Vec<drystone::internals::geometry::Flaw>>(())
     /// ```
     pub fn new(outline: Vec<Point>, holes: Vec<Vec<Point>>) -> Result<Polygon, Vec<Flaw>> {
         let mut flaws = Vec::new();
@@ -413,11 +413,11 @@ fn crossings(rings: &[Vec<(usize, Point)>]) -> Vec<Flaw> {
             })
         })
         .collect();
-    let tree = RTree::bulk_load(all.clone());
+    let nearby = Nearby::of(all.clone());
     let mut flaws = Vec::new();
     for a in &all {
         let before = flaws.len();
-        for b in tree.locate_in_envelope_intersecting(a.envelope()) {
+        for b in nearby.near(a.envelope()) {
             if (a.ring, a.position) >= (b.ring, b.position) {
                 continue;
             }
@@ -439,7 +439,7 @@ fn crossings(rings: &[Vec<(usize, Point)>]) -> Vec<Flaw> {
                 flaws.push(((b.ring, b.position), crossing));
             }
         }
-        // The tree has an order of its own.
+        // They are found in no order of their own.
         flaws[before..].sort_by_key(|f| f.0);
         if flaws.len() >= MOST_CROSSINGS {
             flaws.truncate(MOST_CROSSINGS);

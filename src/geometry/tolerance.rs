@@ -1,16 +1,20 @@
 //! The only epsilons of the crate that speak of lengths.
 //!
 //! Off a lattice, coordinates carry noise: a file written from 32-bit floats is off by 6·10⁻⁸ of the coordinate, a
-//! rounded one by more. A scene estimates that from how its coordinates are written. Two edges therefore *touch* when they lie within [`Tolerance::gap`] of each other, and a
-//! common stretch shorter than [`Tolerance::stretch`] is a corner that touches, not an interface.
+//! rounded one by more. A scene estimates that from how its coordinates are written. Two edges therefore *touch* when they
+//! lie within [`Tolerance::gap`] of each other, and a common stretch shorter than [`Tolerance::shortest`] is a corner that
+//! touches, not an interface. How short that is depends on the edges: a tip of a millionth of a block that stands on another
+//! is all the support there is, and two bricks that overlap by as much are neighbours.
 
 /// How close is close, in metres, for one scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
     /// Largest distance between two edges that still touch, and the deepest overlap that is still noise.
     pub gap: f64,
-    /// A common stretch shorter than this is a touching corner.
+    /// A common stretch of long edges shorter than this is a touching corner.
     pub stretch: f64,
+    /// A common stretch of any edges shorter than this is the rounding of coordinates.
+    pub rounding: f64,
     /// Largest sine of the angle between two edges that still face each other, whatever their length.
     pub angle: f64,
 }
@@ -20,6 +24,8 @@ impl Tolerance {
     pub const GAP: f64 = 1e-6;
     /// Stretch in parts of the gap.
     pub const STRETCH: f64 = 0.25;
+    /// Stretch in parts of the shorter edge, where that is less.
+    pub const OF_EDGE: f64 = 1e-3;
     /// The reach counts for at most so many typical block sizes, so that a far-flung scene keeps its small contacts.
     pub const REACH: f64 = 1000.0;
 
@@ -35,14 +41,29 @@ impl Tolerance {
         Tolerance {
             gap,
             stretch: Self::STRETCH * gap,
+            rounding: Self::STRETCH * gap,
             angle: 0.01,
         }
+    }
+
+    /// The same, where coordinates are off by no more than `rounding` metres.
+    pub fn exact_to(self, rounding: f64) -> Tolerance {
+        Tolerance {
+            rounding: (Self::STRETCH * rounding).min(self.stretch),
+            ..self
+        }
+    }
+
+    /// The shortest common stretch that is an interface of two edges, metres, the shorter one `edge` long.
+    pub fn shortest(&self, edge: f64) -> f64 {
+        self.stretch.min(Self::OF_EDGE * edge).max(self.rounding)
     }
 
     /// Exact comparison, for lattices.
     pub const EXACT: Tolerance = Tolerance {
         gap: 0.0,
         stretch: 0.0,
+        rounding: 0.0,
         angle: 0.0,
     };
 }

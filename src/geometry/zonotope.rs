@@ -32,7 +32,7 @@ const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// direction are added up, and the answer may be larger than the smallest.
 ///
 /// ```
-/// use drystone::geometry::least_scale;
+/// use drystone::internals::geometry::least_scale;
 /// let box_of = [[2.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 4.0]];
 /// assert!((least_scale(&box_of, [1.0, -3.0, 0.0]) - 1.0).abs() < 1e-12);
 /// assert_eq!(least_scale(&box_of[..2], [1.0, -3.0, 0.1]), f64::INFINITY);

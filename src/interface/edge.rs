@@ -2,10 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use rstar::{AABB, RTree, RTreeObject};
+use rstar::{AABB, RTreeObject};
 
+use super::held::{FLAT, propped};
 use super::{ContactKind, Interface, Interfaces, Near, bodies, ordered};
-use crate::geometry::{Edge, Point, Tolerance, Vector, cross, quarter_turn};
+use crate::geometry::{Edge, Nearby, Point, Tolerance, Vector, cross, quarter_turn};
 use crate::scene::{BodyId, Scene, size};
 
 /// Edges farther apart than this many gaps are not worth a notice.
@@ -34,10 +35,10 @@ impl RTreeObject for Side {
 
 /// How two edges lie to each other.
 enum Meeting {
-    /// They share a stretch.
-    Stretch(Interface),
-    /// They share a stretch too short to count, of this length.
-    Short(f64),
+    /// They share a stretch, along which they are at most so far apart, metres.
+    Stretch(Interface, f64),
+    /// They share a stretch too short to count.
+    Short(Interface),
     /// They face each other along a stretch around here, but this far apart.
     Apart(f64, Point),
 }
@@ -59,11 +60,11 @@ pub(super) fn find(scene: &Scene) -> Interfaces {
             })
         })
         .collect();
-    let tree = RTree::bulk_load(sides);
+    let nearby = Nearby::of(sides);
     let mut pairs: BTreeMap<[BodyId; 2], Vec<(usize, usize, Meeting)>> = BTreeMap::new();
-    for a in tree.iter().filter(|a| matches!(a.body, BodyId::Block(_))) {
+    for a in nearby.all().filter(|a| matches!(a.body, BodyId::Block(_))) {
         let reach = a.near;
-        let near = AABB::from_corners(
+        let around = AABB::from_corners(
             [
                 a.edge.from.x.min(a.edge.to.x) - reach,
                 a.edge.from.y.min(a.edge.to.y) - reach,
@@ -73,7 +74,7 @@ pub(super) fn find(scene: &Scene) -> Interfaces {
                 a.edge.from.y.max(a.edge.to.y) + reach,
             ],
         );
-        for b in tree.locate_in_envelope_intersecting(near) {
+        for b in nearby.near(around) {
             let Some(pair) = ordered(a.body, b.body).filter(|p| p[0] == a.body && a.body != b.body)
             else {
                 continue;
@@ -86,16 +87,33 @@ pub(super) fn find(scene: &Scene) -> Interfaces {
             }
         }
     }
+    let sizes = scene.blocks.iter().map(|b| size(&b.body.polygon));
+    let smallest = sizes.fold(f64::INFINITY, f64::min);
     let mut notices = Notices::default();
     let (mut all, mut near) = (Vec::new(), Vec::new());
+    let (mut slivers, mut narrow) = (Vec::new(), Vec::new());
     for (pair, mut meetings) in pairs {
         let tolerance = scene.tolerance_between(pair[0], pair[1]);
         meetings.sort_by_key(|m| (m.0, m.1));
         let mut stretches = Vec::new();
         for (_, _, meeting) in meetings {
             match meeting {
-                Meeting::Stretch(interface) => stretches.push(interface),
-                Meeting::Short(length) => notices.short(length),
+                Meeting::Stretch(interface, distance) => {
+                    if distance > 0.0 && FLAT * distance >= smallest {
+                        narrow.push(Near {
+                            bodies: pair,
+                            at: interface.middle(),
+                            distance,
+                        });
+                    }
+                    stretches.push(interface);
+                }
+                Meeting::Short(interface) => {
+                    notices.short(interface.length(), tolerance);
+                    if interface.length() > tolerance.rounding {
+                        slivers.push(interface);
+                    }
+                }
                 Meeting::Apart(distance, at) => {
                     if distance <= NEAR * tolerance.gap {
                         notices.apart(scene, pair, distance);
@@ -110,9 +128,12 @@ pub(super) fn find(scene: &Scene) -> Interfaces {
         }
         all.extend(joined(stretches, tolerance));
     }
+    let propped = propped(scene, &all, &narrow);
     Interfaces {
         all,
         near,
+        slivers,
+        propped,
         notices: notices.words(scene.tolerance),
     }
 }
@@ -162,20 +183,25 @@ fn meeting(scene: &Scene, bodies: [BodyId; 2], a: &Side, b: &Side) -> Option<Mee
     if !within(tolerance.gap) {
         return None;
     }
-    if length <= tolerance.stretch {
-        // Less than a thousandth of the limit is the rounding of a corner that touches, not a contact.
-        return (length > 1e-3 * tolerance.stretch).then_some(Meeting::Short(length));
+    let is_short = length <= tolerance.shortest(la.min(lb));
+    // Less than a thousandth of the limit is the rounding of a corner that touches, not a contact.
+    if is_short && length <= 1e-3 * tolerance.stretch {
+        return None;
     }
     let middle = |s: f64| a.from + along * s + outward * ((height(a, s) + height(b, s)) / 2.0);
     // The first body lies to the left of `along`, hence (−n_y, n_x) runs against it.
     let ends = [middle(s1), middle(s0)];
-    Some(Meeting::Stretch(Interface {
+    let interface = Interface {
         bodies,
         kind: ContactKind::Edge,
         ends,
         normal: square_to(ends),
         friction: scene.friction_between(bodies[0], bodies[1]),
-    }))
+    };
+    Some(match is_short {
+        true => Meeting::Short(interface),
+        false => Meeting::Stretch(interface, distance),
+    })
 }
 
 /// The unit normal exactly square to a stretch whose ends run along (−n_y, n_x).
@@ -188,6 +214,9 @@ fn square_to(ends: [Point; 2]) -> Vector {
 
 /// Stretches of one pair that continue each other along one line, joined: a corner set into a straight edge changes nothing.
 fn joined(stretches: Vec<Interface>, tolerance: Tolerance) -> Vec<Interface> {
+    if stretches.len() < 2 {
+        return stretches;
+    }
     let reach = 4.0 * tolerance.gap;
     let mut left = Ends::of(stretches, reach);
     let mut done = Vec::new();
@@ -303,13 +332,16 @@ enum StretchEnd {
 struct Notices {
     shorts: usize,
     longest: f64,
+    /// What was too short, at most.
+    limit: f64,
     apart: Vec<(String, f64)>,
 }
 
 impl Notices {
-    fn short(&mut self, length: f64) {
+    fn short(&mut self, length: f64, tolerance: Tolerance) {
         self.shorts += 1;
         self.longest = self.longest.max(length);
+        self.limit = self.limit.max(tolerance.stretch);
     }
 
     fn apart(&mut self, scene: &Scene, pair: [BodyId; 2], distance: f64) {
@@ -324,7 +356,7 @@ impl Notices {
         if self.shorts > 0 {
             words.push(format!(
                 "{} contact(s) up to {:.1e} m long are shorter than {:.1e} m and count as touching corners, which carry no force",
-                self.shorts, self.longest, tolerance.stretch
+                self.shorts, self.longest, self.limit
             ));
         }
         if let Some((who, distance)) = self.apart.first() {

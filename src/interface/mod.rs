@@ -6,12 +6,14 @@
 
 mod corner;
 mod edge;
+mod held;
 mod lattice;
 
+pub(crate) use held::{Touching, held_open};
 pub(crate) use lattice::Edges;
 
 use crate::geometry::{Point, Vector, quarter_turn};
-use crate::scene::{BodyId, Frame, Scene};
+use crate::scene::{BlockId, BodyId, Frame, Scene};
 
 /// What kind of contact an interface is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,7 +59,7 @@ impl Interface {
     /// ([Vallat23](crate::doc::references) §2.0.10).
     ///
     /// ```
-    /// # use drystone::{geometry::{Point, Vector}, interface::*, scene::*};
+    /// # use drystone::{internals::interface::*, scene::*};
     /// let seam = Interface {
     ///     bodies: [BodyId::Block(BlockId(0)), BodyId::Ground(0)],
     ///     kind: ContactKind::Edge,
@@ -89,6 +91,25 @@ pub struct Near {
     pub distance: f64,
 }
 
+/// Where a stone keeps two bodies apart that would touch within the tolerance: it is as high as the gap is wide.
+#[derive(Clone, Debug)]
+pub(crate) struct Propped {
+    /// The two bodies and the gap.
+    gap: Near,
+    /// The stone.
+    stone: BlockId,
+}
+
+impl Propped {
+    /// Whether an interface lies in the gap.
+    fn parts(&self, interface: &Interface) -> bool {
+        let off = self.gap.at - interface.middle();
+        interface.bodies == self.gap.bodies
+            && off.dot(&interface.normal).abs() <= self.gap.distance
+            && off.norm() <= interface.length()
+    }
+}
+
 /// Everything that touches in a scene.
 #[derive(Clone, Debug)]
 pub struct Interfaces {
@@ -96,6 +117,10 @@ pub struct Interfaces {
     pub all: Vec<Interface>,
     /// What nearly touches; a verdict may hinge on it.
     pub near: Vec<Near>,
+    /// Stretches of long edges that are too short to count, and longer than rounding; a verdict may hinge on them.
+    pub slivers: Vec<Interface>,
+    /// Two bodies, a place where they touch within the tolerance and no nearer, and a stone that keeps them apart there.
+    pub(crate) propped: Vec<Propped>,
     /// What was too short or too far apart to count, in words.
     pub notices: Vec<String>,
 }
@@ -110,6 +135,8 @@ impl Interfaces {
             (Some(lattice), true) => Interfaces {
                 all: lattice::find(scene, lattice),
                 near: Vec::new(),
+                slivers: Vec::new(),
+                propped: Vec::new(),
                 notices: Vec::new(),
             },
             _ => edge::find(scene),
@@ -118,7 +145,12 @@ impl Interfaces {
             let corners = corner::find(scene, &found.all);
             found.all.extend(corners);
         }
-        found.all.sort_by(|a, b| {
+        found.sort();
+        found
+    }
+
+    fn sort(&mut self) {
+        self.all.sort_by(|a, b| {
             let place = |i: &Interface| [i.ends[0].x, i.ends[0].y, i.ends[1].x, i.ends[1].y];
             a.bodies.cmp(&b.bodies).then_with(|| {
                 place(a)
@@ -126,10 +158,17 @@ impl Interfaces {
                     .unwrap_or(std::cmp::Ordering::Equal)
             })
         });
-        found
     }
 
-    /// The interfaces whose two bodies both stand in a frame, by their numbers in `all`.
+    /// The same with its slivers counted as interfaces.
+    pub(crate) fn with_slivers(&self) -> Interfaces {
+        let mut all = self.clone();
+        all.all.append(&mut all.slivers);
+        all.sort();
+        all
+    }
+
+    /// The interfaces whose two bodies both stand in a frame, and are not kept apart by a stone in it.
     pub fn in_frame<'a>(&'a self, scene: &Scene, frame: &Frame) -> Vec<&'a Interface> {
         let mut placed = vec![false; scene.blocks.len()];
         for block in &frame.placed {
@@ -139,9 +178,14 @@ impl Interfaces {
             BodyId::Ground(_) => true,
             BodyId::Block(id) => placed[id.0],
         };
+        let is_open = |i: &Interface| {
+            let mut propped = self.propped.iter();
+            propped.any(|p| stands(BodyId::Block(p.stone)) && p.parts(i))
+        };
         self.all
             .iter()
             .filter(|i| stands(i.bodies[0]) && stands(i.bodies[1]))
+            .filter(|i| !is_open(i))
             .collect()
     }
 }
@@ -149,7 +193,7 @@ impl Interfaces {
 /// The bodies of a scene, the ground's parts first.
 fn bodies(scene: &Scene) -> impl Iterator<Item = BodyId> + '_ {
     let ground = (0..scene.ground.len()).map(BodyId::Ground);
-    ground.chain((0..scene.blocks.len()).map(|i| BodyId::Block(crate::scene::BlockId(i))))
+    ground.chain((0..scene.blocks.len()).map(|i| BodyId::Block(BlockId(i))))
 }
 
 /// The order in which an interface names two bodies: the later block first, ground last. `None` for two ground parts.

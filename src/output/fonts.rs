@@ -37,6 +37,7 @@ impl Fonts {
     }
 
     /// The files beside ours.
+    #[cfg(feature = "png")]
     pub(super) fn more(&self) -> &[Arc<Vec<u8>>] {
         &self.more
     }

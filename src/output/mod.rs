@@ -9,12 +9,16 @@
 //! figure: words of s pixels in a drawing of w pixels are s·(width / w)·72/25.4 pt high when it is printed `width` mm
 //! wide. A column of a journal is about 84 mm wide, two of them 174 mm; letters below 6 pt are hard to read.
 
+#[cfg(feature = "file")]
 pub mod file;
 pub mod fonts;
+#[cfg(feature = "pdf")]
 pub mod pdf;
+#[cfg(feature = "png")]
 pub mod png;
 pub mod svg;
 pub mod tikz;
+#[cfg(feature = "png")]
 mod tree;
 
 /// Millimetres per inch.

@@ -3,7 +3,9 @@
 //! Attributes stand in a fixed order and every number goes through one printer, so that the same drawing is the same
 //! bytes. Names of elements begin with a mark made from the drawing's own content: several figures can share a page.
 
+#[cfg(feature = "embed")]
 mod font;
+#[cfg(feature = "png")]
 mod glyph;
 mod outline;
 
@@ -13,7 +15,8 @@ use std::fmt::Write as _;
 use outline::{number, steps};
 
 use super::fonts::Fonts;
-use super::tree::{self, Run};
+#[cfg(feature = "png")]
+use super::tree;
 use crate::drawing::{Anchor, Drawing, Face, Group, Item, Join, Path, Stroke, Text};
 use crate::text::xml;
 
@@ -24,8 +27,10 @@ pub enum Words {
     #[default]
     Names,
     /// As words, with the letters that are used in the file: for browsers.
+    #[cfg(feature = "embed")]
     Embedded,
     /// As outlines: the same everywhere, and no text for searching or editing any more.
+    #[cfg(feature = "png")]
     Outlines,
 }
 
@@ -95,30 +100,34 @@ pub fn write(drawing: &Drawing) -> String {
 /// ```
 pub fn write_with(drawing: &Drawing, options: &Options) -> Result<String, WordsError> {
     let mark = mark_of(drawing, options);
-    if options.words == Words::Names {
-        return Ok(document(drawing, options.width_mm, &mark, Form::Names));
+    match options.words {
+        Words::Names => Ok(document(drawing, options.width_mm, &mark, Form::Names)),
+        #[cfg(feature = "embed")]
+        Words::Embedded => {
+            let tree = laid_out(drawing, options)?;
+            let texts = tree::texts(tree.root());
+            let spans = texts.iter().flat_map(|text| text.layouted());
+            let runs: Vec<tree::Run> = spans.flat_map(tree::runs).collect();
+            let sheet = font::embedded(&runs, &mark).map_err(WordsError)?;
+            let form = Form::Embedded(&sheet);
+            Ok(document(drawing, options.width_mm, &mark, form))
+        }
+        #[cfg(feature = "png")]
+        Words::Outlines => {
+            let tree = laid_out(drawing, options)?;
+            let texts = tree::texts(tree.root());
+            let outlines = texts.iter().filter_map(|t| glyph::numbered(t)).collect();
+            let form = Form::Outlines(&outlines);
+            Ok(document(drawing, options.width_mm, &mark, form))
+        }
     }
+}
+
+/// The drawing with each line of words laid out, its number as its name.
+#[cfg(feature = "png")]
+fn laid_out(drawing: &Drawing, options: &Options) -> Result<resvg::usvg::Tree, WordsError> {
     let numbered = document(drawing, None, "", Form::Numbered);
-    let tree = tree::read(&numbered, &options.fonts).map_err(WordsError)?;
-    let texts = tree::texts(tree.root());
-    if options.words == Words::Outlines {
-        let outlines = texts.iter().filter_map(|t| glyph::numbered(t)).collect();
-        return Ok(document(
-            drawing,
-            options.width_mm,
-            &mark,
-            Form::Outlines(&outlines),
-        ));
-    }
-    let spans = texts.iter().flat_map(|text| text.layouted());
-    let runs: Vec<Run> = spans.flat_map(tree::runs).collect();
-    let sheet = font::embedded(&runs, &mark).map_err(WordsError)?;
-    Ok(document(
-        drawing,
-        options.width_mm,
-        &mark,
-        Form::Embedded(&sheet),
-    ))
+    tree::read(&numbered, &options.fonts).map_err(WordsError)
 }
 
 /// A name that other drawings, and other forms of this one, do not have as a rule.
@@ -128,7 +137,9 @@ fn mark_of(drawing: &Drawing, options: &Options) -> String {
     }
     let form = match options.words {
         Words::Names => "",
+        #[cfg(feature = "embed")]
         Words::Embedded => "embedded",
+        #[cfg(feature = "png")]
         Words::Outlines => "outlines",
     };
     let text = document(drawing, options.width_mm, "", Form::Names) + form;
@@ -141,10 +152,16 @@ enum Form<'f> {
     /// In fonts by their names.
     Names,
     /// Likewise, and each line of words has its number as its name.
+    #[cfg(feature = "png")]
     Numbered,
     /// In the fonts of a style sheet.
+    #[cfg(feature = "embed")]
     Embedded(&'f str),
     /// As outlines, by the numbers of the lines of words.
+    #[cfg_attr(
+        not(feature = "png"),
+        expect(dead_code, reason = "made where words are laid out")
+    )]
     Outlines(&'f BTreeMap<usize, String>),
 }
 
@@ -182,6 +199,7 @@ fn document(drawing: &Drawing, width_mm: Option<f64>, mark: &str, form: Form<'_>
         "<desc id=\"{mark}-desc\">{}</desc>\n",
         xml(&drawing.description)
     ));
+    #[cfg(feature = "embed")]
     if let Form::Embedded(sheet) = form {
         svg.put(&format!("<style>\n{sheet}</style>\n"));
     }
@@ -335,6 +353,7 @@ impl Writer<'_> {
             return;
         }
         self.put("<text");
+        #[cfg(feature = "png")]
         if let Form::Numbered = self.form {
             self.attribute("id", &format!("t{}", self.texts));
         }
@@ -372,6 +391,7 @@ impl Writer<'_> {
 
     fn families(&self, face: Face) -> String {
         match self.form {
+            #[cfg(feature = "embed")]
             Form::Embedded(_) => {
                 format!("'{}', {}", font::family(face, self.mark), face.families())
             }

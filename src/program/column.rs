@@ -88,6 +88,11 @@ impl Column {
         (0..self.count).map(|i| (self.rows[i], self.values[i]))
     }
 
+    /// Whether another column has the same values, in whichever rows, and the same limit.
+    pub(crate) fn has_values_of(&self, other: &Column) -> bool {
+        self.values[..self.count] == other.values[..other.count] && self.limit == other.limit
+    }
+
     /// The column's product with virtual velocities `y`: the velocity against which the force works.
     pub fn dot(&self, y: &[f64]) -> f64 {
         self.entries().map(|(row, value)| value * y[row]).sum()
@@ -95,11 +100,24 @@ impl Column {
 
     /// The product of two columns.
     pub fn times(&self, other: &Column) -> f64 {
+        if !self.shares_block(other) {
+            return 0.0;
+        }
         let entries = other.entries().flat_map(|(row, value)| {
             let own = self.entries().filter(move |(r, _)| *r == row);
             own.map(move |(_, v)| v * value)
         });
         entries.sum()
+    }
+
+    /// Whether both act on one block. The entries of a block stand together.
+    fn shares_block(&self, other: &Column) -> bool {
+        let blocks = |column: &Column| {
+            let last = column.count.saturating_sub(1);
+            [column.rows[0], column.rows[last]].map(|row| row / 3)
+        };
+        let own = blocks(self);
+        blocks(other).iter().any(|block| own.contains(block))
     }
 
     /// Adds `amount` of the column to `sum`.

@@ -220,10 +220,10 @@ fn figure(words: &str, body: &str, chapter: &Path) -> Result<String, String> {
     ))
 }
 
-fn drawing(analysis: &Analysis<'_>, wanted: &Wanted) -> Result<Drawing, String> {
+fn drawing(analysis: &Analysis, wanted: &Wanted) -> Result<Drawing, String> {
     let kind = match wanted.kind.as_str() {
         "freebody" => {
-            let scene = analysis.scene;
+            let scene = &analysis.scene;
             let block = match &wanted.block {
                 Some(id) => scene.blocks.iter().position(|b| b.id == *id),
                 None => (scene.blocks.len() == 1).then_some(0),

@@ -3,11 +3,18 @@
 //!
 //! The names in results are a contract. Fields are added, never renamed; pictures are not made here.
 
+#[cfg(feature = "report")]
 pub mod accuracy;
+#[cfg(feature = "report")]
 pub mod book;
+#[cfg(feature = "report")]
 pub mod entry;
+#[cfg(feature = "report")]
 mod html;
+#[cfg(feature = "report")]
 mod markdown;
+#[cfg(feature = "report")]
 pub mod page;
+#[cfg(feature = "report")]
 mod print;
 pub mod result;

@@ -9,7 +9,9 @@
 //! This file is serde's second door, beside `scene::format`: that one reads a person's file, this one writes for programs,
 //! and the two change for different reasons.
 
+#[cfg(feature = "report")]
 mod accuracy;
+#[cfg(feature = "import")]
 mod import;
 pub mod key;
 mod line;
@@ -22,7 +24,9 @@ mod wedging;
 
 use serde::{Serialize, Serializer};
 
+#[cfg(feature = "report")]
 pub use accuracy::accuracy_json;
+#[cfg(feature = "import")]
 pub use import::import_json;
 pub use key::schema;
 pub use line::{Fields, Picture, Place, UnknownField, line_of, verdict_line};
@@ -280,7 +284,7 @@ fn arrow(v: Vector) -> Pair {
 
 impl<'a> Result<'a> {
     fn of(analysis: &'a Analysis, timing: Timing) -> Result<'a> {
-        let scene = analysis.scene;
+        let scene = &analysis.scene;
         let frames = scene.frames.iter().zip(&analysis.frames);
         Result {
             drystone: env!("CARGO_PKG_VERSION"),

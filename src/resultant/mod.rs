@@ -25,7 +25,7 @@ pub struct Resultant {
 /// has the moment of all corner forces together.
 ///
 /// ```
-/// # use drystone::{geometry::{Point, Vector}, interface::*, resultant, scene::*};
+/// # use drystone::{internals::{interface::*, resultant}, scene::*};
 /// # let seam = Interface {
 /// #     bodies: [BodyId::Block(BlockId(0)), BodyId::Ground(0)],
 /// #     kind: ContactKind::Edge,

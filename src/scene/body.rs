@@ -38,6 +38,8 @@ pub struct Body {
     pub fill: Option<Rgb>,
     /// Another body within this touches it, metres; a small stone has a smaller one than the scene. 0 on a lattice.
     pub gap: f64,
+    /// Its coordinates are off by no more than this, metres. 0 on a lattice.
+    pub rounding: f64,
 }
 
 /// A part of the ground: carries anything, never moves.

@@ -4,14 +4,14 @@
 
 use std::collections::BTreeMap;
 
-use rstar::{AABB, RTree, RTreeObject};
+use rstar::{AABB, RTreeObject};
 
 use super::finding::Findings;
 use super::frame::Frame;
 use super::path::Trail;
 use super::problem;
 use super::{BlockId, Body, BodyId, size};
-use crate::geometry::{Bounds, Cell, Lattice, Pieces, Point, Polygon, Vector, overlap};
+use crate::geometry::{Bounds, Cell, Lattice, Nearby, Pieces, Point, Polygon, Vector, overlap};
 
 /// So many overlaps are listed; a scene with more has one cause for them all.
 const MOST: usize = 1000;
@@ -102,7 +102,8 @@ pub(super) fn check(findings: &mut Findings, scene: &Comparison<'_>) -> Vec<Pene
                 may_be_meant: f.may_be_meant,
             },
             frame.as_deref(),
-        );
+        )
+        .at(problem::Place::Between(f.at, f.bodies[0]));
         findings.add(&list.index(block.0), wording);
     }
     if found.len() > MOST {
@@ -233,7 +234,7 @@ fn off_lattice(bodies: &[Numbered<'_>], presence: &Presence) -> Vec<Found> {
         .iter()
         .map(|(_, body)| Pieces::of(&body.polygon))
         .collect();
-    let tree = RTree::bulk_load(
+    let nearby = Nearby::of(
         boxes
             .iter()
             .enumerate()
@@ -242,8 +243,8 @@ fn off_lattice(bodies: &[Numbered<'_>], presence: &Presence) -> Vec<Found> {
     );
     let mut found = Vec::new();
     for (i, (id, _)) in bodies.iter().enumerate() {
-        let mut near: Vec<usize> = tree
-            .locate_in_envelope_intersecting(Boxed(boxes[i], i).envelope())
+        let mut near: Vec<usize> = nearby
+            .near(Boxed(boxes[i], i).envelope())
             .map(|b| b.1)
             .filter(|j| bodies[*j].0 < *id)
             .collect();

@@ -6,22 +6,26 @@
 
 mod lines;
 mod map;
+#[cfg(feature = "schema")]
 mod schema;
 
+#[cfg(feature = "schema")]
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub(crate) use lines::Lines;
 pub use map::Map;
+#[cfg(feature = "schema")]
 pub use schema::schema;
 
 /// A place or a displacement, `[x, y]`; y points up.
 pub type Pair = [f64; 2];
 
 /// A scene of dry-laid blocks: what stands where, and who holds what. SI units, y up, angles in degrees anticlockwise.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-#[schemars(title = "drystone scene")]
+#[cfg_attr(feature = "schema", schemars(title = "drystone scene"))]
 pub struct SceneFile {
     /// Where the JSON Schema of this file lies, for editors; not read.
     #[serde(rename = "$schema", skip_serializing_if = "Option::is_none")]
@@ -33,23 +37,23 @@ pub struct SceneFile {
     pub title: Option<String>,
     /// Gravity [x, y] in m/s²; weights act along it. Default [0, -9.81].
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("default" = [0.0, -9.81]))]
+    #[cfg_attr(feature = "schema", schemars(extend("default" = [0.0, -9.81])))]
     pub gravity: Option<Pair>,
     /// Friction coefficient μ of whatever gives none itself, at least 0. Default 0.7.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0), extend("default" = 0.7))]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0), extend("default" = 0.7)))]
     pub friction: Option<f64>,
     /// Safety kernel, 0 to 1: application points move inward by half this share of the contact's length, each. Default 0.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0, max = 1.0), extend("default" = 0.0))]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0), extend("default" = 0.0)))]
     pub kernel: Option<f64>,
     /// Density in kg/m³ of whatever gives none itself, at least 0. Default 1.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0), extend("default" = 1.0))]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0), extend("default" = 1.0)))]
     pub density: Option<f64>,
     /// Thickness of all blocks across the plane in metres, at least 0. Default 1.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0), extend("default" = 1.0))]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0), extend("default" = 1.0)))]
     pub thickness: Option<f64>,
     /// Materials by name.
     #[serde(default, skip_serializing_if = "Map::is_empty")]
@@ -77,11 +81,11 @@ pub struct SceneFile {
     /// Edges within this many metres of each other touch, and bodies may overlap by as much; at least 0. Default: estimated
     /// from how the coordinates are written.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub contact_tolerance: Option<f64>,
     /// Whether tips that touch edges or tips carry force. Default false.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("default" = false))]
+    #[cfg_attr(feature = "schema", schemars(extend("default" = false)))]
     pub corner_contacts: Option<bool>,
     /// Steps of the assembly, one frame each. Without steps all blocks stand and each robot holds its `holds`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -113,9 +117,10 @@ impl SceneFile {
 }
 
 /// Version of the scene format; 1 by default.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(transparent)]
-#[schemars(inline)]
+#[cfg_attr(feature = "schema", schemars(inline))]
 pub struct Version(pub i64);
 
 impl Default for Version {
@@ -125,48 +130,52 @@ impl Default for Version {
 }
 
 /// What blocks or ground are made of.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct MaterialEntry {
     /// Density in kg/m³, at least 0.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub density: Option<f64>,
     /// Friction coefficient, at least 0.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub friction: Option<f64>,
     /// Fill colour, "#rrggbb" or "#rgb".
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("pattern" = FILL_PATTERN))]
+    #[cfg_attr(feature = "schema", schemars(extend("pattern" = FILL_PATTERN)))]
     pub fill: Option<String>,
 }
 
 /// The friction coefficient between two materials; wins over both materials' own.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct FrictionPairEntry {
     /// Names of the two materials, in any order; the same name twice for a material against itself.
     pub between: [String; 2],
     /// Friction coefficient, at least 0.
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub friction: f64,
 }
 
 /// A regular lattice.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct GridEntry {
     /// Which lattice.
     pub kind: GridKind,
     /// Edge length of a cell in metres, more than 0. Default 1.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("default" = 1.0, "exclusiveMinimum" = 0))]
+    #[cfg_attr(feature = "schema", schemars(extend("default" = 1.0, "exclusiveMinimum" = 0)))]
     pub side: Option<f64>,
 }
 
 /// Which lattice.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum GridKind {
     /// Equilateral triangles: lattice point (x, y) is at side·(x + y/2, y·√3/2).
@@ -177,7 +186,8 @@ pub enum GridKind {
 }
 
 /// A lattice cell: `[x, y, "up"]` or `[x, y, "down"]` on the triangular lattice, `[x, y]` on the square one.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(untagged)]
 pub enum CellEntry {
     /// A triangle on, or hanging below, the edge from (x, y) to (x+1, y). Coordinates are whole numbers.
@@ -187,7 +197,8 @@ pub enum CellEntry {
 }
 
 /// Which triangle at an edge of the triangular lattice.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum CellHalf {
     /// Corners (x, y), (x+1, y), (x, y+1).
@@ -197,63 +208,66 @@ pub enum CellHalf {
 }
 
 /// A shape to be used by name: either a polygon or lattice cells, about its own origin.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct ShapeEntry {
     /// Corners [x, y] of the outline in metres, either way round; simple, not necessarily convex.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(length(min = 3))]
+    #[cfg_attr(feature = "schema", schemars(length(min = 3)))]
     pub polygon: Option<Vec<Pair>>,
     /// Holes in the polygon, each a list of corners in metres.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub holes: Vec<Vec<Pair>>,
     /// Lattice cells, joined by edges.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(length(min = 1))]
+    #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
     pub cells: Option<Vec<CellEntry>>,
 }
 
 /// A part of the ground; one of `polygon`, `cells` and `shape` says where it lies.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct GroundEntry {
     /// Corners [x, y] of the outline in metres, either way round; simple, not necessarily convex.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(length(min = 3))]
+    #[cfg_attr(feature = "schema", schemars(length(min = 3)))]
     pub polygon: Option<Vec<Pair>>,
     /// Holes in the polygon, each a list of corners in metres.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub holes: Vec<Vec<Pair>>,
     /// Lattice cells, joined by edges.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(length(min = 1))]
+    #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
     pub cells: Option<Vec<CellEntry>>,
     /// Name of a shape.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shape: Option<String>,
     /// Where its origin goes: metres, or a lattice point where the scene has a grid. Default [0, 0].
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("default" = [0.0, 0.0]))]
+    #[cfg_attr(feature = "schema", schemars(extend("default" = [0.0, 0.0])))]
     pub at: Option<Pair>,
     /// Turn about its own origin before it is moved, degrees anticlockwise. Default 0.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("default" = 0.0))]
+    #[cfg_attr(feature = "schema", schemars(extend("default" = 0.0)))]
     pub angle: Option<f64>,
     /// Name of its material.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
     /// Its own friction coefficient, at least 0.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub friction: Option<f64>,
     /// Fill colour, "#rrggbb" or "#rgb".
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("pattern" = FILL_PATTERN))]
+    #[cfg_attr(feature = "schema", schemars(extend("pattern" = FILL_PATTERN)))]
     pub fill: Option<String>,
 }
 
 /// A rigid block; one of `polygon`, `cells` and `shape` says what it is.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct BlockEntry {
     /// Its name, used once. Default: its number in the list, from 1.
@@ -261,53 +275,54 @@ pub struct BlockEntry {
     pub id: Option<String>,
     /// Corners [x, y] of the outline in metres, either way round; simple, not necessarily convex.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(length(min = 3))]
+    #[cfg_attr(feature = "schema", schemars(length(min = 3)))]
     pub polygon: Option<Vec<Pair>>,
     /// Holes in the polygon, each a list of corners in metres.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub holes: Vec<Vec<Pair>>,
     /// Lattice cells, joined by edges.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(length(min = 1))]
+    #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
     pub cells: Option<Vec<CellEntry>>,
     /// Name of a shape.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shape: Option<String>,
     /// Where its origin goes: metres, or a lattice point where the scene has a grid. Default [0, 0].
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("default" = [0.0, 0.0]))]
+    #[cfg_attr(feature = "schema", schemars(extend("default" = [0.0, 0.0])))]
     pub at: Option<Pair>,
     /// Turn about its own origin before it is moved, degrees anticlockwise. Default 0.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("default" = 0.0))]
+    #[cfg_attr(feature = "schema", schemars(extend("default" = 0.0)))]
     pub angle: Option<f64>,
     /// Name of its material.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
     /// Weight in newtons along gravity, at least 0. Wins over `mass` and `density`.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub weight: Option<f64>,
     /// Mass in kg, at least 0. Wins over `density`.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub mass: Option<f64>,
     /// Its own density in kg/m³, at least 0.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub density: Option<f64>,
     /// Its own friction coefficient, at least 0.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub friction: Option<f64>,
     /// Fill colour, "#rrggbb" or "#rgb".
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("pattern" = FILL_PATTERN))]
+    #[cfg_attr(feature = "schema", schemars(extend("pattern" = FILL_PATTERN)))]
     pub fill: Option<String>,
 }
 
 /// A robot that can hold one block at a time.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct RobotEntry {
     /// Its name, used once. Default: "r" and its number in the list, from 0.
@@ -325,48 +340,51 @@ pub struct RobotEntry {
 }
 
 /// Largest amounts a robot can give, per component, each way.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct LimitsEntry {
     /// Largest horizontal force in newtons, at least 0. Default: `force`, else unlimited.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub fx: Option<f64>,
     /// Largest vertical force in newtons, at least 0. Default: `force`, else unlimited.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub fy: Option<f64>,
     /// Largest torque in N·m, at least 0. Default 0.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0), extend("default" = 0.0))]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0), extend("default" = 0.0)))]
     pub torque: Option<f64>,
     /// Both `fx` and `fy`, where they are not given themselves; newtons, at least 0.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub force: Option<f64>,
 }
 
 /// A load on a block, beside its weight.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct LoadEntry {
     /// The loaded block.
     pub block: String,
     /// Force [x, y] in newtons. Default [0, 0].
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("default" = [0.0, 0.0]))]
+    #[cfg_attr(feature = "schema", schemars(extend("default" = [0.0, 0.0])))]
     pub force: Option<Pair>,
     /// Where the force acts, [x, y] in metres. Default: the block's centroid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at: Option<Pair>,
     /// Torque in N·m, anticlockwise positive. Default 0.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("default" = 0.0))]
+    #[cfg_attr(feature = "schema", schemars(extend("default" = 0.0)))]
     pub torque: Option<f64>,
 }
 
 /// One step of the assembly. Within a step: release, then remove, then place, then hold.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct StepEntry {
     /// Title of the frame this step leads to.
@@ -390,7 +408,8 @@ pub struct StepEntry {
 }
 
 /// What a robot takes hold of: a block's id, or the block with a grip point.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(untagged)]
 pub enum HoldEntry {
     /// The block's id.
@@ -406,7 +425,8 @@ impl Default for HoldEntry {
 }
 
 /// A block and where it is gripped.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct GripEntry {
     /// The block held.
@@ -416,6 +436,7 @@ pub struct GripEntry {
     pub at: Option<Pair>,
 }
 
+#[cfg(feature = "schema")]
 const FILL_PATTERN: &str = "^#([0-9a-fA-F]{3}|[0-9a-fA-F]{6})$";
 
 /// What serde makes of a text, for tests of the reading.

@@ -95,11 +95,15 @@ impl Reach {
         self.healing.min(part * size)
     }
 
+    /// How far the coordinates of a body of some size, up to `farthest`, may be off; metres all.
+    fn rounding_of(self, size: f64, farthest: f64) -> f64 {
+        self.healing_of(size).max(LAST * f64::EPSILON * farthest)
+    }
+
     /// Within what a body of some size, with coordinates up to `farthest`, touches another; metres all.
     fn gap_of(self, size: f64, farthest: f64) -> f64 {
         let usual = self.usual.min(SLIGHT * size);
-        let last = LAST * f64::EPSILON * farthest;
-        usual.max(self.healing_of(size)).max(last)
+        usual.max(self.rounding_of(size, farthest))
     }
 }
 
@@ -185,6 +189,7 @@ pub(super) fn heal(
         let bounds = body.polygon.bounds();
         let farthest = bounds.min.coords.amax().max(bounds.max.coords.amax());
         body.gap = reach.gap_of(*size, farthest);
+        body.rounding = reach.rounding_of(*size, farthest);
     }
     for block in blocks.iter_mut().flatten() {
         block.centroid = block.body.polygon.centroid();
@@ -213,9 +218,10 @@ fn rings(polygon: &Polygon) -> Rings {
 }
 
 impl Scene {
-    /// How close two bodies have to be to touch: the smaller of their own gaps.
+    /// How close two bodies have to be to touch: the smaller of their own gaps. What is rounding is the larger of theirs.
     pub(crate) fn tolerance_between(&self, a: BodyId, b: BodyId) -> Tolerance {
-        Tolerance::within(self.body(a).gap.min(self.body(b).gap))
+        let (a, b) = (self.body(a), self.body(b));
+        Tolerance::within(a.gap.min(b.gap)).exact_to(a.rounding.max(b.rounding))
     }
 
     /// The scene with everything within `gap` metres brought together, and a contact where that cannot be done.

@@ -20,6 +20,7 @@ mod reading;
 mod resolution;
 mod rounding;
 pub mod shape;
+mod sketch;
 mod source;
 mod starter;
 mod syntax;
@@ -29,16 +30,20 @@ pub use body::{
     Block, BlockId, Body, BodyId, Grip, Ground, Limits, Load, Material, Rgb, Robot, RobotId,
 };
 pub use collision::Penetration;
+#[cfg(feature = "schema")]
 pub use format::schema;
 pub use frame::{Frame, Hold, Plan};
 pub(crate) use heal::size;
 pub use heal::{Healed, ToleranceSource};
-pub(crate) use name::nearest;
 pub use note::{Note, NoteCode};
-pub use problem::{Code, Problem, Problems};
+pub use problem::{Code, Place, Problem, Problems};
+pub use sketch::{Sketch, SketchedBody, Spot};
 pub use starter::starter;
 
-use crate::geometry::{Lattice, Tolerance, Vector};
+#[doc(inline)]
+pub use crate::geometry::{
+    Bounds, Cell, Flaw, Half, Lattice, LatticeKind, Point, Polygon, Tolerance, Vector,
+};
 
 /// A structure to be examined, checked.
 #[derive(Clone, Debug)]

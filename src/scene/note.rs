@@ -95,7 +95,7 @@ impl Lines {
     pub(super) fn of(source: &Source<'_>) -> Lines {
         let list = |key| {
             let starts = source.starts(key).into_iter();
-            starts.map(|byte| source.place(byte).0).collect()
+            starts.map(|byte| source.line(byte)).collect()
         };
         Lines {
             ground: list("ground"),
@@ -121,7 +121,7 @@ pub(super) fn of(file: &SceneFile, scene: &Scene, source: Option<&Source<'_>>) -
     }
     let place = |finding: &Finding| {
         let span = source.and_then(|s| Some((s, s.find(&finding.path, finding.mark)?)));
-        span.map_or(0, |(source, span)| source.place(span.start).0)
+        span.map_or(0, |(source, span)| source.line(span.start))
     };
     (notes.list.iter())
         .map(|(code, finding)| {

@@ -114,7 +114,8 @@ fn note(
             };
             findings.add(
                 &at.index(first[0]),
-                problem::outline::crossing(&side(0), &side(1), point),
+                problem::outline::crossing(&side(0), &side(1), point)
+                    .at(problem::Place::Own(point)),
             );
         }
     }

@@ -18,12 +18,13 @@ use std::ops::Range;
 pub use code::Code;
 pub(super) use code::codes;
 
+use super::BodyId;
 use super::finding::Finding;
 use super::source::Source;
 use crate::geometry::Point;
 
 /// One thing that is wrong with a scene.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Problem {
     /// What sort of problem it is.
     pub code: Code,
@@ -39,10 +40,21 @@ pub struct Problem {
     pub message: String,
     /// What to do about it.
     pub help: String,
+    /// Where in the structure it lies, where that is one place.
+    pub place: Option<Place>,
+}
+
+/// Where in a structure a problem lies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Place {
+    /// At a point of the body's own outline, before it is turned and moved, metres.
+    Own(Point),
+    /// At a point, metres, between this body and another one.
+    Between(Point, BodyId),
 }
 
 /// All that is wrong with a scene, in the order of the text.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Problems {
     /// The text that was read, from which all spans count; absent for a scene made in code.
     pub text: Option<String>,
@@ -96,6 +108,7 @@ impl Problem {
             span,
             message: wording.message,
             help: wording.help,
+            place: wording.place,
         }
     }
 }
@@ -138,9 +151,18 @@ pub(super) struct Wording {
     code: Code,
     message: String,
     help: String,
+    place: Option<Place>,
 }
 
 impl Wording {
+    /// The same, with its place in the structure.
+    pub(super) fn at(self, place: Place) -> Wording {
+        Wording {
+            place: Some(place),
+            ..self
+        }
+    }
+
     /// What is wrong, and what to do about it.
     pub(super) fn parts(&self) -> (&str, &str) {
         (&self.message, &self.help)
@@ -153,6 +175,7 @@ fn say(code: Code, message: impl Into<String>, help: impl Into<String>) -> Wordi
         code,
         message: crate::text::line(&message.into()),
         help: crate::text::line(&help.into()),
+        place: None,
     }
 }
 

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 mod body;
 mod robot;
+pub(super) mod sketch;
 
 use self::body::colour;
 use super::collision::{self, Comparison};

@@ -3,6 +3,8 @@
 //! Only the digits count here: a file whose coordinates mostly end at the same decimal was rounded there, one whose
 //! numbers are all 32-bit floats came through such floats. Where nothing of the kind shows, nothing is claimed.
 
+use std::fmt::{LowerExp, Write};
+
 use super::ToleranceSource;
 use super::format::{Pair, SceneFile};
 
@@ -67,6 +69,40 @@ struct Digits {
     significant: Table,
     /// Whether some are no 32-bit floats, neither written out in full nor as shortly as such floats can be.
     wide: bool,
+    /// The latest number as it is written, and as the 32-bit float next to it is: room that is used again.
+    text: String,
+    narrow: String,
+}
+
+/// How many significant digits a number has when it is written as shortly as may be, and how many of them stand behind the
+/// point; negative where zeros stand before it. `None` where that takes writing it.
+///
+/// Of all decimals of at most 15 digits no two are next to the same double. So the one that is found is the shortest.
+fn few_digits(x: f64) -> Option<(usize, i64)> {
+    let mut power = 1.0;
+    for behind in 0..=FULL as i64 {
+        let whole = (x.abs() * power).round();
+        if whole >= 1e15 {
+            return None;
+        }
+        if whole / power == x.abs() {
+            let (mut rest, mut zeros) = (whole as u64, 0);
+            while rest > 0 && rest.is_multiple_of(10) {
+                (rest, zeros) = (rest / 10, zeros + 1);
+            }
+            let digits = rest.checked_ilog10()? + 1;
+            return Some((digits as usize, behind - zeros));
+        }
+        power *= 10.0;
+    }
+    None
+}
+
+/// Writes a number with as few digits as tell it from all others.
+fn write_shortly(text: &mut String, x: impl LowerExp) {
+    text.clear();
+    // A string takes everything.
+    let _ = write!(text, "{x:e}");
 }
 
 struct Table([usize; MOST]);
@@ -100,17 +136,23 @@ impl Digits {
         if x == 0.0 || !x.is_finite() {
             return;
         }
-        let text = format!("{x:e}");
-        let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
-        let digits = mantissa.bytes().filter(u8::is_ascii_digit).count();
-        let exponent: i64 = exponent.parse().unwrap_or(0);
-        let behind = digits as i64 - 1 - exponent;
+        let (digits, behind) = few_digits(x).unwrap_or_else(|| {
+            write_shortly(&mut self.text, x);
+            let (mantissa, exponent) = self.text.split_once('e').unwrap_or((&self.text, "0"));
+            let digits = mantissa.bytes().filter(u8::is_ascii_digit).count();
+            let exponent: i64 = exponent.parse().unwrap_or(0);
+            (digits, digits as i64 - 1 - exponent)
+        });
         self.decimals
             .add(usize::try_from(behind.max(0)).unwrap_or(MOST));
         self.significant.add(digits);
         let narrow = x as f32;
-        let is_narrow = f64::from(narrow) == x || format!("{narrow:e}") == text;
-        self.wide |= !is_narrow;
+        // Every number of six digits is the shortest way to write some 32-bit float.
+        if !self.wide && digits > 6 && f64::from(narrow) != x {
+            write_shortly(&mut self.text, x);
+            write_shortly(&mut self.narrow, narrow);
+            self.wide = self.narrow != self.text;
+        }
         self.count += 1;
         self.largest = self.largest.max(x.abs());
     }
@@ -169,6 +211,39 @@ mod tests {
     /// Numbers between −20 and 20 that look like chance.
     fn numbers() -> impl Iterator<Item = f64> {
         (1..200).map(|i| 20.0 * libm::sin(f64::from(i * i)))
+    }
+
+    #[test]
+    fn digits_are_counted_as_they_are_written() {
+        let by_hand = [
+            0.5,
+            1200.0,
+            -3.0,
+            0.001,
+            1e-9,
+            0.1 + 0.2,
+            1e15,
+            12345678.9,
+            5e-324,
+        ];
+        let decimals =
+            (0..=12).flat_map(|k| numbers().map(move |x| (x / power(k)).round() * power(k)));
+        let all = by_hand.into_iter().chain(decimals).chain(numbers());
+        let mut few = 0;
+        for x in all.filter(|x| *x != 0.0) {
+            let text = format!("{x:e}");
+            let (mantissa, exponent) = text.split_once('e').expect("of this form");
+            let digits = mantissa.bytes().filter(u8::is_ascii_digit).count();
+            let exponent: i64 = exponent.parse().expect("a number");
+            if let Some(found) = few_digits(x) {
+                assert_eq!(found, (digits, digits as i64 - 1 - exponent), "{x}");
+                few += 1;
+            }
+            let narrow = x as f32;
+            let shortest = format!("{narrow:e}") == text;
+            assert!(digits > 6 || shortest || x.abs() < 1e-37, "{x}");
+        }
+        assert!(few > 1000, "{few}");
     }
 
     #[test]

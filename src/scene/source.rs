@@ -47,10 +47,15 @@ impl<'t> Source<'t> {
 
     /// Line and column of a byte, both from 1, the column in characters.
     pub(super) fn place(&self, byte: usize) -> (usize, usize) {
-        let line = self.lines.partition_point(|start| *start <= byte).max(1);
+        let line = self.line(byte);
         let start = self.lines[line - 1];
         let before = self.text.get(start..byte).unwrap_or("");
         (line, before.chars().count() + 1)
+    }
+
+    /// Line of a byte, from 1.
+    pub(super) fn line(&self, byte: usize) -> usize {
+        self.lines.partition_point(|start| *start <= byte).max(1)
     }
 
     /// The first bytes of the entries of a list at the top.

@@ -240,7 +240,7 @@ impl Session {
     }
 
     /// Everything there is to find out about what stands.
-    pub fn analysis(&self) -> Analysis<'_> {
+    pub fn analysis(&self) -> Analysis {
         Analysis::with(&self.scene, &self.options)
     }
 
@@ -250,8 +250,11 @@ impl Session {
             let verdict = frames.first().map_or(Verdict::Stable, |f| f.verdict);
             (verdict, Source::Examined)
         } else {
-            let interfaces: Vec<_> = self.found.all.iter().collect();
             let frame = &self.scene.frames[0];
+            let interfaces = match self.scene.exact {
+                true => self.found.all.iter().collect(),
+                false => self.found.in_frame(&self.scene, frame),
+            };
             self.guess
                 .verdict(&self.scene, frame, &interfaces, &self.options)
         };

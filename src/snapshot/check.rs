@@ -3,6 +3,7 @@
 //! Makes a [`Report`] from scenes and the references beside them. Nothing is written here but by [`Report::settle`].
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use rayon::prelude::*;
 
@@ -152,7 +153,7 @@ pub fn check(found: Found, done: &(dyn Fn(&str) + Sync)) -> Report {
 }
 
 fn of_scene(job: &Job) -> Vec<Finding> {
-    let analysis = Analysis::of(&job.scene);
+    let analysis = Analysis::of(Arc::clone(&job.scene));
     let mut findings = Vec::new();
     let mut drawn: Option<(&Part, String)> = None;
     for part in &job.parts {

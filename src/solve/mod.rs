@@ -10,6 +10,7 @@ mod balance;
 mod conic;
 mod correction;
 mod exact;
+mod factor;
 mod limit;
 mod nearest;
 mod polish;
@@ -21,7 +22,7 @@ mod stick;
 mod tangent;
 mod wedge;
 
-pub use balance::{Balance, balance, balance_in};
+pub use balance::{Balance, balance, balance_at_first_look, balance_in};
 pub(crate) use conic::Until;
 pub use conic::{
     Answer, Choice, Conditioning, ITERATIONS, SolverSettings, Status, TOLERANCE, solve,

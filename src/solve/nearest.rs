@@ -12,6 +12,7 @@
 //! depend on the loads, nor on rows and columns that are new. Nothing here is believed without its proof.
 
 use super::Amounts;
+use super::factor::Factor;
 use crate::program::{Column, Force, Program, columns};
 
 /// A column wants in where it gains more than this share of its own size times what is left.
@@ -36,8 +37,8 @@ pub struct Nearest {
     /// The numbers of the used columns, in the order of the factor's rows, and their amounts.
     used: Vec<usize>,
     amounts: Vec<f64>,
-    /// Rows of the lower triangular factor L, L·Lᵀ = the Gram matrix of the used columns.
-    factor: Vec<Vec<f64>>,
+    /// Of the Gram matrix of the used columns.
+    factor: Factor,
     /// Columns at their limits.
     full: Vec<usize>,
 }
@@ -79,17 +80,18 @@ impl Nearest {
         let mut place = vec![State::Out; columns.len()];
         self.used.iter().for_each(|k| place[*k] = State::Used);
         self.full.iter().for_each(|k| place[*k] = State::Full);
-        let mut changes = CHANGES * columns.len() + 16;
+        let budget = CHANGES * columns.len() + 16;
+        let mut changes = budget;
+        // What was known may be all that it takes.
+        let (mut entry, mut digits) = (Entry::Several, Digits::All);
         if !self.used.is_empty() {
-            self.settle(loads, columns, &mut place, &mut changes)?;
+            self.settle(loads, columns, &mut place, digits, &mut changes)?;
         }
         loop {
             let rest = self.rest(loads, columns);
             let left = rest.iter().map(|v| v * v).sum::<f64>().sqrt();
-            if left <= NOTHING * size {
-                return Some(rest);
-            }
-            let mut best: Option<(f64, usize)> = None;
+            let enough = (WANTS * left).max(ROUNDING * size);
+            let mut wanting = Vec::new();
             for (k, column) in columns.iter().enumerate() {
                 let gain = match place[k] {
                     State::Out => column.dot(&rest),
@@ -97,32 +99,54 @@ impl Nearest {
                     State::Used => continue,
                 };
                 let gain = gain / norms[k];
-                let enough = (WANTS * left).max(ROUNDING * size);
-                if gain > enough && !barred[k] && best.is_none_or(|(most, _)| gain > most) {
-                    best = Some((gain, k));
+                if gain > enough && !barred[k] && left > NOTHING * size {
+                    wanting.push((gain, k));
                 }
             }
-            let Some((_, k)) = best else {
-                return Some(rest);
-            };
-            changes = changes.checked_sub(1)?;
-            let before = place[k];
-            let amount = match before {
-                State::Full => columns[k].limit,
-                _ => 0.0,
-            };
-            if !self.append(columns, k, amount) {
-                barred[k] = true;
+            if wanting.is_empty() {
+                if entry == Entry::Several && left > NOTHING * size {
+                    // What went straight back may have done so for what came with it.
+                    entry = Entry::One;
+                    barred.fill(false);
+                } else if digits == Digits::All {
+                    return Some(rest);
+                } else {
+                    digits = Digits::All;
+                    self.settle(loads, columns, &mut place, digits, &mut changes)?;
+                }
                 continue;
             }
-            self.full.retain(|f| *f != k);
-            place[k] = State::Used;
-            let settled = self.settle(loads, columns, &mut place, &mut changes)?;
-            if settled == Settled::Moved || place[k] == State::Used {
+            if 2 * changes < budget {
+                entry = Entry::One;
+            }
+            digits = Digits::Some;
+            let mut entered = Vec::new();
+            for k in entry.chosen(wanting, columns, loads.len()) {
+                changes = changes.checked_sub(1)?;
+                let amount = match place[k] {
+                    State::Full => columns[k].limit,
+                    _ => 0.0,
+                };
+                if self.append(columns, k, amount) {
+                    entered.push((k, place[k]));
+                    self.full.retain(|f| *f != k);
+                    place[k] = State::Used;
+                } else {
+                    barred[k] = true;
+                }
+            }
+            if entered.is_empty() {
+                continue;
+            }
+            let settled = self.settle(loads, columns, &mut place, digits, &mut changes)?;
+            let stays = |(k, _): &(usize, State)| place[*k] == State::Used;
+            if settled == Settled::Moved || entered.iter().any(stays) {
                 barred.fill(false);
             }
             // One that wanted to move and went straight back did so for rounding, which is no reason to try it for ever.
-            barred[k] = place[k] == before;
+            for (k, before) in entered {
+                barred[k] = place[k] == before;
+            }
         }
     }
 
@@ -149,11 +173,12 @@ impl Nearest {
         loads: &[f64],
         columns: &[Column],
         place: &mut [State],
+        digits: Digits,
         changes: &mut usize,
     ) -> Option<Settled> {
         let mut settled = Settled::Stayed;
         loop {
-            let wanted = self.least_squares(loads, columns);
+            let wanted = self.least_squares(loads, columns, digits);
             // How far towards it every amount stays within its bounds, and the one that meets its own first.
             let mut step: Option<(f64, usize)> = None;
             for (place, (now, then)) in self.amounts.iter().zip(&wanted).enumerate() {
@@ -195,17 +220,21 @@ impl Nearest {
         }
     }
 
-    /// The amounts of the used set, of either sign, that leave least; once refined.
-    fn least_squares(&self, loads: &[f64], columns: &[Column]) -> Vec<f64> {
+    /// The amounts of the used set, of either sign, that leave least; to all digits where they are refined once.
+    fn least_squares(&self, loads: &[f64], columns: &[Column], digits: Digits) -> Vec<f64> {
         let mut rest = loads.to_vec();
         for k in &self.full {
             columns[*k].add_to(&mut rest, -columns[*k].limit);
         }
         let mut amounts = vec![0.0; self.used.len()];
-        for _ in 0..2 {
+        let rounds = match digits {
+            Digits::Some => 1,
+            Digits::All => 2,
+        };
+        for _ in 0..rounds {
             let mut change: Vec<f64> = self.used.iter().map(|k| columns[*k].dot(&rest)).collect();
-            self.forward(&mut change);
-            self.backward(&mut change);
+            self.factor.forward(&mut change);
+            self.factor.backward(&mut change);
             for ((amount, by), k) in amounts.iter_mut().zip(&change).zip(&self.used) {
                 *amount += by;
                 columns[*k].add_to(&mut rest, -by);
@@ -225,59 +254,24 @@ impl Nearest {
         rest
     }
 
-    /// L·x = v, in place.
-    fn forward(&self, v: &mut [f64]) {
-        for (k, row) in self.factor.iter().enumerate() {
-            let (before, rest) = v.split_at_mut(k);
-            let sum: f64 = row.iter().zip(before.iter()).map(|(a, b)| a * b).sum();
-            rest[0] = (rest[0] - sum) / row[k];
-        }
-    }
-
-    /// Lᵀ·x = v, in place.
-    fn backward(&self, v: &mut [f64]) {
-        for (k, row) in self.factor.iter().enumerate().rev() {
-            let (before, rest) = v.split_at_mut(k);
-            rest[0] /= row[k];
-            for (value, entry) in before.iter_mut().zip(row) {
-                *value -= entry * rest[0];
-            }
-        }
-    }
-
     /// Takes a column in, unless it is a sum of the used ones.
     fn append(&mut self, columns: &[Column], k: usize, amount: f64) -> bool {
         let new = &columns[k];
-        let mut row: Vec<f64> = self.used.iter().map(|u| columns[*u].times(new)).collect();
-        self.forward(&mut row);
+        let products = self.used.iter().map(|u| columns[*u].times(new)).collect();
         let own = new.times(new);
-        let across = own - row.iter().map(|v| v * v).sum::<f64>();
-        if !(across > ACROSS * own) {
+        if !self.factor.append(products, own, ACROSS * own) {
             return false;
         }
-        row.push(across.sqrt());
-        self.factor.push(row);
         self.used.push(k);
         self.amounts.push(amount);
         true
     }
 
-    /// Takes a used column out: its row goes, and rotations make the factor triangular again.
+    /// Takes a used column out.
     fn drop_at(&mut self, place: usize) {
         self.used.remove(place);
         self.amounts.remove(place);
         self.factor.remove(place);
-        for k in place..self.factor.len() {
-            let (a, b) = (self.factor[k][k], self.factor[k][k + 1]);
-            let length = libm::hypot(a, b);
-            let (c, s) = (a / length, b / length);
-            for row in &mut self.factor[k..] {
-                let (x, y) = (row[k], row[k + 1]);
-                row[k] = c * x + s * y;
-                row[k + 1] = c * y - s * x;
-            }
-            self.factor[k].truncate(k + 1);
-        }
     }
 }
 
@@ -290,6 +284,42 @@ enum State {
     Used,
     /// At its limit.
     Full,
+}
+
+/// How precisely amounts are sought: to the last digits only where nothing wants in any more.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Digits {
+    Some,
+    All,
+}
+
+/// How many columns come in at once.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Entry {
+    /// The ones that gain most, no two on one block: one system of equations serves for all of them.
+    Several,
+    /// The one that gains most, which leads to the end for certain.
+    One,
+}
+
+impl Entry {
+    /// Those of the columns that want in by their gains, of a problem of so many rows.
+    fn chosen(self, mut wanting: Vec<(f64, usize)>, columns: &[Column], rows: usize) -> Vec<usize> {
+        wanting.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        if self == Entry::One {
+            wanting.truncate(1);
+        }
+        let mut taken = vec![false; rows.div_ceil(3)];
+        let mut chosen = Vec::new();
+        for (_, k) in wanting {
+            let blocks = || columns[k].entries().map(|(row, _)| row / 3);
+            if blocks().all(|block| !taken[block]) {
+                blocks().for_each(|block| taken[block] = true);
+                chosen.push(k);
+            }
+        }
+        chosen
+    }
 }
 
 /// Whether amounts were moved before a bound was met.

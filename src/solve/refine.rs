@@ -20,8 +20,9 @@ const ROUNDS: usize = 4;
 /// What a block's balance may be off by costs so much, so that there is an answer where a balance there is not.
 const FIRMNESS: f64 = 1e8;
 
-/// Amounts beyond so many sizes of the change cannot become negative by it.
-const AMPLE: f64 = 1e4;
+/// Amounts beyond so many sizes of the change cannot become negative by it. On a support of a millionth of a block it takes
+/// a million times what is off across it to make up for its moment; then the second value serves.
+const AMPLE: [f64; 2] = [1e4, 1e8];
 
 /// What the forces leave unbalanced of a program's loads, and Σ |force| on each block.
 fn rest(program: &Program, amounts: &Amounts) -> (Vec<f64>, Vec<f64>) {
@@ -225,36 +226,49 @@ pub fn corrected(program: &Program, amounts: &Amounts, effort: &mut Effort) -> O
     let list = columns(program);
     let (mut best, mut better) = (amounts.clone(), false);
     for _ in 0..ROUNDS {
-        let (left, _) = rest(program, &best);
-        let size = left.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-        let weights = rays(program, &list, &best);
-        let most = weights.iter().fold(0.0, |m: f64, v| m.max(*v));
-        if size <= f64::EPSILON * most || size == 0.0 {
+        let Some(next) =
+            (AMPLE.into_iter()).find_map(|ample| nearer(program, &list, &best, ample, effort))
+        else {
             break;
-        }
-        let scaled: Vec<f64> = left.iter().map(|v| v / size).collect();
-        let ample: Vec<f64> = weights.iter().map(|w| w.min(AMPLE * size)).collect();
-        let correction = Correction {
-            amounts: &ample,
-            size,
         };
-        let conic = least_squares(&scaled, &list, Some(correction));
-        if !is_finite(&conic) {
-            break;
-        }
-        let answer = solved_with_retry(&conic, Conditioning::Full, effort);
-        if answer.status != Status::Solved {
-            break;
-        }
-        let changes: Vec<f64> = answer.x.iter().map(|d| d * size).collect();
-        let next = changed(&best, &list, &changes);
-        let (left, _) = rest(program, &next);
-        if left.iter().any(|v| v.abs() > 0.5 * size) {
-            break;
-        }
         (best, better) = (next, true);
     }
     better.then_some(best)
+}
+
+/// Forces that leave at most half as much, none of which falls by more than `ample` times what is left.
+fn nearer(
+    program: &Program,
+    list: &[Column],
+    best: &Amounts,
+    ample: f64,
+    effort: &mut Effort,
+) -> Option<Amounts> {
+    let (left, _) = rest(program, best);
+    let size = left.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    let weights = rays(program, list, best);
+    let most = weights.iter().fold(0.0, |m: f64, v| m.max(*v));
+    if size <= f64::EPSILON * most || size == 0.0 {
+        return None;
+    }
+    let scaled: Vec<f64> = left.iter().map(|v| v / size).collect();
+    let ample: Vec<f64> = weights.iter().map(|w| w.min(ample * size)).collect();
+    let correction = Correction {
+        amounts: &ample,
+        size,
+    };
+    let conic = least_squares(&scaled, list, Some(correction));
+    if !is_finite(&conic) {
+        return None;
+    }
+    let answer = solved_with_retry(&conic, Conditioning::Full, effort);
+    if answer.status != Status::Solved {
+        return None;
+    }
+    let changes: Vec<f64> = answer.x.iter().map(|d| d * size).collect();
+    let next = changed(best, list, &changes);
+    let (left, _) = rest(program, &next);
+    left.iter().all(|v| v.abs() <= 0.5 * size).then_some(next)
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@
 //! the order of the file; a tie between mirror images stays a tie, and the figure of a mirrored scene is the mirrored
 //! figure.
 
+use super::balance::vagueness;
 use super::limit::columns_in;
 use super::slanted::Slanted;
 use super::{
@@ -53,6 +54,9 @@ impl Size {
         }
     }
 }
+
+/// Of many blocks, when so large a share of the columns in use may as well not be, the optimum of the first stage is kept.
+const NEARLY_ALL: f64 = 0.18;
 
 /// Where the plain rule loses a column that is needed, more are let in.
 const MARGINS: [f64; 3] = [1.0, 1e3, 1e6];
@@ -196,6 +200,10 @@ fn chosen(
     let unchanged = |face: &Face, amounts: &[f64]| {
         (sticking_sum(face, amounts) - least).abs() <= same * least + slight
     };
+    let found = || whole.clone().with(first.amounts.clone());
+    if size == Size::Many && vagueness(first) > NEARLY_ALL {
+        return found();
+    }
     let mut face = None;
     for margin in margins {
         let narrow = whole.narrowed(first, *margin);
@@ -210,7 +218,6 @@ fn chosen(
             break;
         }
     }
-    let found = || whole.clone().with(first.amounts.clone());
     let face = match face {
         Some(face) => face,
         None if size == Size::Many => return found(),

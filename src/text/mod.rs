@@ -4,6 +4,10 @@
 //! escape sequences of terminals, marks that turn the order of reading round, markup, formulas of spreadsheets. After these
 //! functions it is words on one line and nothing else. What cannot be seen becomes [`HIDDEN`], so that it is seen.
 
+mod spelling;
+
+pub use spelling::nearest;
+
 /// Stands for a character that cannot be seen and would do something.
 pub const HIDDEN: char = '\u{fffd}';
 
@@ -11,7 +15,7 @@ pub const HIDDEN: char = '\u{fffd}';
 /// [`HIDDEN`]. As many characters as before.
 ///
 /// ```
-/// use drystone::text::line;
+/// use drystone::internals::text::line;
 /// assert_eq!(line("x\n  all  stable"), "x   all  stable");
 /// assert_eq!(line("\u{1b}[31mred"), "\u{fffd}[31mred");
 /// ```
@@ -108,7 +112,7 @@ pub fn csv(text: &str) -> String {
 /// A word of a command line as a shell of POSIX takes it: quoted where it must be, on one line.
 ///
 /// ```
-/// use drystone::text::shell;
+/// use drystone::internals::text::shell;
 /// assert_eq!(shell("walls/a-1.json"), "walls/a-1.json");
 /// assert_eq!(shell("it's $(a).json"), r"'it'\''s $(a).json'");
 /// assert_eq!(shell("-o.json"), "./-o.json");

@@ -20,10 +20,10 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use drystone::analysis::{Ask, Options, Verdict};
-use drystone::effect::{Situation, assemble};
-use drystone::interface::Interfaces;
-use drystone::program::{Conic, Program, Scale, source};
-use drystone::solve::{Conditioning, Status, TOLERANCE, solve};
+use drystone::internals::effect::{Situation, assemble};
+use drystone::internals::interface::Interfaces;
+use drystone::internals::program::{Conic, Program, Scale, source};
+use drystone::internals::solve::{Conditioning, Status, TOLERANCE, solve};
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
 

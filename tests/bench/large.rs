@@ -5,13 +5,13 @@
 //! size in place of them.
 
 use divan::{AllocProfiler, Bencher, black_box};
-use drystone::assembly::Assembly;
-use drystone::effect::{Situation, assemble};
-use drystone::interface::Interfaces;
-use drystone::program::{Program, Scale};
-use drystone::proof::{self, Forces, Held, Pressed};
+use drystone::internals::assembly::Assembly;
+use drystone::internals::effect::{Situation, assemble};
+use drystone::internals::interface::Interfaces;
+use drystone::internals::program::{Program, Scale};
+use drystone::internals::proof::{self, Forces, Held, Pressed};
+use drystone::internals::solve::{Conditioning, balance};
 use drystone::scene::format::{BlockEntry, GroundEntry, Pair, SceneFile};
-use drystone::solve::{Conditioning, balance};
 use drystone::{Analysis, Scene, figure, output};
 
 #[global_allocator]

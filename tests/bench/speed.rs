@@ -7,11 +7,11 @@ use std::fs;
 use std::process::Command;
 
 use divan::{Bencher, black_box};
-use drystone::effect::{Situation, assemble};
-use drystone::interface::Interfaces;
-use drystone::program::{Program, Scale, source};
+use drystone::internals::effect::{Situation, assemble};
+use drystone::internals::interface::Interfaces;
+use drystone::internals::program::{Program, Scale, source};
+use drystone::internals::solve::{Conditioning, TOLERANCE, balance, solve};
 use drystone::scene::format::SceneFile;
-use drystone::solve::{Conditioning, TOLERANCE, balance, solve};
 use drystone::starter::Wall;
 use drystone::{Analysis, Scene, figure, output};
 

@@ -4,10 +4,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use drystone::analysis::{Accuracy, Options, Proof, Verdict};
+use drystone::internals::study::{Case, Mark, Method, Study, study, summary};
 use drystone::output::png;
 use drystone::report::accuracy::{csv, markdown, page, svg};
 use drystone::report::result::accuracy_json;
-use drystone::study::{Case, Mark, Method, Study, study, summary};
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
 

@@ -9,11 +9,11 @@ use std::fs;
 use std::path::Path;
 
 use drystone::analysis::Verdict;
-use drystone::assembly::Assembly;
-use drystone::effect::{Situation, assemble};
-use drystone::geometry::{Point, Vector};
-use drystone::interface::{ContactKind, Interfaces};
-use drystone::program::{Count, Program, Scale, columns};
+use drystone::internals::assembly::Assembly;
+use drystone::internals::effect::{Situation, assemble};
+use drystone::internals::geometry::{Point, Vector};
+use drystone::internals::interface::{ContactKind, Interfaces};
+use drystone::internals::program::{Count, Program, Scale, columns};
 use drystone::scene::{BodyId, Frame};
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};

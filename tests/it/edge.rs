@@ -1,7 +1,7 @@
 //! On either side of the edge: verdicts are right and decided as near to it as the band, and what falls is proved to fall.
 
 use drystone::analysis::{FrameAnalysis, Proof, Verdict};
-use drystone::study::study;
+use drystone::internals::study::study;
 use serde_json::{Value, json};
 
 use crate::hard::wedge;

@@ -2,7 +2,7 @@
 
 use drystone::Analysis;
 use drystone::analysis::{Ask, Failure, FrameAnalysis, Options, Verdict};
-use drystone::geometry::{Point, Vector, cross};
+use drystone::internals::geometry::{Point, Vector, cross};
 use drystone::scene::{BodyId, Scene};
 use serde_json::{Value, json};
 

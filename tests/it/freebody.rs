@@ -46,8 +46,8 @@ fn rounding(printed: &str) -> f64 {
     0.5 * libm::pow(10.0, -(decimals as f64))
 }
 
-fn balances(name: &str, analysis: &Analysis<'_>, frame: usize, id: BlockId) -> usize {
-    let (scene, found) = (analysis.scene, &analysis.frames[frame]);
+fn balances(name: &str, analysis: &Analysis, frame: usize, id: BlockId) -> usize {
+    let (scene, found) = (&analysis.scene, &analysis.frames[frame]);
     let mut listed = 0;
     for corners in [Corners::Few, Corners::All] {
         let options = Options {

@@ -2,7 +2,7 @@
 
 use drystone::Analysis;
 use drystone::analysis::{Failure, Verdict};
-use drystone::geometry::{Point, Vector};
+use drystone::internals::geometry::{Point, Vector};
 use drystone::scene::{Frame, Scene};
 use serde_json::Value;
 
@@ -23,7 +23,7 @@ fn frame(scene: &Scene, panel: &Value) -> Frame {
     scene.frames[number as usize].clone()
 }
 
-fn same_corners(found: &[drystone::geometry::Point], expected: &Value, what: &str) {
+fn same_corners(found: &[drystone::internals::geometry::Point], expected: &Value, what: &str) {
     let expected = expected.as_array().expect("a list of corners");
     assert_eq!(found.len(), expected.len(), "{what}");
     for corner in expected {

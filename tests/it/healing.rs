@@ -236,7 +236,7 @@ fn frozen(scene: &Scene, frame: &Frame, degrees: f64, written: Written) -> Value
     let place = |x: f64, y: f64| turned(x, y).map(|x| written.number(x));
     let body = |id: BodyId| {
         let body = scene.body(id);
-        let ring = |ring: &[drystone::geometry::Point]| -> Vec<[f64; 2]> {
+        let ring = |ring: &[drystone::internals::geometry::Point]| -> Vec<[f64; 2]> {
             ring.iter().map(|p| place(p.x, p.y)).collect()
         };
         let holes: Vec<Vec<[f64; 2]>> = body.polygon.holes().iter().map(|h| ring(h)).collect();

@@ -22,7 +22,7 @@ fn scene(path: &str) -> Scene {
     Scene::from_json(&text).unwrap_or_else(|problems| panic!("{path}:\n{problems}"))
 }
 
-fn draw(analysis: &Analysis<'_>, kind: Kind) -> Drawing {
+fn draw(analysis: &Analysis, kind: Kind) -> Drawing {
     figure::draw(analysis, kind, &Options::default())
 }
 

@@ -1,7 +1,7 @@
 //! Laws: a scene moved, turned with its gravity, mirrored, rescaled or renumbered has the same answer, likewise.
 
 use drystone::analysis::{FrameAnalysis, Verdict};
-use drystone::geometry::{Point, Vector};
+use drystone::internals::geometry::{Point, Vector};
 use proptest::prelude::*;
 use serde_json::{Value, json};
 

@@ -4,7 +4,7 @@ use drystone::Analysis;
 use drystone::analysis::FrameAnalysis;
 use drystone::drawing::{Camera, Drawing, Group, Item, Outline, PagePoint};
 use drystone::figure::{self, ForceStyle, Kind, Normalisation, Options};
-use drystone::geometry::{Point, Vector, cross};
+use drystone::internals::geometry::{Point, Vector, cross};
 use drystone::scene::{BlockId, BodyId, Scene};
 
 use crate::pictures::{gallery, scene};

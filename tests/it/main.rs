@@ -14,6 +14,7 @@ mod circle;
 mod claims;
 mod edge;
 mod falls;
+mod features;
 mod freebody;
 mod gallery;
 mod hard;

@@ -4,7 +4,7 @@ use drystone::Analysis;
 use drystone::analysis::{FrameAnalysis, Motion, Verdict};
 use drystone::drawing::{Camera, Group, Item};
 use drystone::figure::{self, Kind, Options};
-use drystone::geometry::{Pieces, Point, Polygon, Vector, cross, overlap};
+use drystone::internals::geometry::{Pieces, Point, Polygon, Vector, cross, overlap};
 use drystone::scene::{BodyId, Scene};
 
 use crate::lines::{all, brought};

@@ -2,7 +2,7 @@
 
 use drystone::drawing::{Colour, Drawing, Group, Item, Outline, Theme};
 use drystone::figure::{self, ArrowKind, Fill, ForceStyle, Normalisation, Options};
-use drystone::geometry::{Point, Vector};
+use drystone::internals::geometry::{Point, Vector};
 use drystone::output::{png, svg};
 use drystone::{Analysis, Scene};
 use serde_json::Value;

@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod batch;
+mod broken;
 mod check;
 mod figures;
 mod import;

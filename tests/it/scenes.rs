@@ -1,7 +1,7 @@
 //! What a sound scene file means: defaults, precedence, places and steps.
 
 use drystone::analysis::{Analysis, Verdict};
-use drystone::geometry::{Point, Vector};
+use drystone::internals::geometry::{Point, Vector};
 use drystone::scene::{BlockId, BodyId, Frame, Limits, Rgb, Scene, starter};
 
 fn scene(text: &str) -> Scene {

@@ -5,9 +5,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use drystone::internals::study::{TOLERANCES, study};
+use drystone::internals::text::HIDDEN;
 use drystone::report::result::{Layout, Timing, to_json};
-use drystone::study::{TOLERANCES, study};
-use drystone::text::HIDDEN;
 use drystone::{Analysis, Scene, figure, output, report};
 use pulldown_cmark::{Event, Options, Parser, Tag};
 use serde_json::{Value, json};
@@ -50,7 +50,7 @@ fn scene(hostile: &str) -> String {
 }
 
 /// Every text as a scene of its own, with its analysis.
-fn each(mut check: impl FnMut(&str, &Scene, &Analysis<'_>)) {
+fn each(mut check: impl FnMut(&str, &Scene, &Analysis)) {
     for hostile in HOSTILE {
         let scene =
             Scene::from_json(&scene(hostile)).unwrap_or_else(|e| panic!("{hostile:?}: {e}"));
@@ -213,7 +213,7 @@ fn begun(markdown: &str) -> Vec<String> {
 #[test]
 fn markdown_is_words_and_a_book_keeps_them_in_its_figure() {
     for hostile in HOSTILE {
-        let words = drystone::text::markdown(hostile);
+        let words = drystone::internals::text::markdown(hostile);
         assert_eq!(
             begun(&words),
             Vec::<String>::new(),
@@ -325,6 +325,7 @@ fn a_report_keeps_words_as_words_in_all_its_forms() {
             span: None,
             message: hostile.into(),
             help: hostile.into(),
+            place: None,
         };
         for form in [Form::Html, Form::Split, Form::Markdown, Form::Json] {
             let piece = |number| Piece::of(&entry, number, form, "r").expect("drawn");

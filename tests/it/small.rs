@@ -1,7 +1,7 @@
 //! The smallest stone: a pebble on a tower, beside a wall or in its joints is judged by its own forces, however light.
 
-use drystone::analysis::Verdict;
-use drystone::geometry::{Point, Vector, cross, least_scale};
+use drystone::analysis::{Options, Verdict, verdicts};
+use drystone::internals::geometry::{Point, Vector, cross, least_scale};
 use drystone::scene::{BlockId, BodyId};
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
@@ -49,12 +49,31 @@ fn topped(bricks: usize, size: f64, beyond: f64) -> Value {
         "ground": [{ "polygon": rectangle(-20.0, -1.0, 40.0, 1.0) }], "blocks": blocks })
 }
 
-/// Size ratios down to what still counts as a contact, weights to 10⁻¹², towers of 1 to 30: the only question is on which
-/// side of the edge the stone's centre of gravity lies.
+/// A file with its gravity turned about the origin, in degrees. By 0 it stays as it is written.
+fn turned(file: &Value, degrees: f64) -> Value {
+    if degrees == 0.0 {
+        return file.clone();
+    }
+    let (s, c) = libm::sincos(degrees.to_radians());
+    let mut file = file.clone();
+    for list in ["ground", "blocks"] {
+        for body in file[list].as_array_mut().expect("a list") {
+            for corner in body["polygon"].as_array_mut().expect("corners") {
+                let [x, y] = [0, 1].map(|k| corner[k].as_f64().expect("a number"));
+                *corner = json!([c * x - s * y, s * x + c * y]);
+            }
+        }
+    }
+    file["gravity"] = json!([9.81 * s, -9.81 * c]);
+    file
+}
+
+/// Size ratios of 1 to 10⁻⁶, weights to 10⁻¹², towers of 1 to 30, upright and turned by odd angles: the only question is on
+/// which side of the edge the stone's centre of gravity lies.
 #[test]
 fn stones_on_towers() {
     for bricks in [1, 2, 3, 5, 10, 20, 30] {
-        for size in [1.0, 1e-1, 1e-2, 1e-3, 1e-4] {
+        for size in [1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
             for (beyond, expected) in [
                 (0.49, STANDS),
                 (0.51, FALLS),
@@ -62,12 +81,136 @@ fn stones_on_towers() {
                 (0.75, FALLS),
                 (0.99, FALLS),
             ] {
-                let file = topped(bricks, size, beyond);
-                // What is left on the edge must be longer than what counts as a contact.
-                if size * (1.0 - beyond) < 1e-6 * f64::from(bricks as u32 + 20) {
-                    continue;
+                for degrees in [0.0, 17.3, 41.3] {
+                    let file = turned(&topped(bricks, size, beyond), degrees);
+                    assert_eq!(
+                        verdict(&file),
+                        expected,
+                        "{bricks}, {size:e}, {beyond}, {degrees}°"
+                    );
                 }
-                assert_eq!(verdict(&file), expected, "{bricks}, {size:e}, {beyond}");
+            }
+        }
+    }
+}
+
+/// Stones as small lie on a ramp on such towers: they slide where it is steeper than their friction.
+#[test]
+fn stones_that_slide_on_towers() {
+    for bricks in [1, 5, 20] {
+        for size in [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
+            for slope in [0.0625, 0.5] {
+                for (friction, expected) in
+                    [(slope * 1.01, STANDS), (slope * 0.99, FALLS), (0.0, FALLS)]
+                {
+                    let mut file = topped(bricks, 1.0, 0.0);
+                    let top = f64::from(bricks as u32);
+                    let along = [1.0, slope].map(|v| v / libm::hypot(1.0, slope));
+                    let at = |u: f64, v: f64| {
+                        json!([
+                            0.7 + size * (u * along[0] - v * along[1]),
+                            top + 0.7 * slope + size * (u * along[1] + v * along[0])
+                        ])
+                    };
+                    let stone = [at(0.0, 0.0), at(1.0, 0.0), at(1.0, 0.5), at(0.0, 0.5)];
+                    let blocks = file["blocks"].as_array_mut().expect("a list");
+                    let ramp = json!([[0, top], [2, top], [2, top + 2.0 * slope]]);
+                    blocks[bricks] = json!({ "id": "ramp", "polygon": ramp });
+                    blocks.push(json!({ "id": "stone", "polygon": stone, "friction": friction }));
+                    for degrees in [0.0, 17.3] {
+                        assert_eq!(
+                            verdict(&turned(&file, degrees)),
+                            expected,
+                            "{bricks}, {size:e}, {slope} {friction}, {degrees}°"
+                        );
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A block 1 m wide on a tip as narrow as a millionth of it, its centre of gravity a share of the tip's width off the middle.
+fn on_a_tip(base: f64, off: f64, height: f64) -> Value {
+    // A trapezium's centroid lies at the middles of its parallel sides, in parts of their widths and the height.
+    let share = (base + 2.0) / (3.0 * (base + 1.0));
+    let lean = off * base / share;
+    let tip = json!([
+        [1.0 - 0.5 * base, 1.0],
+        [1.0 + 0.5 * base, 1.0],
+        [1.5 + lean, 1.0 + height],
+        [0.5 + lean, 1.0 + height]
+    ]);
+    let mut file = topped(1, 1.0, 0.0);
+    file["blocks"][1]["polygon"] = tip;
+    file
+}
+
+/// Contacts of a millionth of a block are contacts where they are all there is of an edge. A force may be moved by 10⁻⁷ of
+/// the block's radius: beside the tip's edge that much is left to the band.
+#[test]
+fn large_blocks_stand_on_small_tips() {
+    for base in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
+        for height in [0.1, 0.5, 2.0] {
+            let band = 4e-7 * f64::max(height, 1.0) / base;
+            for degrees in [0.0, 17.3, 41.3, 73.9, 203.1] {
+                for off in [0.0, 0.17, -0.29, 0.33, -0.41, 0.49] {
+                    let file = turned(&on_a_tip(base, off, height), degrees);
+                    assert_eq!(verdict(&file), STANDS, "{base:e} {height} {degrees}° {off}");
+                }
+                for off in [0.51, -0.7, 1.5] {
+                    let off: f64 = if off > 0.0 { off + band } else { off - band };
+                    let file = turned(&on_a_tip(base, off, height), degrees);
+                    assert_eq!(verdict(&file), FALLS, "{base:e} {height} {degrees}° {off}");
+                }
+            }
+        }
+    }
+}
+
+/// Two bricks that overlap by next to nothing may be neighbours or a support: where that decides, it is said. A tolerance
+/// on either side of the length settles it.
+#[test]
+fn slivers_between_large_blocks_are_judged_both_ways() {
+    let length = 3e-7;
+    let mut file = topped(1, 1.0, 0.0);
+    // A lintel from a post that ends a sliver short of its edge to one that it lies on in full.
+    let blocks = json!([
+        { "id": "left", "polygon": rectangle(0.0, 0.0, 1.0, 1.0) },
+        { "id": "right", "polygon": rectangle(3.0, 0.0, 1.0, 1.0) },
+        { "id": "lintel", "polygon": rectangle(1.0 - length, 1.0, 3.0 + length, 0.5) },
+        { "id": "end", "polygon": rectangle(1.0, 1.5, 0.5, 4.0) }
+    ]);
+    file["blocks"] = blocks;
+    file["blocks"][1]["polygon"] = rectangle(2.9, 0.0, 0.2, 1.0);
+    let scene = Scene::from_json(&file.to_string()).expect("a scene");
+    let frame = Analysis::of(&scene).frames.remove(0);
+    assert_eq!(frame.verdict, Verdict::Undecided, "{:?}", frame.notices);
+    assert!(frame.doubt.contains("left") && frame.doubt.contains("contact_tolerance"));
+    assert_eq!(verdicts(&scene, &Options::default()), [Verdict::Undecided]);
+    for (tolerance, expected) in [(0.5 * length, STANDS), (1.01 * length, FALLS)] {
+        file["contact_tolerance"] = json!(tolerance);
+        assert_eq!(verdict(&file), expected, "{tolerance:e}: {}", frame.doubt);
+    }
+}
+
+/// A brick on two pins, as high as a gap may be that counts as a contact elsewhere: it stands on them and not on what is
+/// below, however low they are.
+#[test]
+fn pins_keep_a_gap_open_however_low() {
+    for exponent in 1..=20 {
+        let height = libm::exp2(-f64::from(exponent));
+        for (x, expected) in [(-0.05, STANDS), (-1.5, FALLS), (0.95, FALLS), (1.45, FALLS)] {
+            let mut file = topped(1, 1.0, 0.0);
+            let blocks = file["blocks"].as_array_mut().expect("a list");
+            let pin = |x: f64| rectangle(x, 1.0, height, height);
+            blocks[1] = json!({ "id": "left pin", "polygon": pin(0.125) });
+            blocks.push(json!({ "id": "right pin", "polygon": pin(1.5) }));
+            let above = rectangle(x, 1.0 + height, 2.0, 1.0);
+            blocks.push(json!({ "id": "above", "polygon": above }));
+            for degrees in [0.0, 17.3] {
+                let found = verdict(&turned(&file, degrees));
+                assert_eq!(found, expected, "{height:e} {x} {degrees}°");
             }
         }
     }

@@ -93,7 +93,7 @@ fn a_toppling_block_turns_about_its_lower_corner() {
     let moves = frame.mechanism[0];
     // Anticlockwise, downhill to the left; the lower left corner (−0.3, 0) turned by 25° stays where it is.
     assert!(moves.spin > 0.0);
-    let corner = drystone::geometry::Point::new(
+    let corner = drystone::internals::geometry::Point::new(
         -0.3 * libm::cos(0.4363323129985824),
         -0.3 * libm::sin(0.4363323129985824),
     );

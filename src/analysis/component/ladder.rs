@@ -45,7 +45,7 @@ impl Case<'_> {
         let mut no_status = false;
         let mut weak: Option<(Vec<Motion>, Proof)> = None;
         let mut last = None;
-        for rung in Rung::ladder(&self.settings, self.place) {
+        for rung in Rung::ladder(program, &self.settings, self.place) {
             let attempt = rung.attempt(program);
             effort = effort.and(attempt.effort);
             no_status |= rung.is_least() && attempt.forces.is_none() && attempt.motion.is_none();

@@ -17,6 +17,7 @@ mod withheld;
 
 use std::collections::BTreeMap;
 
+#[cfg(feature = "parallel")]
 use rayon::prelude::*;
 
 use super::component::Findings;
@@ -149,8 +150,11 @@ pub(super) fn of(
 ) -> (Margins, usize) {
     let fresh = parts.iter().filter(|part| !known.contains_key(part.key));
     let fresh: Vec<&Part> = fresh.collect();
-    let found: Vec<(Key, Margins, usize)> = fresh
-        .par_iter()
+    #[cfg(feature = "parallel")]
+    let each = fresh.par_iter();
+    #[cfg(not(feature = "parallel"))]
+    let each = fresh.iter();
+    let found: Vec<(Key, Margins, usize)> = each
         .map(|part| {
             let forces = part.stands().then_some(&part.found.forces);
             let mut trial = Trial::of(part.component, forces);

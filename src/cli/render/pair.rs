@@ -11,6 +11,7 @@ use crate::cli::script;
 use crate::cli::source::Source;
 use crate::figure;
 use crate::output::fonts::Fonts;
+use std::sync::Arc;
 
 impl Render {
     /// Whether two scenes become one figure that compares them.
@@ -47,14 +48,14 @@ impl Render {
             }
             title => title.to_owned(),
         };
-        let last = |analysis: &Analysis<'_>| analysis.frames.len() - 1;
+        let last = |analysis: &Analysis| analysis.frames.len() - 1;
         let (a, b) = ((&before, last(&before)), (&after, last(&after)));
         let (scene, frames) = analysis::pair(a, b, [title(0), title(1)]).map_err(|why| {
             let names = sources.map(Source::name);
             Complaint::CommandLine(format!("{} and {}: {why}", names[0], names[1]))
         })?;
         let joined = Analysis {
-            scene: &scene,
+            scene: Arc::new(scene),
             frames,
             notes: Vec::new(),
         };

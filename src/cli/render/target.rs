@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::cli::complaint::Complaint;
 use crate::cli::destination::Destination;
 use crate::cli::picture::Format;
-use crate::cli::source::Source;
+use crate::cli::source::{name, stem};
 
 /// Where a part of a figure goes: `name-a.svg` beside `name.svg`.
 pub(super) fn part_path(path: &Path, part: &str) -> PathBuf {
@@ -19,7 +19,7 @@ pub(super) fn part_path(path: &Path, part: &str) -> PathBuf {
 /// Where each scene's figure goes, in the scenes' order.
 pub(super) fn paths(
     destination: &Destination,
-    sources: &[Source],
+    scenes: &[&Path],
     format: Format,
 ) -> Result<Vec<PathBuf>, Complaint> {
     match destination {
@@ -27,10 +27,10 @@ pub(super) fn paths(
         Destination::File(path) => Ok(vec![path.clone()]),
         Destination::Folder(folder) => {
             let mut paths: Vec<PathBuf> = Vec::new();
-            for source in sources {
-                let path = folder.join(format!("{}.{}", source.stem(), format.ending()));
+            for scene in scenes {
+                let path = folder.join(format!("{}.{}", stem(scene), format.ending()));
                 if let Some(first) = paths.iter().position(|p| *p == path) {
-                    let (a, b, shown) = (sources[first].name(), source.name(), path.display());
+                    let (a, b, shown) = (name(scenes[first]), name(scene), path.display());
                     return Err(Complaint::CommandLine(format!(
                         "{a} and {b} would both become {shown}; rename one"
                     )));

@@ -10,14 +10,17 @@ use core::fmt;
 use super::super::colour::Colour;
 use super::super::ramp;
 use super::{Sizes, Theme, Widths};
+use crate::text::nearest;
 use value::Value;
 
 /// How a style file is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Notation {
     /// JSON.
     Json,
     /// TOML.
+    #[cfg(feature = "toml")]
     Toml,
 }
 
@@ -58,6 +61,7 @@ impl Theme {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let value = match notation {
             Notation::Json => value::json(text),
+            #[cfg(feature = "toml")]
             Notation::Toml => value::toml(text),
         };
         let value = value.map_err(|problem| Problems(vec![problem]))?;
@@ -272,7 +276,7 @@ impl Reading {
     }
 
     fn unknown(&mut self, path: &str, key: &str, known: &[&str]) {
-        let help = match nearest(key, known) {
+        let help = match nearest(key, known.iter().copied()) {
             Some(near) => format!("the nearest known key is `{near}`"),
             None => format!("known keys are {}", known.join(", ")),
         };
@@ -291,7 +295,8 @@ impl Reading {
         if known.contains(&name.as_str()) {
             return;
         }
-        let near = nearest(name, known).map(|near| format!("; the nearest is {near}"));
+        let near =
+            nearest(name, known.iter().copied()).map(|near| format!("; the nearest is {near}"));
         let help = format!("known are {}{}", known.join(", "), near.unwrap_or_default());
         self.note(path, format!("{} is no {sort}", value.stated()), help);
     }
@@ -381,23 +386,6 @@ impl Reading {
         }
         numbers
     }
-}
-
-/// The known name that looks most like another one, if any is near.
-fn nearest<'k>(name: &str, known: &[&'k str]) -> Option<&'k str> {
-    // A name much longer than all that are known is like none of them, and comparing it would take long.
-    if name.len() > 40 {
-        return None;
-    }
-    let reach = 1 + name.chars().count() / 3;
-    let away = |other: &str| strsim::damerau_levenshtein(&name.to_lowercase(), other);
-    known
-        .iter()
-        .copied()
-        .map(|other| (away(other), other))
-        .filter(|(d, other)| *d <= reach && *d < other.len())
-        .min_by_key(|(d, _)| *d)
-        .map(|(_, other)| other)
 }
 
 impl fmt::Display for Problem {

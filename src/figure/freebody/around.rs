@@ -33,7 +33,7 @@ pub(super) fn distinct(contact: &Contact) -> Vec<Point> {
 }
 
 /// The block whole, and of its neighbours what lies near.
-pub(super) fn view(analysis: &Analysis<'_>, block: BlockId, contacts: &[&Contact]) -> Bounds {
+pub(super) fn view(analysis: &Analysis, block: BlockId, contacts: &[&Contact]) -> Bounds {
     let own = analysis.scene.blocks[block.0].body.polygon.bounds();
     let near = own.grown(0.42 * own.diagonal());
     let mut view = own.grown(0.06 * own.diagonal());

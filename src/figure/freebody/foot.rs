@@ -23,7 +23,7 @@ impl Sheet<'_> {
     /// The verdict, the scale, what is left out, and what everything amounts to, from `top` down; and where it ends.
     pub(super) fn values(&self, top: f64, nameless: usize) -> (Group, f64) {
         let theme = &self.options.theme;
-        let (scene, found) = (self.analysis.scene, &self.analysis.frames[self.frame]);
+        let (scene, found) = (&self.analysis.scene, &self.analysis.frames[self.frame]);
         let mut group = Group::of_class("values");
         if !self.options.keys {
             return (group, top);
@@ -89,7 +89,7 @@ impl Sheet<'_> {
 
     /// An arrow that tells the scale; `None` where lengths tell nothing.
     fn scale(&self) -> Option<legend::Entry> {
-        let largest = largest(&self.forces, unit(self.analysis.scene, None), self.options);
+        let largest = largest(&self.forces, unit(&self.analysis.scene, None), self.options);
         let amount = round_below(largest);
         let longest = longest(self.analysis, self.block, &self.camera);
         (amount > 0.0).then(|| {
@@ -106,7 +106,7 @@ impl Sheet<'_> {
         }
         let unseen = self.arrows.iter().filter(|a| !Sheet::seen(a)).count();
         if unseen > 0 {
-            let largest = largest(&self.forces, unit(self.analysis.scene, None), self.options);
+            let largest = largest(&self.forces, unit(&self.analysis.scene, None), self.options);
             let longest = longest(self.analysis, self.block, &self.camera);
             let amount = quantity(round_above(largest * LEAST_SEEN / longest), "N");
             let forces = if unseen == 1 { "force" } else { "forces" };

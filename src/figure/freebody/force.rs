@@ -141,13 +141,13 @@ pub(super) fn detail(count: usize, options: &Options) -> Detail {
 
 /// Every force on a block: weight, loads, interfaces, robots, and what is missing.
 pub(super) fn forces(
-    analysis: &Analysis<'_>,
+    analysis: &Analysis,
     frame: usize,
     block: BlockId,
     contacts: &[&Contact],
     options: &Options,
 ) -> Vec<Force> {
-    let (scene, found) = (analysis.scene, &analysis.frames[frame]);
+    let (scene, found) = (&analysis.scene, &analysis.frames[frame]);
     let (theme, body) = (&options.theme, &scene.blocks[block.0]);
     let mut forces = Vec::new();
     let mut add = |symbol, what, from, at, (force, torque), colour| {
@@ -308,11 +308,11 @@ pub(super) fn forces(
 
 /// What a failure would have to give to a block: who, what, where, and force and torque.
 fn missing(
-    analysis: &Analysis<'_>,
+    analysis: &Analysis,
     failure: &Failure,
     block: BlockId,
 ) -> Option<(String, &'static str, Point, (Vector, f64))> {
-    let scene = analysis.scene;
+    let scene = &analysis.scene;
     let own = BodyId::Block(block);
     let between = |what: &'static str, bodies: [BodyId; 2], at: Point, force: Vector| {
         let (whose, force) = match bodies {
@@ -344,7 +344,7 @@ fn missing(
 }
 
 /// A body as the list has it.
-fn named(analysis: &Analysis<'_>, body: BodyId) -> String {
+fn named(analysis: &Analysis, body: BodyId) -> String {
     match body {
         BodyId::Ground(_) => "ground".to_owned(),
         BodyId::Block(_) => analysis.scene.name(body).to_owned(),
@@ -361,11 +361,11 @@ pub(super) fn largest(forces: &[Force], edge: f64, options: &Options) -> f64 {
 }
 
 /// Length of the longest arrow, pixels: on a small block long arrows would reach across each other.
-pub(super) fn longest(analysis: &Analysis<'_>, block: BlockId, camera: &Camera) -> f64 {
+pub(super) fn longest(analysis: &Analysis, block: BlockId, camera: &Camera) -> f64 {
     shorter(analysis, block, camera) * LONG
 }
 
-fn shorter(analysis: &Analysis<'_>, block: BlockId, camera: &Camera) -> f64 {
+fn shorter(analysis: &Analysis, block: BlockId, camera: &Camera) -> f64 {
     let bounds = analysis.scene.blocks[block.0].body.polygon.bounds();
     (camera.length(bounds.diagonal()) / 300.0).clamp(0.5, 1.0)
 }
@@ -373,7 +373,7 @@ fn shorter(analysis: &Analysis<'_>, block: BlockId, camera: &Camera) -> f64 {
 /// The arrows of the forces listed, as long as their forces; with [`Corners::All`] every force that may act, all of a
 /// kind equally long, for they only name it.
 pub(super) fn arrows(
-    analysis: &Analysis<'_>,
+    analysis: &Analysis,
     block: BlockId,
     contacts: &[&Contact],
     forces: &[Force],
@@ -382,7 +382,7 @@ pub(super) fn arrows(
 ) -> Vec<Arrow> {
     let name = &analysis.scene.blocks[block.0].id;
     let detail = detail(contacts.len(), options);
-    let edge = unit(analysis.scene, None);
+    let edge = unit(&analysis.scene, None);
     let largest = largest(forces, edge, options);
     let naming = options.corners == Corners::All;
     let shorter = shorter(analysis, block, camera);
@@ -480,7 +480,7 @@ pub(super) fn arrows(
             arrows.push(Arrow {
                 title: format!("Unit normal {} into block {name}", symbol.stated()),
                 symbol: Some(symbol),
-                at: super::around::aside(analysis.scene, contact, block, clear, single),
+                at: super::around::aside(&analysis.scene, contact, block, clear, single),
                 along: turned(normal, THIN),
                 turn: None,
                 width: THIN_WIDTH,

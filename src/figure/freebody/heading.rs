@@ -9,7 +9,7 @@ use crate::scene::BlockId;
 
 /// The lines above the drawing, with face and size.
 pub(super) fn heading(
-    analysis: &Analysis<'_>,
+    analysis: &Analysis,
     frame: usize,
     block: BlockId,
     options: &Options,
@@ -18,7 +18,7 @@ pub(super) fn heading(
     if !options.titles {
         return Vec::new();
     }
-    let scene = analysis.scene;
+    let scene = &analysis.scene;
     let mut which = format!("Block {} cut free", scene.blocks[block.0].id);
     if scene.frames.len() > 1 {
         let step = &scene.frames[frame].title;

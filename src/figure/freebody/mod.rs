@@ -73,7 +73,7 @@ const HATCH: f64 = 7.0;
 /// # Ok::<(), drystone::scene::Problems>(())
 /// ```
 pub fn freebody(
-    analysis: &Analysis<'_>,
+    analysis: &Analysis,
     frame: usize,
     block: BlockId,
     options: &Options,
@@ -87,7 +87,7 @@ pub fn freebody(
 }
 
 struct Sheet<'a> {
-    analysis: &'a Analysis<'a>,
+    analysis: &'a Analysis,
     options: &'a Options,
     frame: usize,
     block: BlockId,
@@ -106,12 +106,7 @@ struct Sheet<'a> {
 }
 
 impl<'a> Sheet<'a> {
-    fn of(
-        analysis: &'a Analysis<'a>,
-        frame: usize,
-        block: BlockId,
-        options: &'a Options,
-    ) -> Sheet<'a> {
+    fn of(analysis: &'a Analysis, frame: usize, block: BlockId, options: &'a Options) -> Sheet<'a> {
         let found = &analysis.frames[frame];
         let touches = |c: &&Contact| c.interface.bodies.contains(&BodyId::Block(block));
         let contacts: Vec<&Contact> = found.contacts.iter().filter(touches).collect();
@@ -214,7 +209,7 @@ impl<'a> Sheet<'a> {
 
     /// The bodies the block touches, ground hatched.
     fn neighbours(&self, ink: &mut Ink) -> Group {
-        let (scene, theme) = (self.analysis.scene, &self.options.theme);
+        let (scene, theme) = (&self.analysis.scene, &self.options.theme);
         let mut group = Group::of_class("neighbours");
         let page = self.camera.rect(self.view);
         group.clip = Some(page);
@@ -421,7 +416,7 @@ impl<'a> Sheet<'a> {
                 .items
                 .push(label.with(symbol.draw(placed.rect, NAME, theme.ink)).into());
         }
-        let scene = self.analysis.scene;
+        let scene = &self.analysis.scene;
         let others = neighbours(&self.contacts, self.block);
         let blocks = others.into_iter().filter(|b| matches!(b, BodyId::Block(_)));
         let mut blocks: Vec<BodyId> = blocks.collect();
@@ -484,7 +479,7 @@ impl<'a> Sheet<'a> {
 }
 
 /// Coordinates are reported where they stay readable: of a block on one edge, held by nobody.
-fn guided(analysis: &Analysis<'_>, frame: usize, block: BlockId, contacts: &[&Contact]) -> bool {
+fn guided(analysis: &Analysis, frame: usize, block: BlockId, contacts: &[&Contact]) -> bool {
     let holds = &analysis.scene.frames[frame].holds;
     contacts.len() == 1 && !holds.iter().any(|h| h.block == block)
 }

@@ -78,7 +78,7 @@ pub(super) fn rows(values: &[Vec<Piece>], size: f64, room: f64) -> Vec<Vec<Piece
 
 /// The centroid, the application points and the normals into the block.
 pub(super) fn places(
-    analysis: &Analysis<'_>,
+    analysis: &Analysis,
     block: BlockId,
     contacts: &[&Contact],
 ) -> Vec<Vec<Piece>> {

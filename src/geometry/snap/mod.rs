@@ -11,9 +11,9 @@ mod node;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use rstar::{AABB, RTree, RTreeObject};
+use rstar::{AABB, RTreeObject};
 
-use super::{Bounds, Flaw, Pieces, Point, Polygon, cross, overlap};
+use super::{Bounds, Flaw, Nearby, Pieces, Point, Polygon, cross, overlap};
 use line::Lines;
 use node::Nodes;
 
@@ -81,13 +81,15 @@ pub(crate) fn snapped(bodies: &[Rings], gaps: &[f64], fixed: &[bool], noise: f64
     let mut kept = fixed.to_vec();
     for _ in 0..ROUNDS {
         let mut outcome = attempt(bodies, gaps, &kept);
-        if outcome.moved.is_empty() {
-            // To the last bit.
+        let fresh: Vec<usize> = if outcome.moved.is_empty() {
+            // To the last bit, so that nothing can have come out worse.
             outcome.bodies = bodies.to_vec();
-        }
-        let wrong = spoilt(bodies, &outcome.bodies, gaps, noise);
-        let fresh: Vec<usize> = wrong.into_iter().filter(|b| !kept[*b]).collect();
-        if fresh.is_empty() || outcome.moved.is_empty() {
+            Vec::new()
+        } else {
+            let wrong = spoilt(bodies, &outcome.bodies, gaps, noise);
+            wrong.into_iter().filter(|b| !kept[*b]).collect()
+        };
+        if fresh.is_empty() {
             let kept = (0..bodies.len()).filter(|b| kept[*b] && !fixed[*b]);
             outcome.kept = kept.collect();
             return outcome;
@@ -127,7 +129,7 @@ fn envelope(b: Bounds) -> AABB<[f64; 2]> {
 fn attempt(bodies: &[Rings], gaps: &[f64], kept: &[bool]) -> Outcome {
     let mut nodes = Nodes::of(bodies, gaps, kept);
     let sides = sides(bodies, &nodes);
-    let tree = RTree::bulk_load(sides);
+    let nearby = Nearby::of(sides);
     let mut touching: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); bodies.len()];
     for node in &nodes.all {
         for a in &node.bodies {
@@ -143,7 +145,7 @@ fn attempt(bodies: &[Rings], gaps: &[f64], kept: &[bool]) -> Outcome {
             max: node.at,
         }
         .grown(node.gap);
-        for side in tree.locate_in_envelope_intersecting(envelope(around)) {
+        for side in nearby.near(envelope(around)) {
             if node.bodies.contains(&side.body) {
                 continue;
             }
@@ -279,9 +281,9 @@ fn spoilt(before: &[Rings], after: &[Rings], gaps: &[f64], noise: f64) -> BTreeS
         .iter()
         .enumerate()
         .filter_map(|(i, p)| p.as_ref().map(|p| Boxed(p.bounds(), i)));
-    let tree = RTree::bulk_load(entries.collect());
-    for Boxed(own, a) in &tree {
-        for Boxed(_, b) in tree.locate_in_envelope_intersecting(envelope(*own)) {
+    let nearby = Nearby::of(entries.collect());
+    for Boxed(own, a) in nearby.all() {
+        for Boxed(_, b) in nearby.near(envelope(*own)) {
             if b <= a {
                 continue;
             }

@@ -1,10 +1,10 @@
 //! [`Nodes`]: places that corners of several bodies share.
 
+use rstar::AABB;
 use rstar::primitives::GeomWithData;
-use rstar::{AABB, RTree};
 
 use super::Rings;
-use crate::geometry::Point;
+use crate::geometry::{Nearby, Point};
 
 /// A place and the corners there.
 pub(super) struct Node {
@@ -108,13 +108,13 @@ fn near(corners: &[Loose], gaps: &[f64]) -> Vec<(f64, usize, usize)> {
         .iter()
         .enumerate()
         .map(|(i, c)| GeomWithData::new([c.at.x, c.at.y], i));
-    let tree = RTree::bulk_load(points.collect());
+    let nearby = Nearby::of(points.collect());
     let mut pairs = Vec::new();
     for (i, corner) in corners.iter().enumerate() {
         let (x, y) = (corner.at.x, corner.at.y);
         let gap = gaps[corner.body];
         let around = AABB::from_corners([x - gap, y - gap], [x + gap, y + gap]);
-        for other in tree.locate_in_envelope(around) {
+        for other in nearby.near(around) {
             let j = other.data;
             let distance = (corners[j].at - corner.at).norm();
             let gap = gap.min(gaps[corners[j].body]);

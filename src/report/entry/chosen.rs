@@ -9,7 +9,7 @@ use crate::analysis::Analysis;
 pub(super) const MOST: usize = 24;
 
 /// Whether each step of an analysis is drawn.
-pub(super) fn chosen(analysis: &Analysis<'_>) -> Vec<bool> {
+pub(super) fn chosen(analysis: &Analysis) -> Vec<bool> {
     let verdicts: Vec<_> = analysis.frames.iter().map(|f| f.verdict).collect();
     let count = verdicts.len();
     if count <= MOST {
@@ -37,7 +37,7 @@ pub(super) fn chosen(analysis: &Analysis<'_>) -> Vec<bool> {
 }
 
 /// What a page says of the steps that it does not draw; `None` where it draws all.
-pub(super) fn left_out(analysis: &Analysis<'_>) -> Option<String> {
+pub(super) fn left_out(analysis: &Analysis) -> Option<String> {
     let count = analysis.frames.len();
     (count > MOST).then(|| {
         format!(

@@ -32,15 +32,15 @@ const RING: f64 = 9.0;
 
 /// One of two scenes that are compared.
 #[derive(Clone, Copy, Debug)]
-pub struct Side<'s, 'a> {
+pub struct Side<'s> {
     /// Its file.
     pub file: File<'s>,
     /// What was found out about it.
-    pub analysis: &'s Analysis<'a>,
+    pub analysis: &'s Analysis,
 }
 
 /// What a report tells of two scenes beside each other.
-pub fn compared(sides: [Side<'_, '_>; 2], wanted: &Wanted) -> Entry {
+pub fn compared(sides: [Side<'_>; 2], wanted: &Wanted) -> Entry {
     let [was, is] = sides;
     let options = step::options(wanted);
     let mut figures = sides.map(|side| {
@@ -112,8 +112,8 @@ fn only_in(counts: [usize; 2], number: usize) -> &'static str {
 }
 
 /// A step that one of the two has not.
-fn alone(side: Side<'_, '_>, number: usize, drawing: Option<Drawing>, why: &str) -> Step {
-    let (scene, found) = (side.analysis.scene, &side.analysis.frames[number]);
+fn alone(side: Side<'_>, number: usize, drawing: Option<Drawing>, why: &str) -> Step {
+    let (scene, found) = (&side.analysis.scene, &side.analysis.frames[number]);
     Step {
         plates: drawing.map(|d| plate(side, found, d)).into_iter().collect(),
         ..bare(scene, number, found.verdict, why.to_owned())
@@ -141,7 +141,7 @@ fn bare(scene: &Scene, number: usize, verdict: Verdict, sentence: String) -> Ste
     }
 }
 
-fn plate(side: Side<'_, '_>, found: &FrameAnalysis, drawing: Drawing) -> Plate {
+fn plate(side: Side<'_>, found: &FrameAnalysis, drawing: Drawing) -> Plate {
     let scale = "arrows to its own scale";
     let name = line(side.file.name);
     Plate {
@@ -151,7 +151,7 @@ fn plate(side: Side<'_, '_>, found: &FrameAnalysis, drawing: Drawing) -> Plate {
 }
 
 /// A step that both have.
-fn both(sides: [Side<'_, '_>; 2], number: usize, drawings: [Drawing; 2], wanted: &Wanted) -> Step {
+fn both(sides: [Side<'_>; 2], number: usize, drawings: [Drawing; 2], wanted: &Wanted) -> Step {
     let [was, is] = sides;
     let [then, now] = sides.map(|side| &side.analysis.frames[number]);
     let shape = Shapes::of(sides, number);
@@ -170,14 +170,14 @@ fn both(sides: [Side<'_, '_>; 2], number: usize, drawings: [Drawing; 2], wanted:
     });
     let sentence = stated.join("; ");
     let mut step = bare(
-        is.analysis.scene,
+        &is.analysis.scene,
         number,
         now.verdict,
         format!("{}.", capital(&line(&sentence))),
     );
     for (side, found, scene) in [
-        ("First", then, was.analysis.scene),
-        ("Second", now, is.analysis.scene),
+        ("First", then, &was.analysis.scene),
+        ("Second", now, &is.analysis.scene),
     ] {
         let described = line(&verdict::sentence(scene, found));
         step.remarks.push(format!("{side}: {described}"));
@@ -186,7 +186,7 @@ fn both(sides: [Side<'_, '_>; 2], number: usize, drawings: [Drawing; 2], wanted:
         totals(then, now),
         margins(sides, number),
         shape.grid(),
-        grid(is.analysis.scene, &forces),
+        grid(&is.analysis.scene, &forces),
     ]
     .into_iter()
     .filter(|g| !g.lines.is_empty())
@@ -198,7 +198,7 @@ fn both(sides: [Side<'_, '_>; 2], number: usize, drawings: [Drawing; 2], wanted:
         changed.map(|f| f.at[side]).collect::<Vec<Point>>()
     });
     for (side, (found, mut drawing)) in [then, now].into_iter().zip(drawings).enumerate() {
-        let scene = sides[side].analysis.scene;
+        let scene = &sides[side].analysis.scene;
         mark(&mut drawing, scene, outlines[side], &rings[side], colour);
         step.plates.push(plate(sides[side], found, drawing));
     }
@@ -231,16 +231,16 @@ struct Shapes {
 }
 
 impl Shapes {
-    fn of(sides: [Side<'_, '_>; 2], number: usize) -> Shapes {
-        let blocks = |side: Side<'_, '_>| -> BTreeMap<String, usize> {
-            let scene = side.analysis.scene;
+    fn of(sides: [Side<'_>; 2], number: usize) -> Shapes {
+        let blocks = |side: Side<'_>| -> BTreeMap<String, usize> {
+            let scene = &side.analysis.scene;
             let placed = scene.frames[number].placed.iter();
             placed
                 .map(|id| (scene.blocks[id.0].id.clone(), id.0))
                 .collect()
         };
         let [then, now] = sides.map(blocks);
-        let [was, is] = sides.map(|side| side.analysis.scene);
+        let [was, is] = sides.map(|side| &side.analysis.scene);
         let reach = reach(is).max(reach(was));
         let mut shapes = Shapes::default();
         for (id, before) in &then {
@@ -354,11 +354,11 @@ impl Shared {
 }
 
 /// The interfaces that both frames have, by the names of their bodies and, of several between two bodies, by their order.
-fn forces(sides: [Side<'_, '_>; 2], number: usize) -> Vec<Shared> {
+fn forces(sides: [Side<'_>; 2], number: usize) -> Vec<Shared> {
     let key = |scene: &Scene, contact: &Contact| {
         contact.interface.bodies.map(|b| scene.name(b).to_owned())
     };
-    let [was, is] = sides.map(|side| (side.analysis.scene, &side.analysis.frames[number]));
+    let [was, is] = sides.map(|side| (&side.analysis.scene, &side.analysis.frames[number]));
     let mut before: BTreeMap<[String; 2], Vec<&Contact>> = BTreeMap::new();
     for contact in &was.1.contacts {
         before.entry(key(was.0, contact)).or_default().push(contact);
@@ -414,10 +414,10 @@ fn totals(then: &FrameAnalysis, now: &FrameAnalysis) -> Grid {
     grid
 }
 
-fn margins(sides: [Side<'_, '_>; 2], number: usize) -> Grid {
+fn margins(sides: [Side<'_>; 2], number: usize) -> Grid {
     let mut grid = Grid::new("Margins", &["margin", "first", "second"]);
     let [first, second] =
-        sides.map(|side| bullet::of(side.analysis.scene, &side.analysis.frames[number]));
+        sides.map(|side| bullet::of(&side.analysis.scene, &side.analysis.frames[number]));
     for bullet in &first {
         let same = second.iter().find(|b| b.name == bullet.name);
         let after = same.map_or("–".to_owned(), |b| b.words.clone());

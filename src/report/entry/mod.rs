@@ -112,7 +112,7 @@ impl Chart {
 
 impl Entry {
     /// What a report tells of an analysis.
-    pub fn of(file: File<'_>, analysis: &Analysis<'_>, wanted: &Wanted) -> Entry {
+    pub fn of(file: File<'_>, analysis: &Analysis, wanted: &Wanted) -> Entry {
         let steps = step::all(analysis, wanted);
         Entry {
             row: Row::of(file.name, analysis),
@@ -155,13 +155,13 @@ impl Entry {
 }
 
 /// The object of `check --json` in one line, with the file it was read from.
-fn result(name: &str, analysis: &Analysis<'_>, timing: Timing) -> String {
+fn result(name: &str, analysis: &Analysis, timing: Timing) -> String {
     let object = to_json_of(name, analysis, timing, Layout::OneLine);
     object.trim_end().to_owned()
 }
 
 /// The commands that make a scene's figures again.
-fn commands(name: &str, analysis: &Analysis<'_>, wanted: &Wanted) -> Vec<(String, String)> {
+fn commands(name: &str, analysis: &Analysis, wanted: &Wanted) -> Vec<(String, String)> {
     let theme = wanted
         .theme_name
         .as_ref()
@@ -185,7 +185,7 @@ fn commands(name: &str, analysis: &Analysis<'_>, wanted: &Wanted) -> Vec<(String
 }
 
 /// Charts over the steps of a scene.
-fn courses(analysis: &Analysis<'_>) -> Vec<Chart> {
+fn courses(analysis: &Analysis) -> Vec<Chart> {
     let frames = &analysis.frames;
     if frames.len() < 2 {
         return Vec::new();

@@ -53,8 +53,8 @@ pub struct Thumbnail {
 
 impl Row {
     /// The row of an analysis.
-    pub fn of(name: &str, analysis: &Analysis<'_>) -> Row {
-        let scene = analysis.scene;
+    pub fn of(name: &str, analysis: &Analysis) -> Row {
+        let scene = &analysis.scene;
         let frames = &analysis.frames;
         let mut bullets = Vec::new();
         for frame in frames {
@@ -126,8 +126,8 @@ pub(super) fn file_name(name: &str) -> String {
     text::line(if stem == "-" { "standard input" } else { stem })
 }
 
-fn thumbnail(analysis: &Analysis<'_>, placed: &[usize]) -> Thumbnail {
-    let scene = analysis.scene;
+fn thumbnail(analysis: &Analysis, placed: &[usize]) -> Thumbnail {
+    let scene = &analysis.scene;
     let polygon = |id: usize| &scene.blocks[id].body.polygon;
     let bounds = placed.iter().map(|id| polygon(*id).bounds());
     let Some(bounds) = bounds.reduce(Bounds::union) else {

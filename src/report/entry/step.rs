@@ -69,7 +69,7 @@ pub(super) fn options(wanted: &Wanted) -> Options {
 }
 
 /// The steps of an analysis.
-pub(super) fn all(analysis: &Analysis<'_>, wanted: &Wanted) -> Vec<Step> {
+pub(super) fn all(analysis: &Analysis, wanted: &Wanted) -> Vec<Step> {
     let options = options(wanted);
     let chosen = chosen(analysis);
     let drawn = |frame: &usize| chosen[*frame];
@@ -83,7 +83,7 @@ pub(super) fn all(analysis: &Analysis<'_>, wanted: &Wanted) -> Vec<Step> {
         false => figure::panels_of(analysis, Kind::Mechanism, &options, &falling),
     }
     .into_iter();
-    let scene = analysis.scene;
+    let scene = &analysis.scene;
     let mut steps = Vec::with_capacity(analysis.frames.len());
     for (number, found) in analysis.frames.iter().enumerate() {
         let mut step = of(scene, number, found, (wanted, chosen[number]));

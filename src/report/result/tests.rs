@@ -18,6 +18,7 @@ fn scene() -> Scene {
         friction: 0.5,
         fill: None,
         gap: 3e-6,
+        rounding: 0.0,
     };
     let block = |id: &str| Block {
         id: id.into(),
@@ -204,7 +205,7 @@ const LINES: &str = r#"{
 fn the_names_are_the_contract_and_stay() {
     let scene = scene();
     let analysis = Analysis {
-        scene: &scene,
+        scene: scene.into(),
         frames: vec![frame()],
         notes: vec![],
     };
@@ -233,7 +234,7 @@ fn what_is_worth_saying_is_said() {
     };
     let json = to_json(
         &Analysis {
-            scene: &scene,
+            scene: scene.into(),
             frames: vec![frame],
             notes: vec![],
         },

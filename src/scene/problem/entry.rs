@@ -1,7 +1,7 @@
 //! What is reported of keys and values that are not what a scene file holds.
 
 use super::{Code, Wording, choice, say, shortened};
-use crate::scene::name::nearest;
+use crate::text::nearest;
 
 pub(in crate::scene) fn wrong_type(expected: &str, found: &str) -> Wording {
     say(

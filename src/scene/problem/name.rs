@@ -1,7 +1,7 @@
 //! What is reported of names and ids.
 
 use super::{Code, Wording, say, shortened};
-use crate::scene::name::nearest;
+use crate::text::nearest;
 
 pub(in crate::scene) fn unknown_name(sort: &str, name: &str, known: &[&str]) -> Wording {
     let help = match nearest(name, known.iter().copied()) {

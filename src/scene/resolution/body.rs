@@ -116,6 +116,7 @@ impl Resolution<'_> {
                 .unwrap_or(self.friction),
             fill: fill.or(values.and_then(|v| v.fill)),
             gap: 0.0,
+            rounding: 0.0,
         })
     }
 

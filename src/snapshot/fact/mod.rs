@@ -81,7 +81,7 @@ impl Facts {
     /// assert!(words.contains(&"interface a–ground: N 3 → 4.2 N, N at its ends 1.5, 1.5 → 2.1, 2.1 N"), "{words:?}");
     /// assert!(described(1.2).changes(&described(1.2 + 1e-9)).is_empty());
     /// ```
-    pub fn of(analysis: &Analysis<'_>, digits: usize) -> Facts {
+    pub fn of(analysis: &Analysis, digits: usize) -> Facts {
         write::of(analysis, digits)
     }
 

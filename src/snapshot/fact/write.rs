@@ -22,8 +22,8 @@ struct Places {
     torque: Rounding,
 }
 
-pub(super) fn of(analysis: &Analysis<'_>, digits: usize) -> Facts {
-    let scene = analysis.scene;
+pub(super) fn of(analysis: &Analysis, digits: usize) -> Facts {
+    let scene = &analysis.scene;
     let blocks = scene.blocks.iter().map(|b| b.weight.abs());
     let loads = scene.loads.iter().map(|l| l.force.norm());
     let largest = blocks.chain(loads).fold(0.0, f64::max);

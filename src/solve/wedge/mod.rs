@@ -6,8 +6,10 @@
 //! slide is ruled out by multipliers that show the balance and the springs' law to contradict each other ([`tree`]).
 
 mod band;
+mod law;
 mod spring;
 mod tree;
+mod tresca;
 
 use super::{Conditioning, Effort, Status, dual};
 use crate::program::{Column, Force, Program, columns};
@@ -75,6 +77,9 @@ pub enum Doubt {
 /// Stiffness along a face, in parts of a point's, tried beside 1 where springs of 1 find no rest.
 const ALONG: [f64; 4] = [0.3, 3.0, 0.05, 20.0];
 
+/// Turns of convex programs take long for more blocks than this.
+const MOST_BY_TURNS: usize = 400;
+
 /// A velocity below this is none.
 const STILL: f64 = 1e-6;
 
@@ -101,7 +106,11 @@ pub fn reach(program: &Program, given: &[[f64; 3]]) -> Reach {
         Ok(_) => return Reach::FromRest,
         Err(motion) => motion,
     };
-    if !given.is_empty() && Springs::new(program, 1.0).settled().is_ok() {
+    let springs = Springs::new(program, 1.0);
+    if !given.is_empty() && springs.settled().is_ok() {
+        return Reach::FromRest;
+    }
+    if program.blocks <= MOST_BY_TURNS && springs.settled_by_turns().is_some() {
         return Reach::FromRest;
     }
     let found = search(program);

@@ -10,15 +10,6 @@
 use super::band::{Band, order};
 use crate::program::{Column, Force, Program, columns, sticking_columns};
 
-/// Parts of a block's own load that may stay unbalanced: what a verdict allows.
-const BALANCED: f64 = 1e-7;
-
-/// Parts of the forces on a block below which its balance is rounding.
-const ROUNDING: f64 = 1e-13;
-
-/// Parts of a contact's forces by which the law may be missed.
-const LAWFUL: f64 = 1e-8;
-
 /// How one face slides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Slide {
@@ -72,7 +63,7 @@ pub(super) struct Grip {
     /// Its limit.
     pub(super) limit: f64,
     /// What it is asked to give.
-    given: f64,
+    pub(super) given: f64,
 }
 
 /// One application point.
@@ -92,7 +83,7 @@ pub(super) struct Springs<'a> {
     pub(super) tangents: Vec<Column>,
     pub(super) grips: Vec<Grip>,
     /// Stiffness along a face in parts of a point's.
-    along: f64,
+    pub(super) along: f64,
     place: Vec<usize>,
     reach: usize,
 }
@@ -204,7 +195,7 @@ impl<'a> Springs<'a> {
     }
 
     /// The stiffness of a pattern, and `ground` more for every displacement.
-    fn stiffness(&self, pattern: &Pattern, ground: f64) -> Band {
+    pub(super) fn stiffness(&self, pattern: &Pattern, ground: f64) -> Band {
         let mut band = Band::new(3 * self.program.blocks, self.reach);
         let mut enter = |left: &Column, right: &Column, by: f64| {
             for (i, a) in left.entries() {
@@ -249,7 +240,7 @@ impl<'a> Springs<'a> {
         3 * self.place[row / 3] + row % 3
     }
 
-    fn displaced(&self, stiffness: &Band, asked: &[f64]) -> Vec<f64> {
+    pub(super) fn displaced(&self, stiffness: &Band, asked: &[f64]) -> Vec<f64> {
         let mut right = vec![0.0; asked.len()];
         for (row, value) in asked.iter().enumerate() {
             right[self.row(row)] = -value;
@@ -340,163 +331,6 @@ impl<'a> Springs<'a> {
         false
     }
 
-    /// The rest that a pattern leads to, if it obeys the law.
-    ///
-    /// Forces are corrected by what they leave unbalanced, so that those on a light block become as good as its own load
-    /// wants them, whatever the heavy ones displace. Where a pattern leaves a motion free, it stays as it is in `u`.
-    pub(super) fn rest(&self, pattern: &Pattern, u: &[f64]) -> Option<Rest> {
-        let stiffness = self.stiffness(pattern, 1e-11);
-        let mut gap: Vec<f64> = self.points.iter().map(|p| p.column.dot(u)).collect();
-        let mut slip: Vec<f64> = self.tangents.iter().map(|t| t.dot(u)).collect();
-        let mut yielded: Vec<f64> = self.grips.iter().map(|g| g.column.dot(u)).collect();
-        for _ in 0..REFINEMENTS {
-            let rest = self.forces(pattern, &gap, &slip, &yielded);
-            let left = self.left(&rest);
-            if self.balances(&rest, &left) {
-                return self.obeys(&rest, &gap, &slip).then_some(rest);
-            }
-            let change = self.displaced(&stiffness, &left);
-            if change.iter().any(|v| !v.is_finite()) {
-                return None;
-            }
-            for (gap, point) in gap.iter_mut().zip(&self.points) {
-                *gap += point.column.dot(&change);
-            }
-            for (slip, tangent) in slip.iter_mut().zip(&self.tangents) {
-                *slip += tangent.dot(&change);
-            }
-            for (yielded, grip) in yielded.iter_mut().zip(&self.grips) {
-                *yielded += grip.column.dot(&change);
-            }
-        }
-        None
-    }
-
-    fn forces(&self, pattern: &Pattern, gap: &[f64], slip: &[f64], yielded: &[f64]) -> Rest {
-        let mut sum = vec![0.0; self.tangents.len()];
-        let mut normal = vec![0.0; self.points.len()];
-        for (k, point) in self.points.iter().enumerate() {
-            if pattern.pressed[k] {
-                normal[k] = -gap[k];
-                sum[point.contact] += normal[k];
-            }
-        }
-        let friction = pattern
-            .slides
-            .iter()
-            .enumerate()
-            .map(|(k, slides)| match slides {
-                Slide::Sticks => -self.along * slip[k],
-                _ => slides.friction() * self.program.contacts[k].friction * sum[k],
-            });
-        let grips = self.grips.iter().zip(&pattern.limits).zip(yielded);
-        Rest {
-            friction: friction.collect(),
-            grips: grips
-                .map(|((grip, limit), yielded)| match *limit {
-                    0.0 => grip.given - yielded,
-                    limit => limit * grip.limit,
-                })
-                .collect(),
-            normal,
-        }
-    }
-
-    /// What forces leave unbalanced.
-    fn left(&self, rest: &Rest) -> Vec<f64> {
-        let mut left = self.program.loads.clone();
-        for (grip, force) in self.grips.iter().zip(&rest.grips) {
-            grip.column.add_to(&mut left, -force);
-        }
-        for (point, force) in self.points.iter().zip(&rest.normal) {
-            point.column.add_to(&mut left, -force);
-        }
-        for (tangent, force) in self.tangents.iter().zip(&rest.friction) {
-            tangent.add_to(&mut left, -force);
-        }
-        left
-    }
-
-    /// Per block, its own load and the sum of the forces on it.
-    fn sizes(&self, rest: &Rest) -> Vec<(f64, f64)> {
-        let own = self
-            .program
-            .loads
-            .chunks(3)
-            .map(|r| (r.iter().fold(0.0, |m: f64, v| m.max(v.abs())), 0.0));
-        let mut sizes: Vec<(f64, f64)> = own.collect();
-        let mut add = |column: &Column, force: f64| {
-            for (row, value) in column.entries() {
-                sizes[row / 3].1 += (value * force).abs();
-            }
-        };
-        self.points
-            .iter()
-            .zip(&rest.normal)
-            .for_each(|(p, f)| add(&p.column, *f));
-        self.tangents
-            .iter()
-            .zip(&rest.friction)
-            .for_each(|(t, f)| add(t, *f));
-        self.grips
-            .iter()
-            .zip(&rest.grips)
-            .for_each(|(g, f)| add(&g.column, *f));
-        sizes
-    }
-
-    fn balances(&self, rest: &Rest, left: &[f64]) -> bool {
-        self.sizes(rest)
-            .iter()
-            .zip(left.chunks(3))
-            .all(|((own, forces), left)| {
-                let allowed = BALANCED * own + ROUNDING * forces;
-                left.iter().all(|v| v.abs() <= allowed)
-            })
-    }
-
-    fn obeys(&self, rest: &Rest, gap: &[f64], slip: &[f64]) -> bool {
-        let sizes = self.sizes(rest);
-        let contacts = &self.program.contacts;
-        let mut normal = vec![0.0; contacts.len()];
-        self.points
-            .iter()
-            .zip(&rest.normal)
-            .for_each(|(p, n)| normal[p.contact] += n);
-        let allowed: Vec<f64> = contacts
-            .iter()
-            .enumerate()
-            .map(|(k, c)| {
-                let lighter = c
-                    .from
-                    .as_ref()
-                    .map_or(sizes[c.on.0].0, |f| sizes[c.on.0].0.min(sizes[f.0].0));
-                LAWFUL * lighter + 1e-3 * LAWFUL * (normal[k].abs() + rest.friction[k].abs())
-            })
-            .collect();
-        let points = self
-            .points
-            .iter()
-            .zip(gap)
-            .zip(&rest.normal)
-            .all(|((p, gap), normal)| {
-                let allowed = allowed[p.contact];
-                *normal >= -allowed && (normal + gap) >= -allowed
-            });
-        let limits = self
-            .grips
-            .iter()
-            .zip(&rest.grips)
-            .all(|(g, f)| f.abs() <= g.limit * (1.0 + LAWFUL));
-        points
-            && limits
-            && contacts.iter().enumerate().all(|(k, c)| {
-                let most = c.friction * normal[k].max(0.0);
-                let wanted = (-self.along * slip[k]).clamp(-most, most);
-                (rest.friction[k] - wanted).abs() <= allowed[k] * (1.0 + c.friction)
-            })
-    }
-
     /// The rest reached as springs to the ground soften until they carry nothing; else the way they go at the end,
     /// largest displacement 1.
     pub(super) fn settled(&self) -> Result<Rest, Vec<f64>> {
@@ -523,6 +357,3 @@ const WHOLE: usize = 15;
 /// How often the springs to the ground soften, and to which part.
 const SOFTENINGS: usize = 22;
 const SOFTENING: f64 = 0.3;
-
-/// Corrections of the forces.
-const REFINEMENTS: usize = 12;

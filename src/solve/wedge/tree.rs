@@ -23,7 +23,7 @@ const FAR: f64 = 1e6;
 const CORRECTIONS: usize = 6;
 
 /// Parts of the loads by which a contradiction must exceed what a verdict allows.
-const BAND: f64 = 1e-6;
+const BAND: f64 = 2e-7;
 
 /// What came of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 
 use dashu_ratio::RBig;
-use drystone::proof::Proof;
+use drystone::internals::proof::Proof;
 use drystone::scene::{Hold, Scene};
 
 use super::simplex::{LinearProgram, Row};

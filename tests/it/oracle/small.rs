@@ -48,7 +48,8 @@ pub fn scene(number: u64) -> Value {
         let exponent = chance.one_of(&[0, 1, 2, 3, 4, 6, 8, 10, 12]);
         chance.whole(1, 9) as f64 * libm::exp10(-f64::from(exponent))
     };
-    let binary = |chance: &mut Chance| libm::exp2(-(chance.whole(0, 12) as f64));
+    // To a millionth of a brick.
+    let binary = |chance: &mut Chance| libm::exp2(-(chance.whole(0, 20) as f64));
     let courses = chance.whole(1, 6);
     let mut x = 0.0;
     for k in 0..courses {
@@ -82,9 +83,9 @@ pub fn scene(number: u64) -> Value {
                 }
                 break;
             }
-            // Under a brick as one of its supports, no lower than what may be a gap in a drawing.
+            // Under a brick as one of its supports.
             3 if stone == 0 => {
-                let height = size.clamp(0.03125, 0.5);
+                let height = size.min(0.5);
                 pile.add(x + 0.125, top, height, height, own);
                 let other = light(&mut chance);
                 pile.add(x + 1.5, top, height, height, other);

@@ -1,7 +1,7 @@
 //! Where bodies touch, found with no tolerance at all: edges on one line to the last bit, facing, with a stretch in common.
 
 use dashu_ratio::RBig;
-use drystone::interface::Interfaces;
+use drystone::internals::interface::Interfaces;
 use drystone::scene::{BlockId, Body, BodyId, Scene};
 
 /// A place or a direction, exactly.

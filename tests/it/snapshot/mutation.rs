@@ -19,7 +19,7 @@ struct Take {
 }
 
 impl Take {
-    fn of(analysis: &Analysis<'_>, drawing: &Drawing) -> Take {
+    fn of(analysis: &Analysis, drawing: &Drawing) -> Take {
         let svg = svg::write(drawing);
         let raster = png::rgba(&svg, png::Size::Natural).expect("a picture");
         Take {
@@ -302,7 +302,7 @@ fn noise(state: &mut u64) -> u64 {
 }
 
 /// Every force of an analysis off by up to a billionth part of it, as from another solver.
-fn jittered(analysis: &mut Analysis<'_>, state: &mut u64) {
+fn jittered(analysis: &mut Analysis, state: &mut u64) {
     let mut near = |value: &mut f64| {
         let part = (noise(state) % 2001) as f64 / 1000.0 - 1.0;
         *value += part * 1e-9 * value.abs().max(1e-3);
@@ -356,11 +356,10 @@ fn forces_off_by_a_billionth_are_no_change_in_facts_or_drawing() {
         let analysis = Analysis::of(scene);
         let mut other = analysis.clone();
         jittered(&mut other, &mut state);
-        let facts =
-            |a: &Analysis<'_>| Facts::read(&Facts::of(a, DIGITS).text()).expect("read back");
+        let facts = |a: &Analysis| Facts::read(&Facts::of(a, DIGITS).text()).expect("read back");
         let changes = facts(&analysis).changes(&facts(&other));
         assert!(changes.is_empty(), "{name}: {changes:#?}");
-        let drawn = |a: &Analysis<'_>| svg::write(&figure::forces(a, &Options::default()));
+        let drawn = |a: &Analysis| svg::write(&figure::forces(a, &Options::default()));
         let changes = element::changes(&drawn(&analysis), &drawn(&other)).expect("SVG");
         assert!(changes.is_empty(), "{name}: {changes:#?}");
     }

@@ -3,10 +3,18 @@
 
 use super::Attempt;
 use crate::program::Program;
-use crate::solve::{SolverSettings, balance_in};
+use crate::solve::{Balance, SolverSettings, balance_at_first_look, balance_in};
 
 pub(super) fn attempt(program: &Program, settings: SolverSettings) -> Attempt {
-    let solved = balance_in(program, settings);
+    of(balance_in(program, settings))
+}
+
+/// Given up early: near the edge, where it may end without a status, others decide sooner.
+pub(super) fn first_look(program: &Program, settings: SolverSettings) -> Attempt {
+    of(balance_at_first_look(program, settings))
+}
+
+fn of(solved: Balance) -> Attempt {
     Attempt {
         forces: solved.forces,
         motion: solved.motion,

@@ -41,6 +41,7 @@ pub(super) fn json(text: &str) -> Result<Value, Problem> {
 }
 
 /// Reads a text as TOML.
+#[cfg(feature = "toml")]
 pub(super) fn toml(text: &str) -> Result<Value, Problem> {
     toml::from_str(text).map_err(|error| {
         let before = error.span().and_then(|span| text.get(..span.start));

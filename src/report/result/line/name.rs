@@ -4,7 +4,7 @@
 use std::sync::LazyLock;
 
 use crate::report::result::key::{KEYS, Kind};
-use crate::scene;
+use crate::text;
 
 /// A name and those of its parts, or of the parts of each of its entries.
 #[derive(Debug)]
@@ -65,7 +65,7 @@ pub(super) fn find(typed: &str) -> Option<Vec<&'static str>> {
 /// The nearest known name.
 pub(super) fn nearest(typed: &str) -> Option<String> {
     let known = all();
-    scene::nearest(typed, known.iter().map(String::as_str)).map(str::to_owned)
+    text::nearest(typed, known.iter().map(String::as_str)).map(str::to_owned)
 }
 
 /// Every name, parts behind dots.

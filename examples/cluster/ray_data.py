@@ -1,0 +1,133 @@
+"""Runs a corpus through `drystone batch` on Ray Data and writes Parquet that can be queried.
+
+    pip install "ray[data]" pyarrow
+    python3 examples/cluster/corpus.py 1000000 > corpus.ndjson
+    python3 examples/cluster/ray_data.py corpus.ndjson answers.parquet --drystone target/release/drystone
+
+The corpus is cut into parts at line ends; every part goes through one process of drystone, line in, line out. A part whose
+process dies gives too few lines: its task fails and Ray runs it again from its beginning, as it does when a whole worker dies,
+so that in the end every scene is answered exactly once. --kill N ends N of the processes in the middle of their work, to see
+just that. The corpus has to lie where every machine can read it.
+"""
+
+import argparse
+import json
+import os
+import pathlib
+import random
+import signal
+import subprocess
+import tempfile
+import threading
+import time
+
+import pyarrow as pa
+import pyarrow.compute as pc
+import pyarrow.parquet as pq
+import ray
+
+
+def parts(corpus, lines_each):
+    """Where the parts lie in the file: the number of their first line, their offset and their length in bytes."""
+    found = []
+    with open(corpus, "rb") as file:
+        first, offset, count, length = 1, 0, 0, 0
+        for line in file:
+            count += 1
+            length += len(line)
+            if count == lines_each:
+                found.append({"first": first, "offset": offset, "length": length, "lines": count})
+                first, offset, count, length = first + count, offset + length, 0, 0
+        if count:
+            found.append({"first": first, "offset": offset, "length": length, "lines": count})
+    return found
+
+
+def answered(corpus, binary, fields, pids):
+    """A function for map_batches: one part in, a table with a row per line out."""
+
+    def part(batch):
+        first, offset, length, lines = (int(batch[key][0]) for key in ("first", "offset", "length", "lines"))
+        with open(corpus, "rb") as file:
+            file.seek(offset)
+            text = file.read(length)
+        process = subprocess.Popen(
+            [binary, "batch", "--jobs", "1", "--quiet", "--fields", fields],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+        )
+        mark = pathlib.Path(pids) / str(process.pid)
+        mark.touch()
+        output, _ = process.communicate(text)
+        mark.unlink(missing_ok=True)
+        answers = [json.loads(line) for line in output.splitlines() if line.endswith(b"}")]
+        # 0 to 3 say what the verdicts are; whatever else ends a process, this part is not answered.
+        if process.returncode not in (0, 1, 2, 3) or len(answers) != lines:
+            raise RuntimeError(f"drystone ended with {process.returncode} after {len(answers)} of {lines} lines")
+        problems = [answer.get("problems") for answer in answers]
+        return pa.table({
+            "number": pa.array(range(first, first + lines), pa.int64()),
+            "scene": pa.array([answer.get("scene") for answer in answers], pa.string()),
+            "verdict": pa.array([answer.get("verdict") for answer in answers], pa.string()),
+            "problems": pa.array([json.dumps(p) if p else None for p in problems], pa.string()),
+        })
+
+    return part
+
+
+def kill_some(pids, count, after):
+    """Kills so many of the processes at work, one every `after` seconds."""
+    killed = 0
+    while killed < count:
+        time.sleep(after)
+        marks = list(pathlib.Path(pids).iterdir())
+        if marks:
+            mark = random.choice(marks)
+            try:
+                os.kill(int(mark.name), signal.SIGKILL)
+            except ProcessLookupError:
+                continue
+            killed += 1
+            print(f"killed process {mark.name}", flush=True)
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    arguments.add_argument("corpus")
+    arguments.add_argument("parquet")
+    arguments.add_argument("--drystone", default="drystone")
+    arguments.add_argument("--fields", default="scene,verdict")
+    arguments.add_argument("--lines", type=int, default=20_000, help="in a part")
+    arguments.add_argument("--attempts", type=int, default=4)
+    arguments.add_argument("--kill", type=int, default=0, metavar="N")
+    arguments.add_argument("--after", type=float, default=5.0, metavar="SECONDS")
+    wanted = arguments.parse_args()
+    corpus = os.path.abspath(wanted.corpus)
+    binary = wanted.drystone if os.sep not in wanted.drystone else os.path.abspath(wanted.drystone)
+    ray.init(include_dashboard=False, log_to_driver=False)
+    start = time.perf_counter()
+    with tempfile.TemporaryDirectory() as pids:
+        if wanted.kill:
+            threading.Thread(target=kill_some, args=(pids, wanted.kill, wanted.after), daemon=True).start()
+        cut = parts(corpus, wanted.lines)
+        scenes = sum(part["lines"] for part in cut)
+        answers = ray.data.from_items(cut, override_num_blocks=len(cut)).map_batches(
+            answered(corpus, binary, wanted.fields, pids),
+            batch_size=1,
+            max_retries=wanted.attempts,
+            retry_exceptions=True,
+        )
+        answers.write_parquet(wanted.parquet, mode="overwrite")
+    seconds = time.perf_counter() - start
+
+    table = pq.read_table(wanted.parquet)
+    numbers = table["number"]
+    found = (table.num_rows, pc.count_distinct(numbers).as_py(), pc.max(numbers).as_py())
+    assert found == (scenes, scenes, scenes), f"{scenes} scenes, but {found}"
+    print(f"{scenes} scenes, each answered once, in {seconds:.0f} s: {scenes / seconds:.0f} a second")
+    print(table.group_by("verdict").aggregate([("number", "count")]).to_pandas().to_string(index=False))
+    ray.shutdown()
+
+
+if __name__ == "__main__":
+    main()

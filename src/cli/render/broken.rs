@@ -1,0 +1,86 @@
+//! `drystone render --broken`: outlines with the problems of a refused scene marked.
+
+use std::fs;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+use super::Render;
+use super::target::paths;
+use crate::cli::complaint::Complaint;
+use crate::cli::destination::{self, Destination};
+use crate::cli::ending::Ending;
+use crate::cli::picture::Format;
+use crate::cli::source::name;
+use crate::cli::terminal::Terminal;
+use crate::figure;
+use crate::output::file::Existing;
+use crate::output::fonts::Fonts;
+use crate::scene::Sketch;
+
+impl Render {
+    /// Draws the outlines of all scenes, writes them, and then complains of whatever is wrong with them.
+    pub(super) fn sketched(
+        &self,
+        scenes: &[PathBuf],
+        destination: &Destination,
+        format: Format,
+        fonts: &Fonts,
+        terminal: &Terminal,
+    ) -> Result<Ending, Vec<Complaint>> {
+        let one = |complaint| vec![complaint];
+        let options = self.options(self.look.theme().map_err(one)?);
+        let targets: Vec<&Path> = scenes.iter().map(PathBuf::as_path).collect();
+        let paths = paths(destination, &targets, format).map_err(one)?;
+        let inputs: Vec<&Path> = targets.iter().copied().chain(self.look.file()).collect();
+        destination::apart(&paths, &inputs).map_err(one)?;
+
+        let mut pictures = Vec::new();
+        let mut complaints = Vec::new();
+        for path in scenes {
+            let bytes = read(path).map_err(|error| {
+                one(Complaint::NotRead {
+                    what: name(path),
+                    why: error.to_string(),
+                })
+            })?;
+            let sketch = Sketch::of(&bytes, self.level.contact_tolerance);
+            let drawing = figure::broken(&sketch, &options);
+            let picture = self.picture.bytes(drawing, format, fonts).map_err(one)?;
+            pictures.push(picture);
+            if !sketch.problems.list.is_empty() {
+                complaints.push(Complaint::Scene {
+                    name: name(path),
+                    problems: sketch.problems,
+                });
+            }
+        }
+        if let Destination::Stdout = destination {
+            for picture in &pictures {
+                terminal.print_bytes(picture).map_err(one)?;
+            }
+        } else {
+            if let Destination::Folder(folder) = destination {
+                destination::make_folder(folder).map_err(one)?;
+            }
+            let files: Vec<(PathBuf, Vec<u8>)> = paths.iter().cloned().zip(pictures).collect();
+            destination::write(&files, Existing::Replace).map_err(one)?;
+            for path in &paths {
+                terminal.note(&format!("{}: outlines and problems", path.display()));
+            }
+        }
+        if complaints.is_empty() {
+            Ok(Ending::Done)
+        } else {
+            Err(complaints)
+        }
+    }
+}
+
+fn read(path: &Path) -> io::Result<Vec<u8>> {
+    if path != Path::new("-") {
+        return fs::read(path);
+    }
+    let mut bytes = Vec::new();
+    io::stdin().lock().read_to_end(&mut bytes)?;
+    Ok(bytes)
+}

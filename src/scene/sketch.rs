@@ -1,0 +1,167 @@
+//! [`Sketch`]: what can be drawn of a scene file, sound or refused, and where its problems lie.
+//!
+//! Nothing here may be examined: outlines may cross, and bodies may lie in each other.
+
+use super::problem::{Place, Problems};
+use super::resolution::sketch;
+use super::source::Source;
+use super::{BlockId, BodyId, Scene, reading};
+use crate::geometry::{Bounds, Point, Vector};
+
+/// The outlines of a scene file, and its problems.
+#[derive(Clone, Debug)]
+pub struct Sketch {
+    /// Its title; empty where there is none.
+    pub title: String,
+    /// Every body whose corners can be drawn, the ground first.
+    pub bodies: Vec<SketchedBody>,
+    /// What is wrong, in the order of the text; nothing where the scene is sound.
+    pub problems: Problems,
+    /// For each problem where it lies, where that can be drawn.
+    pub places: Vec<Option<Spot>>,
+    /// The scene, where each of its bodies is sound by itself. They may overlap.
+    pub(crate) scene: Option<Scene>,
+}
+
+/// A body as it is written, in its place.
+#[derive(Clone, Debug)]
+pub struct SketchedBody {
+    /// Which body.
+    pub id: BodyId,
+    /// A block's id, or `ground[2]`.
+    pub name: String,
+    /// Its outline and holes in metres; they may cross, and have any number of corners.
+    pub rings: Vec<Vec<Point>>,
+    pub(super) placement: Placement,
+}
+
+/// Where a problem lies.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spot {
+    /// The place, metres.
+    pub at: Point,
+    /// The bodies it is about.
+    pub bodies: Vec<BodyId>,
+}
+
+/// How a body is put into its place: turned about its origin, then moved.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Placement {
+    pub(super) by: Vector,
+    pub(super) sin: f64,
+    pub(super) cos: f64,
+}
+
+impl Placement {
+    pub(super) fn place(&self, p: Point) -> Point {
+        let turned = Vector::new(
+            p.x * self.cos - p.y * self.sin,
+            p.x * self.sin + p.y * self.cos,
+        );
+        Point::from(turned + self.by)
+    }
+}
+
+impl Sketch {
+    /// Sketches a scene file as it lies on a disk, with a contact tolerance (metres) in place of its own.
+    ///
+    /// # Example
+    /// ```
+    /// use drystone::scene::Sketch;
+    /// let sketch = Sketch::of(br#"{ "drystone": 1, "blocks": [
+    ///     { "polygon": [[0, 0], [2, 0], [2, 1], [0, 1]] },
+    ///     { "polygon": [[1, 0], [4, 0], [4, 1], [1, 1]] }] }"#, None);
+    /// let place = sketch.places[0].as_ref().expect("the overlap has a place");
+    /// assert_eq!((place.at.x, place.at.y), (1.5, 0.5));
+    /// ```
+    pub fn of(bytes: &[u8], tolerance: Option<f64>) -> Sketch {
+        let problems = Scene::from_slice_within(bytes, tolerance).err();
+        let mut sketch = Sketch {
+            title: String::new(),
+            bodies: Vec::new(),
+            problems: problems.unwrap_or_default(),
+            places: Vec::new(),
+            scene: None,
+        };
+        let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+        let text = String::from_utf8_lossy(bytes);
+        if let Ok(source) = Source::parse(&text) {
+            let (mut file, _, doubt) = reading::read(&source);
+            file.contact_tolerance = tolerance.or(file.contact_tolerance);
+            (sketch.bodies, sketch.scene) = sketch::sketch(&file, doubt);
+            sketch.title = file.title.unwrap_or_default();
+        }
+        sketch.places = (sketch.problems.list.iter())
+            .map(|problem| sketch.spot(&problem.path, problem.place.as_ref()))
+            .collect();
+        sketch
+    }
+
+    /// The body of an id, where it can be drawn.
+    pub fn body(&self, id: BodyId) -> Option<&SketchedBody> {
+        self.bodies.iter().find(|body| body.id == id)
+    }
+
+    fn spot(&self, path: &str, place: Option<&Place>) -> Option<Spot> {
+        let id = body_of(path)?;
+        let body = self.body(id)?;
+        let at = match place {
+            Some(Place::Own(at)) => body.placement.place(*at),
+            Some(Place::Between(at, _)) => *at,
+            None => {
+                let bounds = Bounds::of(body.rings.iter().flatten().copied())?;
+                nalgebra::center(&bounds.min, &bounds.max)
+            }
+        };
+        let other = match place {
+            Some(Place::Between(_, other)) => Some(*other),
+            _ => None,
+        };
+        Some(Spot {
+            at,
+            bodies: std::iter::once(id).chain(other).collect(),
+        })
+    }
+}
+
+/// The body that a path such as `blocks[3].polygon[1]` leads into.
+fn body_of(path: &str) -> Option<BodyId> {
+    let (list, rest) = path.split_once('[')?;
+    let number = rest.split_once(']')?.0.parse().ok()?;
+    match list {
+        "blocks" => Some(BodyId::Block(BlockId(number))),
+        "ground" => Some(BodyId::Ground(number)),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_crossing_is_found_where_the_body_stands() {
+        // A bow tie that crosses at (1, 1), turned by a quarter and moved by (10, 0).
+        let text = br#"{ "drystone": 1, "blocks": [{ "at": [10, 0], "angle": 90,
+            "polygon": [[0, 0], [2, 2], [2, 0], [0, 2]] }] }"#;
+        let sketch = Sketch::of(text, None);
+        let spots: Vec<&Spot> = sketch.places.iter().flatten().collect();
+        assert_eq!(spots.len(), 1, "{}", sketch.problems);
+        assert!((spots[0].at - Point::new(9.0, 1.0)).norm() < 1e-12);
+        assert_eq!(sketch.bodies[0].rings[0].len(), 4);
+        assert!(sketch.scene.is_none());
+    }
+
+    #[test]
+    fn what_cannot_be_read_leaves_the_rest_to_be_drawn() {
+        let text =
+            br#"{ "drystone": 1, "blocks": [{ "polygon": [[0, 0], [1, 0], [0, 1]], "wieght": 3 },
+            { "id": "b", "polygon": "none" }, { "id": "c", "polygon": [[5, 5], [6, 5]] }] }"#;
+        let sketch = Sketch::of(text, None);
+        let names: Vec<&str> = sketch.bodies.iter().map(|b| b.name.as_str()).collect();
+        assert_eq!(names, ["1", "c"]);
+        assert_eq!(sketch.places.len(), sketch.problems.list.len());
+        assert!(Sketch::of(b"{", None).bodies.is_empty());
+        assert_eq!(Sketch::of(b"\xff", None).problems.list.len(), 1);
+    }
+}

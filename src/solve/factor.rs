@@ -1,0 +1,184 @@
+//! [`Factor`]: the Cholesky factor of a matrix that grows and shrinks by one row and column at a time.
+//!
+//! Each row is kept from its first entry that is not 0. In the Gram matrix of forces on a structure only those on one block
+//! have products; so where columns come block by block, a row begins at the forces of the blocks below, and the work of a
+//! change grows with the width of the structure instead of its size.
+
+/// L, lower triangular, with L·Lᵀ the matrix.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Factor {
+    rows: Vec<Row>,
+}
+
+#[derive(Clone, Debug)]
+struct Row {
+    /// Where its first entry stands; the last one stands on the diagonal.
+    first: usize,
+    entries: Vec<f64>,
+}
+
+impl Factor {
+    /// L·x = v, in place.
+    pub fn forward(&self, v: &mut [f64]) {
+        self.forward_from(v, 0);
+    }
+
+    /// The same of a v that is 0 before `begin`.
+    fn forward_from(&self, v: &mut [f64], begin: usize) {
+        for (k, row) in self.rows.iter().enumerate().skip(begin) {
+            let (before, rest) = v.split_at_mut(k);
+            let (off, diagonal) = row.parts();
+            let from = row.first.max(begin);
+            let sum = dot(&off[from - row.first..], &before[from..]);
+            rest[0] = (rest[0] - sum) / diagonal;
+        }
+    }
+
+    /// Lᵀ·x = v, in place.
+    pub fn backward(&self, v: &mut [f64]) {
+        for (k, row) in self.rows.iter().enumerate().rev() {
+            let (before, rest) = v.split_at_mut(k);
+            let (off, diagonal) = row.parts();
+            rest[0] /= diagonal;
+            for (value, entry) in before[row.first..].iter_mut().zip(off) {
+                *value -= entry * rest[0];
+            }
+        }
+    }
+
+    /// Adds a last row and column: its products with those before, and its own square. False, and nothing is added, where
+    /// what is left of the square is no more than `least`.
+    pub fn append(&mut self, mut products: Vec<f64>, own: f64, least: f64) -> bool {
+        let first = products.iter().position(|v| *v != 0.0);
+        let first = first.unwrap_or(products.len());
+        self.forward_from(&mut products, first);
+        let mut entries = products.split_off(first);
+        let across = own - dot(&entries, &entries);
+        if !(across > least) {
+            return false;
+        }
+        entries.push(across.sqrt());
+        self.rows.push(Row { first, entries });
+        true
+    }
+
+    /// Takes a row and column out: rotations make the rest triangular again.
+    pub fn remove(&mut self, place: usize) {
+        self.rows.remove(place);
+        for k in place..self.rows.len() {
+            let (a, b) = (self.rows[k].at(k), self.rows[k].at(k + 1));
+            let length = libm::hypot(a, b);
+            let (c, s) = (a / length, b / length);
+            for row in &mut self.rows[k..] {
+                row.rotate(k, c, s);
+            }
+            let row = &mut self.rows[k];
+            row.entries.truncate(k + 1 - row.first);
+        }
+    }
+}
+
+impl Row {
+    /// The entries before the diagonal, and the one on it.
+    fn parts(&self) -> (&[f64], f64) {
+        match self.entries.split_last() {
+            Some((diagonal, off)) => (off, *diagonal),
+            None => (&[], 1.0),
+        }
+    }
+
+    fn at(&self, k: usize) -> f64 {
+        let place = k.checked_sub(self.first);
+        let entry = place.and_then(|place| self.entries.get(place));
+        entry.copied().unwrap_or(0.0)
+    }
+
+    /// Entries x, y at k and k + 1 become c·x + s·y and c·y − s·x.
+    fn rotate(&mut self, k: usize, c: f64, s: f64) {
+        let (x, y) = (self.at(k), self.at(k + 1));
+        if y == 0.0 && x == 0.0 {
+            return;
+        }
+        if self.first > k {
+            self.entries.insert(0, 0.0);
+            self.first = k;
+        }
+        let place = k - self.first;
+        self.entries[place] = c * x + s * y;
+        self.entries[place + 1] = c * y - s * x;
+    }
+}
+
+/// Σ a·b, in four sums side by side.
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let (fours, others) = (a.chunks_exact(4), b.chunks_exact(4));
+    let rest = fours.remainder().iter().zip(others.remainder());
+    let mut sums = [0.0; 4];
+    for (x, y) in fours.zip(others) {
+        for (sum, (x, y)) in sums.iter_mut().zip(x.iter().zip(y)) {
+            *sum += x * y;
+        }
+    }
+    rest.map(|(x, y)| x * y).sum::<f64>() + (sums[0] + sums[1]) + (sums[2] + sums[3])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A matrix of two chains that share no product but through its last row.
+    fn entry(i: usize, j: usize) -> f64 {
+        match (i.max(j), i.abs_diff(j)) {
+            (_, 0) => 4.0 + 0.3 * i as f64,
+            (6, by) => 0.1 + 0.05 * by as f64,
+            (_, 2) => 1.0,
+            _ => 0.0,
+        }
+    }
+
+    /// Whether x = A⁻¹·v comes out, where A has only these rows and columns.
+    fn solves(factor: &Factor, kept: &[usize]) -> bool {
+        let wanted: Vec<f64> = (0..kept.len()).map(|k| 1.0 - 0.4 * k as f64).collect();
+        let row = |i: &usize| -> f64 {
+            let terms = kept.iter().zip(&wanted);
+            terms.map(|(j, x)| entry(*i, *j) * x).sum()
+        };
+        let mut v: Vec<f64> = kept.iter().map(row).collect();
+        factor.forward(&mut v);
+        factor.backward(&mut v);
+        v.iter().zip(&wanted).all(|(a, b)| (a - b).abs() < 1e-12)
+    }
+
+    #[test]
+    fn rows_come_and_go_in_any_order() {
+        let add = |factor: &mut Factor, kept: &mut Vec<usize>, i: usize| {
+            let products = kept.iter().map(|j| entry(i, *j)).collect();
+            assert!(factor.append(products, entry(i, i), 1e-9));
+            kept.push(i);
+            assert!(solves(factor, kept), "with {kept:?}");
+        };
+        for order in [[0, 3, 1], [6, 0, 0], [2, 4, 0]] {
+            let (mut factor, mut kept) = (Factor::default(), Vec::new());
+            (0..7).for_each(|i| add(&mut factor, &mut kept, i));
+            for place in order {
+                factor.remove(place);
+                kept.remove(place);
+                assert!(solves(&factor, &kept), "with {kept:?}");
+            }
+            let gone: Vec<usize> = (0..7).filter(|i| !kept.contains(i)).collect();
+            for i in gone {
+                add(&mut factor, &mut kept, i);
+            }
+        }
+    }
+
+    #[test]
+    fn a_row_that_is_a_sum_of_others_is_refused() {
+        let mut factor = Factor::default();
+        assert!(factor.append(vec![], 1.0, 1e-9));
+        assert!(factor.append(vec![0.0], 1.0, 1e-9));
+        assert!(!factor.append(vec![1.0, 2.0], 5.0, 1e-9));
+        assert_eq!(factor.rows.len(), 2);
+        assert_eq!(factor.rows[1].first, 1, "what is 0 is not kept");
+    }
+}

@@ -1,0 +1,108 @@
+//! What each feature costs in crates, as the README's table says, and that the library alone stays small.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+/// Without features, `cargo tree` may list so many crates, this one and those that it shows twice included.
+const MOST_ALONE: usize = 75;
+
+/// The lines of `cargo tree` for some features, sorted, each once. Nothing is downloaded.
+fn tree(features: &[&str]) -> Vec<String> {
+    let output = Command::new(env!("CARGO"))
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .args(["tree", "--locked", "--offline", "--edges", "normal"])
+        .args(["--prefix", "none", "--no-default-features"])
+        .args(features.iter().flat_map(|name| ["--features", name]))
+        .output()
+        .expect("cargo runs");
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    let mut lines: Vec<String> = String::from_utf8_lossy(&output.stdout)
+        .lines()
+        .map(str::to_owned)
+        .collect();
+    lines.sort();
+    lines.dedup();
+    lines
+}
+
+/// How many other crates some features bring along, each version once.
+fn crates(features: &[&str]) -> usize {
+    let mut names: Vec<String> = tree(features)
+        .iter()
+        .map(|line| line.split(" (").next().unwrap_or_default().to_owned())
+        .filter(|name| !name.starts_with("drystone "))
+        .collect();
+    names.dedup();
+    names.len()
+}
+
+/// The rows of the README's table: a feature, or nothing, and its number of crates.
+fn rows() -> Vec<(Option<String>, usize)> {
+    let readme = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
+    let text = fs::read_to_string(readme).expect("the README");
+    let table = text
+        .split_once("| feature | what it adds | crates |\n|---|---|---|\n")
+        .expect("the table of features")
+        .1;
+    table
+        .lines()
+        .take_while(|line| line.starts_with('|'))
+        .map(|line| {
+            let cells: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
+            let name = cells[0].strip_prefix('`').and_then(|c| c.strip_suffix('`'));
+            let number = cells[2].parse().expect("a number");
+            (name.map(str::to_owned), number)
+        })
+        .collect()
+}
+
+/// The features that Cargo.toml declares, `default` apart.
+fn declared() -> Vec<String> {
+    let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml");
+    let text = fs::read_to_string(manifest).expect("the manifest");
+    let section = text.split_once("\n[features]\n").expect("features").1;
+    let section = section.split("\n[").next().unwrap_or_default();
+    let mut names: Vec<String> = section
+        .lines()
+        .filter_map(|line| line.split_once(" = ["))
+        .map(|(name, _)| name.to_owned())
+        .filter(|name| name != "default")
+        .collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn the_readme_tells_what_every_feature_costs() {
+    // The numbers are those of the platform on which the table was made.
+    if !cfg!(all(target_os = "linux", target_arch = "x86_64")) {
+        return;
+    }
+    let rows = rows();
+    let mut named: Vec<String> = rows.iter().filter_map(|row| row.0.clone()).collect();
+    named.sort();
+    assert_eq!(named, declared());
+    for (feature, told) in rows {
+        let features: Vec<&str> = feature.as_deref().into_iter().collect();
+        assert_eq!(crates(&features), told, "{features:?}");
+    }
+}
+
+#[test]
+fn mechanics_and_svg_alone_are_few_crates() {
+    let alone = tree(&[]);
+    assert!(
+        alone.len() <= MOST_ALONE,
+        "{}:\n{}",
+        alone.len(),
+        alone.join("\n")
+    );
+    for name in ["clap ", "resvg ", "krilla ", "plotters ", "maud ", "toml "] {
+        assert!(!alone.iter().any(|line| line.starts_with(name)), "{name}");
+    }
+}

@@ -1,0 +1,70 @@
+//! `render --broken`: what is wrong with a refused scene can be looked at.
+
+use std::fs;
+
+use super::Bench;
+
+/// Two overlaps, one with the ground, a gap of 5 mm, a crossing where asked for, and an unknown key.
+fn doorway(more: &str) -> String {
+    format!(
+        r#"{{ "drystone": 1, "title": "By hand",
+        "ground": [{{ "polygon": [[-1, -1], [7, -1], [7, 0], [-1, 0]] }}],
+        "blocks": [{{ "id": "left", "polygon": [[0, 0], [1, 0], [1, 3], [0, 3]] }},
+            {{ "id": "right", "polygon": [[5, 0], [6, 0], [6, 3.2], [5, 3.2]] }},
+            {{ "id": "lintel", "polygon": [[0, 3.005], [6, 3.005], [6, 4], [0, 4]] }}{more},
+            {{ "id": "sunk", "polygon": [[2, -0.3], [3.4, -0.3], [3.4, 0.6], [2, 0.6]] }}] }}"#
+    )
+}
+
+#[test]
+fn a_refused_scene_is_drawn_with_its_problems_and_ends_with_2() {
+    let bench = Bench::new();
+    fs::write(bench.path("door.json"), doorway("")).expect("written");
+    let ran = bench.run("render --broken door.json -o door.svg");
+    assert_eq!(ran.code, 2, "{}", ran.err);
+    assert!(ran.err.contains("overlap 0.195 m deep"), "{}", ran.err);
+    let svg = fs::read_to_string(bench.path("door.svg")).expect("drawn all the same");
+    assert!(svg.contains("By hand: refused, with 2 problems"));
+    for told in ["overlap 0.195 m deep", "overlap 0.3 m deep", "0.0050 m"] {
+        assert!(svg.contains(told), "{told}");
+    }
+    for mark in ["mark 1", "mark 2", "mark 3"] {
+        assert!(svg.contains(&format!("<title>{mark}</title>")), "{mark}");
+    }
+    let again = bench.run("render --broken door.json -o again.svg");
+    assert_eq!(again.code, 2);
+    let again = fs::read_to_string(bench.path("again.svg")).expect("drawn");
+    assert_eq!(again, svg, "the same scene gives the same bytes");
+}
+
+#[test]
+fn crossings_and_what_has_no_place_are_told_apart() {
+    let bench = Bench::new();
+    let cap = r#", { "id": "cap", "polygon": [[1, 4], [5, 4.6], [5, 4], [1, 4.6]] }"#;
+    let text = doorway(cap).replace(r#""title""#, r#""titel": "", "title""#);
+    fs::write(bench.path("door.json"), text).expect("written");
+    let ran = bench.run("render --broken door.json -o -");
+    assert_eq!(ran.code, 2, "{}", ran.err);
+    assert!(ran.out.contains("refused, with 4 problems"));
+    assert!(ran.out.contains("(it has no place in the picture)"));
+    assert!(ran.out.contains("<title>mark 2</title>"));
+    assert!(!ran.out.contains("<title>mark 1</title>"), "an unknown key");
+}
+
+#[test]
+fn the_refusal_offers_the_picture_where_there_is_something_to_see() {
+    let bench = Bench::new();
+    fs::write(bench.path("door.json"), doorway("")).expect("written");
+    let offer = "drystone render --broken draws its outlines";
+    assert!(bench.run("check door.json").err.contains(offer));
+    assert!(bench.run("render door.json -o a.svg").err.contains(offer));
+    fs::write(bench.path("empty.json"), "{}").expect("written");
+    assert!(!bench.run("check empty.json").err.contains(offer));
+    assert_eq!(bench.run("render --broken stands.json -o b.svg").code, 0);
+    let svg = fs::read_to_string(bench.path("b.svg")).expect("drawn");
+    assert!(svg.contains("no problem found"));
+    assert!(!bench.path("a.svg").exists(), "nothing was written");
+    let ran = bench.run("render --broken empty.json -o empty.svg");
+    assert_eq!(ran.code, 2);
+    assert!(bench.path("empty.svg").exists(), "a list without a picture");
+}
