@@ -87,8 +87,8 @@ fn a_margin_of_loads_is_drawn_where_the_verdict_changes() {
         words.contains("falls once its loads are 1.5 times as large"),
         "{words}"
     );
-    assert_eq!(Analysis::of(&block(1.0, 2.99)).verdict(), Verdict::Stable);
-    assert_eq!(Analysis::of(&block(1.0, 3.01)).verdict(), Verdict::Unstable);
+    assert_eq!(Analysis::of(block(1.0, 2.99)).verdict(), Verdict::Stable);
+    assert_eq!(Analysis::of(block(1.0, 3.01)).verdict(), Verdict::Unstable);
     assert_eq!(classes(&drawing.items, &["ghosts"]).len(), 1);
     assert_eq!(
         classes(&drawing.items, &["force"]).len(),
