@@ -31,7 +31,7 @@ struct Marked {
     number: usize,
 }
 
-/// A scene file's outlines with its problems, each numbered beside its place and told below, and the gaps that are nearly
+/// A scene file's outlines with its problems, each numbered beside its place and listed below, and the gaps that are nearly
 /// contacts. Of the options only the theme and the width are looked at.
 ///
 /// # Example
@@ -99,14 +99,14 @@ pub fn broken(sketch: &Sketch, options: &Options) -> Drawing {
         }
     }
     items.push(list.into());
-    let told: Vec<&str> = entries.iter().map(|e| e.1.as_str()).collect();
+    let listed: Vec<&str> = entries.iter().map(|e| e.1.as_str()).collect();
     Drawing {
         width: wide,
         height: (y + MARGIN).ceil(),
         title,
         description: format!(
             "Outlines as they are written, without forces. {}",
-            told.join(" ")
+            listed.join(" ")
         ),
         background: Some(theme.page),
         items,

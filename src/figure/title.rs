@@ -32,9 +32,9 @@ mod tests {
         let (short, size) = lines("A lintel", 360.0, &theme);
         assert_eq!((short.len(), size), (1, theme.sizes.title));
         let long = "A wall of dry stone with a lintel that rests on two posts and carries a tower above the door";
-        let (set, smaller) = lines(long, 360.0, &theme);
+        let (set, smaller) = lines(long, 240.0, &theme);
         assert!(smaller < size && set.concat().replace(' ', "") == long.replace(' ', ""));
-        let (cut, _) = lines(&long.repeat(9), 360.0, &theme);
+        let (cut, _) = lines(&long.repeat(9), 240.0, &theme);
         assert!(cut.len() == MOST && cut[MOST - 1].ends_with('…'), "{cut:?}");
     }
 }

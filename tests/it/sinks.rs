@@ -404,6 +404,8 @@ const WRITERS: &[(&str, &[&str])] = &[
         "\"<",
         &[
             "output/svg.rs",
+            // Puts the name space into a chart that is written already.
+            "report/entry/mod.rs",
             "output/svg/",
             "output/tree.rs",
             "chart/",
