@@ -66,6 +66,9 @@
 //! Why it is built so stands in [`doc::design`]; axes, units and signs in [`doc::conventions`]; tolerances and traps in
 //! [`doc::numerics`].
 
+// What only the program or another feature uses is no fault where these are left out; with all of them nothing is unused.
+#![cfg_attr(not(feature = "cli"), allow(dead_code, unused_imports))]
+
 // Blank lines keep the order of reading: the formatter would sort them.
 
 pub mod scene;
