@@ -291,3 +291,24 @@ fn a_robot_that_grips_off_centre_needs_a_torque() {
     file["robots"][0]["limits"] = json!({ "torque": 6.001 });
     assert_eq!(verdict(&file), STANDS);
 }
+
+#[test]
+fn a_tip_on_a_slope_presses_square_to_it() {
+    // A slope of 3 in 4, and a triangle on its tip with its centroid straight above.
+    let balanced = |friction: f64| {
+        json!({ "drystone": 1, "friction": friction, "corner_contacts": true,
+            "ground": [{ "polygon": [[-4, -3], [-4, -5], [4, -5], [4, 3]] }],
+            "blocks": [{ "id": "tip", "polygon": [[0, 0], [1, 2], [-1, 2]], "weight": 10 }] })
+    };
+    let frame = first(&balanced(0.76));
+    assert_eq!(frame.verdict, STANDS);
+    let [contact] = &frame.contacts[..] else {
+        panic!("{:?}", frame.contacts)
+    };
+    let normal = contact.interface.normal;
+    assert!((normal.x + 0.6).abs() < 1e-12 && (normal.y - 0.8).abs() < 1e-12);
+    let pressing: f64 = contact.normal_forces.iter().sum();
+    assert!((pressing - 8.0).abs() < 1e-7, "{pressing}");
+    assert!((contact.friction_force.abs() - 6.0).abs() < 1e-7);
+    assert_eq!(verdict(&balanced(0.74)), FALLS);
+}
