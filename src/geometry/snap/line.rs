@@ -13,6 +13,8 @@ use crate::geometry::{Point, Vector, quarter_turn};
 const ROUNDS: usize = 200;
 /// Two lines whose angle has a sine below the root of this do not say where they cross.
 const PARALLEL: f64 = 1e-4;
+/// Less than this part of the gap is the rounding of numbers.
+const ROUNDING: f64 = 1e-9;
 
 /// Sets of nodes, each of which is to lie on a line.
 pub(super) struct Lines(Vec<Line>);
@@ -172,11 +174,15 @@ impl Line {
             });
             high - low
         };
-        if normal.x.abs() * spread(0) <= 2.0 * off {
-            return Some(line(Course::Level));
-        }
-        if normal.y.abs() * spread(1) <= 2.0 * off {
-            return Some(line(Course::Upright));
+        // A steep line has no width, so that its slope times its width says nothing of whether it is level.
+        let (axis, course) = if normal.y.abs() >= normal.x.abs() {
+            (0, Course::Level)
+        } else {
+            (1, Course::Upright)
+        };
+        let rounding = ROUNDING * nodes.all[members[0]].gap;
+        if normal[axis].abs() * spread(axis) <= 2.0 * off + rounding {
+            return Some(line(course));
         }
         Some(closest)
     }

@@ -100,6 +100,62 @@ fn what_is_exact_stays_as_it_is_to_the_last_bit() {
     assert_eq!(outcome.bodies, drawn);
 }
 
+/// The bodies with their axes exchanged.
+fn transposed(bodies: &[Rings]) -> Vec<Rings> {
+    let mut bodies = bodies.to_vec();
+    for corner in bodies.iter_mut().flatten().flatten() {
+        corner.at = Point::new(corner.at.y, corner.at.x);
+    }
+    bodies
+}
+
+#[test]
+fn upright_joints_are_healed_as_level_ones() {
+    let gap = 0.02;
+    for drawn in [wall(5, 4), wall(12, 7), steps()] {
+        let drawn = shaken(drawn, 0.004);
+        let (one, two) = (brought(&drawn, gap), brought(&transposed(&drawn), gap));
+        assert!(misfit(&one.bodies, gap) < 1e-9 && !one.moved.is_empty());
+        let two = transposed(&two.bodies);
+        let corners = one.bodies.iter().flatten().flatten();
+        for (a, b) in corners.zip(two.iter().flatten().flatten()) {
+            assert!((a.at - b.at).norm() < 1e-9, "{a:?} {b:?}");
+        }
+    }
+}
+
+/// Ground, a wall on it at x = 2, and stones of several sizes that lean against it.
+fn steps() -> Vec<Rings> {
+    vec![
+        rectangle(-3.0, -1.0, 6.0, 1.0),
+        rectangle(2.0, 0.0, 1.0, 1.625),
+        rectangle(0.0, 0.0, 2.0, 1.0),
+        rectangle(1.125, 1.0, 0.5, 0.5),
+        rectangle(1.375, 1.5, 0.625, 0.5),
+        rectangle(1.625, 2.0, 0.375, 0.5),
+    ]
+}
+
+#[test]
+fn an_exact_upright_joint_does_not_move_its_corners() {
+    let drawn = steps();
+    assert!(brought(&drawn, 0.0015).moved.is_empty());
+    // Nor do the others where one stone is off.
+    let mut off = drawn.clone();
+    off[5][0][0].at.y += 0.0004;
+    let outcome = brought(&off, 0.0015);
+    assert_eq!(outcome.moved.len(), 1);
+    for (healed, meant) in outcome
+        .bodies
+        .iter()
+        .flatten()
+        .flatten()
+        .zip(drawn.iter().flatten().flatten())
+    {
+        assert!((healed.at - meant.at).norm() < 1e-9, "{healed:?} {meant:?}");
+    }
+}
+
 #[test]
 fn a_body_thinner_than_the_gap_is_not_flattened() {
     let drawn = vec![
