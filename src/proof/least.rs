@@ -30,8 +30,8 @@ pub fn least_sum(assembly: &Assembly, motions: &[Motion]) -> f64 {
         let at_grip = motion.about(body.centroid, grip.at);
         let unsure = ROUNDING * motion.summed(body.centroid, grip.at);
         for (speed, limit) in [
-            (at_grip.x.abs() + unsure, grip.limits.fx),
-            (at_grip.y.abs() + unsure, grip.limits.fy),
+            (at_grip.x.abs() + unsure.x, grip.limits.fx),
+            (at_grip.y.abs() + unsure.y, grip.limits.fy),
             (
                 motion.spin.abs() * assembly.length,
                 grip.limits.torque / assembly.length,

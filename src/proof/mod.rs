@@ -200,9 +200,10 @@ impl Motion {
         speeds.fold(0.0, f64::max)
     }
 
-    /// The size of what a point's velocity is summed from, of which its rounding is a share.
-    fn summed(&self, centroid: Point, point: Point) -> f64 {
-        self.velocity.norm() + (point - centroid).norm() * self.spin.abs()
+    /// The size of what each component of a point's velocity is summed from, of which its rounding is a share: a block that
+    /// slides along a level joint does not rise by the rounding of its sliding.
+    fn summed(&self, centroid: Point, point: Point) -> Vector {
+        self.velocity.abs() + (quarter_turn(point - centroid) * self.spin).abs()
     }
 }
 
@@ -276,7 +277,7 @@ const ROUNDING: f64 = 8.0 * f64::EPSILON;
 fn worst_violation(assembly: &Assembly, motions: &[Motion]) -> f64 {
     // A point's velocity, and what it is summed from.
     let velocity = |body: Option<usize>, at: Point| match body {
-        None => (Vector::zeros(), 0.0),
+        None => (Vector::zeros(), Vector::zeros()),
         Some(number) => {
             let (centroid, m) = (assembly.bodies[number].centroid, &motions[number]);
             (m.about(centroid, at), m.summed(centroid, at))
@@ -287,15 +288,18 @@ fn worst_violation(assembly: &Assembly, motions: &[Motion]) -> f64 {
         for at in contact.points {
             let (one, of_one) = velocity(Some(contact.on), at);
             let (other, of_other) = velocity(contact.from, at);
-            if of_one + of_other == 0.0 {
+            let summed = of_one + of_other;
+            if summed == Vector::zeros() {
                 continue;
             }
             let apart = one - other;
-            let (opens, slides) = (contact.normal.dot(&apart), contact.tangent().dot(&apart));
+            let (normal, tangent) = (contact.normal, contact.tangent());
+            let (opens, slides) = (normal.dot(&apart), tangent.dot(&apart));
             // A force of N + |T| = 1 can use most of this pressing alone, or with all the friction it has.
             let friction = contact.friction;
             let used = (friction * slides.abs() - opens) / (1.0 + friction);
-            violation = violation.max(used.max(-opens) + ROUNDING * (of_one + of_other));
+            let unsure = normal.abs().dot(&summed) + friction * tangent.abs().dot(&summed);
+            violation = violation.max(used.max(-opens) + ROUNDING * unsure);
         }
     }
     violation
@@ -337,8 +341,8 @@ pub fn mechanism(assembly: &Assembly, motions: &[Motion]) -> Proof {
         let spin = motion.spin * assembly.length;
         let unsure = ROUNDING * motion.summed(body.centroid, grip.at);
         for (speed, limit, unsure) in [
-            (at_grip.x, limits.fx, unsure),
-            (at_grip.y, limits.fy, unsure),
+            (at_grip.x, limits.fx, unsure.x),
+            (at_grip.y, limits.fy, unsure.y),
             (spin, limits.torque / assembly.length, 0.0),
         ] {
             // A limit far beyond the loads would turn the rounding of a speed into power: such a grip must not give way.

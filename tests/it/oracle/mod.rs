@@ -184,6 +184,21 @@ fn what_a_slight_push_needs_is_no_more_than_the_least() {
     }
 }
 
+/// A push of 8·10⁻⁹ N on a frictionless block whose robot may not push back, and a brick at the foot of a wall whose exact
+/// corner healing once moved.
+#[test]
+fn a_slight_push_and_an_exact_corner_are_judged_as_they_are() {
+    for number in [51974, 51566] {
+        let found = looked_at(number);
+        assert_eq!(
+            found.standing,
+            Standing::Agrees(Verdict::Unstable),
+            "{number}"
+        );
+        assert!(found.error.is_none_or(|e| e < 1e-8), "{:?}", found.error);
+    }
+}
+
 /// Thousands of small scenes, and not one wrong verdict.
 #[test]
 #[expect(
