@@ -39,6 +39,7 @@ pub use crate::proof::{Demand, Motion, Proof};
 #[doc(inline)]
 pub use crate::resultant::Resultant;
 use crate::scene::{BlockId, BodyId, Note, RobotId, Scene};
+pub use crate::solve::Slide;
 use crate::solve::{Effort, Until};
 pub use component::Method;
 use component::{Findings, solved};
@@ -52,7 +53,7 @@ pub use margin::{Margin, MarginKind, MarginKinds, Margins, RobotMargins, Sides, 
 pub use mechanism::Toward;
 pub use option::{Accuracy, Ask, Options};
 pub use pair::pair;
-pub use wedged::Wedged;
+pub use wedged::{FaceCase, PointCase, RuledOut, Wedged};
 
 /// Whether a frame stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -4,7 +4,7 @@ use super::Motion;
 use crate::assembly::Assembly;
 use crate::geometry::Vector;
 use crate::program::Scale;
-use crate::solve::Squeeze;
+use crate::solve::{self, Slide, Squeeze};
 
 /// The self-stress without which a frame does not stand.
 ///
@@ -22,8 +22,42 @@ pub struct Wedged {
     pub gives_way: Vec<Motion>,
     /// Whether that presses no face at all.
     pub presses_nothing: bool,
-    /// Cases of pressing and sliding points that were ruled out.
-    pub cases: usize,
+    /// Ways of pressing and sliding that springs at rest cannot have; whatever springs do is one of them.
+    pub ruled_out: Vec<RuledOut>,
+}
+
+/// A way in which points press and faces slide that springs at rest cannot have, whatever those do of which it says nothing.
+///
+/// At a point that presses N = −g with g its opening, at one that does not N = 0 and g ≥ 0; a face that sticks has T = −s with
+/// s its slip along (−n_y, n_x), |T| ≤ μ(N₁ + N₂), and one that slides T = ∓μ(N₁ + N₂) and ±s ≥ μ(N₁ + N₂). Of the others N ≥ 0,
+/// N ≥ −g and |T| ≤ μ(N₁ + N₂) hold all the same. Springs have unit stiffness. With the balance, and where no robot holds on
+/// with loads whose work is not negative, this has no solution.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RuledOut {
+    /// The application points of which it says whether they press.
+    pub points: Vec<PointCase>,
+    /// The faces with friction of which it says how they slide.
+    pub faces: Vec<FaceCase>,
+}
+
+/// Whether an application point presses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PointCase {
+    /// Number of the frame's contact.
+    pub interface: usize,
+    /// Which of its application points, 0 or 1.
+    pub point: usize,
+    /// Whether its spring is compressed.
+    pub presses: bool,
+}
+
+/// How a face with friction slides.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FaceCase {
+    /// Number of the frame's contact.
+    pub interface: usize,
+    /// Along (−n_y, n_x), against it, or not at all.
+    pub slides: Slide,
 }
 
 impl Wedged {
@@ -44,7 +78,29 @@ impl Wedged {
             at_least: (squeeze.least).map(|least| (least * scale.force, motion(&squeeze.bound))),
             gives_way: motion(&squeeze.motion),
             presses_nothing: squeeze.presses_nothing,
-            cases: squeeze.cases,
+            ruled_out: squeeze.cases.iter().map(|c| told(assembly, c)).collect(),
         }
+    }
+}
+
+/// A case in the frame's numbers of contacts.
+fn told(assembly: &Assembly, case: &solve::RuledOut) -> RuledOut {
+    let interface = |contact: usize| assembly.contacts[contact].interface;
+    let points = case.points.iter();
+    let faces = case.faces.iter();
+    RuledOut {
+        points: points
+            .map(|&(contact, point, presses)| PointCase {
+                interface: interface(contact),
+                point,
+                presses,
+            })
+            .collect(),
+        faces: faces
+            .map(|&(contact, slides)| FaceCase {
+                interface: interface(contact),
+                slides,
+            })
+            .collect(),
     }
 }

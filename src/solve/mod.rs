@@ -35,7 +35,7 @@ pub use refine::{corrected, relative};
 pub use residual::{Residual, least_residual};
 pub use stick::{Stuck, stick, stick_in};
 pub use tangent::Tangent;
-pub use wedge::{Reach, Squeeze, reach};
+pub use wedge::{Reach, RuledOut, Slide, Squeeze, reach};
 
 use crate::geometry::{Vector, cross, quarter_turn};
 use crate::program::{Column, Conic, Force, Program, force_form, kinematic, least_squares};

@@ -159,7 +159,7 @@ fn shown<'n>(
             "; to balance, {faces} must press with {newtons:.3e} N or more in all"
         ));
     }
-    words.push_str(&format!("; cases ruled out: {}", squeeze.cases));
+    words.push_str(&format!("; cases ruled out: {}", squeeze.cases.len()));
     words
 }
 

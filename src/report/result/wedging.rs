@@ -6,7 +6,7 @@
 use serde::Serialize;
 
 use super::{Number, Pair, arrow, place};
-use crate::analysis::{FrameAnalysis, Motion, Wedged};
+use crate::analysis::{FrameAnalysis, Motion, RuledOut, Slide, Wedged};
 use crate::scene::Scene;
 
 #[derive(Serialize)]
@@ -21,6 +21,31 @@ pub(super) struct Wedging<'a> {
     gives_way: Vec<Moving<'a>>,
     presses_nothing: bool,
     cases: usize,
+    /// Each of these cases: springs at rest press and slide in none of these ways, and there is no other.
+    ruled_out: Vec<Case>,
+}
+
+#[derive(Serialize)]
+struct Case {
+    points: Vec<PointCase>,
+    faces: Vec<FaceCase>,
+}
+
+#[derive(Serialize)]
+struct PointCase {
+    /// Its interface, as a number in `interfaces`.
+    interface: usize,
+    /// Which of its two application points, 0 or 1.
+    point: usize,
+    presses: bool,
+}
+
+#[derive(Serialize)]
+struct FaceCase {
+    /// Its number in `interfaces`.
+    interface: usize,
+    /// Along (-normal y, normal x), against it, or not at all.
+    slides: &'static str,
 }
 
 #[derive(Serialize)]
@@ -36,6 +61,28 @@ struct Moving<'a> {
     at: Pair,
     velocity: Pair,
     spin: Number,
+}
+
+impl Case {
+    fn of(case: &RuledOut) -> Case {
+        let points = case.points.iter().map(|p| PointCase {
+            interface: p.interface,
+            point: p.point,
+            presses: p.presses,
+        });
+        let faces = case.faces.iter().map(|f| FaceCase {
+            interface: f.interface,
+            slides: match f.slides {
+                Slide::Forth => "forth",
+                Slide::Back => "back",
+                Slide::Sticks => "sticks",
+            },
+        });
+        Case {
+            points: points.collect(),
+            faces: faces.collect(),
+        }
+    }
 }
 
 impl<'a> Wedging<'a> {
@@ -66,7 +113,8 @@ impl<'a> Wedging<'a> {
             bound: least.map_or_else(Vec::new, |(_, bound)| motion(bound)),
             gives_way: motion(&wedged.gives_way),
             presses_nothing: wedged.presses_nothing,
-            cases: wedged.cases,
+            cases: wedged.ruled_out.len(),
+            ruled_out: wedged.ruled_out.iter().map(Case::of).collect(),
         }
     }
 }

@@ -17,6 +17,9 @@ use crate::program::{Column, Force, Program, columns};
 use spring::Springs;
 use tree::{Search, search};
 
+pub use spring::Slide;
+pub use tree::RuledOut;
+
 /// How a balance comes about.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Reach {
@@ -41,8 +44,8 @@ pub struct Squeeze {
     pub least: Option<f64>,
     /// The motion that shows it: no other contact takes work along it, these at most 1 for each unit of normal force.
     pub bound: Vec<f64>,
-    /// Cases ruled out by the proof.
-    pub cases: usize,
+    /// The cases ruled out by the proof; one of them holds whatever springs do.
+    pub cases: Vec<RuledOut>,
 }
 
 impl Squeeze {
@@ -129,7 +132,7 @@ pub fn reach(program: &Program, given: &[[f64; 3]]) -> Reach {
 }
 
 /// What a program without rest lacks, shown on a motion.
-fn squeeze(program: &Program, motion: Vec<f64>, cases: usize) -> Squeeze {
+fn squeeze(program: &Program, motion: Vec<f64>, cases: Vec<RuledOut>) -> Squeeze {
     let springs = Springs::new(program, 1.0);
     let mut moved = vec![false; program.contacts.len()];
     let mut presses_nothing = true;

@@ -12,7 +12,7 @@ use crate::program::{Column, Force, Program, columns, sticking_columns};
 
 /// How one face slides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Slide {
+pub enum Slide {
     /// It does not: friction is what the spring along the face gives.
     Sticks,
     /// Along the face's direction: friction is all there can be, against it.

@@ -18,10 +18,10 @@ const MOST_CASES: usize = 1500;
 const MOST_ROWS: usize = 100_000;
 
 /// What came of it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Search {
-    /// No springs come to rest; so many cases were ruled out.
-    NoRest(usize),
+    /// No springs come to rest: these cases, which together are all there are, were ruled out.
+    NoRest(Vec<RuledOut>),
     /// Springs come to rest.
     Rests,
     /// Too many cases, or one that was neither ruled out nor led to rest.
@@ -47,7 +47,7 @@ pub(super) fn search(program: &Program) -> Search {
             .collect(),
     }];
     let (mut seen, mut rows) = (0, 0);
-    let mut ruled_out = 0;
+    let mut ruled_out = Vec::new();
     while let Some(case) = cases.pop() {
         let conic = layout.posed(&springs, &case);
         (seen, rows) = (seen + 1, rows + conic.bound.len());
@@ -57,7 +57,7 @@ pub(super) fn search(program: &Program) -> Search {
         let answer = solve(&conic, TOLERANCE, Conditioning::Full);
         let split = match answer.status {
             Status::Infeasible if contradicts(&conic, &answer.z, program) => {
-                ruled_out += 1;
+                ruled_out.push(case.told(&springs, &rough));
                 continue;
             }
             Status::Solved => {
@@ -84,6 +84,15 @@ pub(super) fn search(program: &Program) -> Search {
         cases.extend(case.split(split));
     }
     Search::NoRest(ruled_out)
+}
+
+/// A way of pressing and sliding that springs at rest cannot have, whatever the points and faces do of which it says nothing.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RuledOut {
+    /// Contacts, application points of each (0 or 1), and whether they press.
+    pub points: Vec<(usize, usize, bool)>,
+    /// Contacts with friction, and how their faces slide.
+    pub faces: Vec<(usize, Slide)>,
 }
 
 /// Where a case is split.
@@ -115,6 +124,26 @@ impl Case {
         let of = springs.points.iter().zip(&self.pressed);
         of.filter(|(p, _)| p.contact == contact)
             .any(|(_, pressed)| *pressed != Some(false))
+    }
+
+    /// What the case says.
+    fn told(&self, springs: &Springs, rough: &dyn Fn(usize) -> bool) -> RuledOut {
+        let end = |k: usize| {
+            let before = springs.points[..k].iter();
+            let contact = springs.points[k].contact;
+            before.filter(|p| p.contact == contact).count()
+        };
+        let points = self.pressed.iter().enumerate();
+        let faces = self.slides.iter().enumerate();
+        RuledOut {
+            points: points
+                .filter_map(|(k, pressed)| Some((springs.points[k].contact, end(k), (*pressed)?)))
+                .collect(),
+            faces: faces
+                .filter(|(k, _)| rough(*k))
+                .filter_map(|(k, slides)| Some((k, (*slides)?)))
+                .collect(),
+        }
     }
 
     fn first_open(&self, springs: &Springs) -> Option<Split> {

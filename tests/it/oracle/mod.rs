@@ -11,6 +11,7 @@ mod shape;
 mod simplex;
 mod small;
 mod touch;
+mod wedge;
 
 use dashu_ratio::RBig;
 use drystone::analysis::{FrameAnalysis, Verdict};
