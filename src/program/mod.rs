@@ -9,6 +9,7 @@
 mod column;
 mod pose;
 mod scale;
+mod straight;
 
 pub use column::{Column, Count, Force, columns, sticking_columns};
 pub(crate) use pose::product;

@@ -204,6 +204,64 @@ fn walls_and_arches_turned_and_rounded_keep_their_verdict_and_forces() {
     }
 }
 
+/// Courses of stones of unequal length against one upright wall or between two.
+fn stones_beside_walls(chance: &mut Chance) -> Built {
+    let (width, courses) = (chance.count(3, 5), chance.count(2, 4));
+    let length = width as f64;
+    let (mut y, mut blocks) = (0.0, Vec::new());
+    for _ in 0..courses {
+        let height = chance.between(0.25, 0.6);
+        let mut ends: Vec<f64> = (1..width)
+            .map(|k| k as f64 + chance.between(-0.35, 0.35))
+            .collect();
+        ends.push(length);
+        let mut x = 0.0;
+        for end in ends {
+            if chance.next() < 0.85 {
+                blocks.push(rectangle(x, y, end - x, height));
+            }
+            x = end;
+        }
+        y += height;
+    }
+    let mut ground = vec![
+        rectangle(-2.0, -1.0, length + 4.0, 1.0),
+        rectangle(length, 0.0, 2.0, y * chance.between(0.4, 1.2)),
+    ];
+    if chance.next() < 0.5 {
+        ground.push(rectangle(-2.0, 0.0, 2.0, y * chance.between(0.4, 0.9)));
+    }
+    Built {
+        name: format!("{} stones beside a wall", blocks.len()),
+        ground,
+        blocks,
+    }
+}
+
+/// Pressed between upright faces that are parallel but for rounding a stone is a wedge of 10⁻⁶, and its least forces are those
+/// of a stone between parallel faces.
+#[test]
+fn stones_beside_upright_walls_keep_their_verdict_and_forces() {
+    let (mut stand, mut fall) = (0, 0);
+    for seed in 0..25 {
+        let mut chance = Chance(seed);
+        let built = stones_beside_walls(&mut chance);
+        let degrees = chance.between(-12.0, 12.0);
+        let (verdict, total, doubt) = judged(&built.file(0.0, Written::InFull, None));
+        assert_ne!(verdict, Verdict::Undecided, "{}: {doubt}", built.name);
+        match verdict {
+            Verdict::Stable => stand += 1,
+            _ => fall += 1,
+        }
+        for written in Written::all() {
+            let name = format!("{seed}: {}, {degrees:.1}°", built.name);
+            let plain = built.file(degrees, written, None);
+            same(&name, (verdict, total), &plain, written);
+        }
+    }
+    assert!(stand > 5 && fall > 3, "{stand} stand, {fall} fall");
+}
+
 #[test]
 fn structures_that_fall_are_not_healed_into_standing() {
     // A corbel of four, each 0.4 m beyond the one below; and an arch too thin.

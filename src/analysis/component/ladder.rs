@@ -5,6 +5,7 @@
 
 use super::local::Outcome;
 use super::rung::{Attempt, Rung};
+use super::straight::Least;
 use super::{Case, Method};
 use crate::analysis::Verdict;
 use crate::program::Program;
@@ -63,11 +64,21 @@ impl Case<'_> {
                     Outcome::Stands(good, proof) => {
                         let (force_bound, least_force) =
                             self.least_shown(attempt.witness.as_deref(), &good);
-                        return Decision {
-                            force_bound,
-                            least_force,
+                        let found = Least {
                             amounts: good,
                             proof,
+                            force_bound,
+                            least_force,
+                        };
+                        let found = match !least_force && no_status {
+                            true => self.smaller(program, found, &mut effort),
+                            false => found,
+                        };
+                        return Decision {
+                            force_bound: found.force_bound,
+                            least_force: found.least_force,
+                            amounts: found.amounts,
+                            proof: found.proof,
                             effort,
                             ..decision
                         };

@@ -13,6 +13,7 @@ mod local;
 mod motion;
 mod question;
 mod rung;
+mod straight;
 
 pub(super) use candidate::Candidate;
 pub(super) use guess::Guesses;
