@@ -22,6 +22,24 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! The same scene made in code; what is wrong with it is told by its path, as that of a file is by its line:
+//!
+//! ```
+//! use drystone::{Analysis, Scene, scene::format::BlockEntry};
+//!
+//! let post = [[0.0, 0.0], [1.0, 0.0], [1.0, 3.0], [0.0, 3.0]];
+//! let scene = Scene::builder()
+//!     .title("A lintel")
+//!     .friction(0.6)
+//!     .ground([[-1.0, -1.0], [7.0, -1.0], [7.0, 0.0], [-1.0, 0.0]])
+//!     .block(BlockEntry::new("left").polygon(post))
+//!     .block(BlockEntry::new("right").polygon(post).at([5.0, 0.0]))
+//!     .block(BlockEntry::new("lintel").polygon([[0.0, 3.0], [6.0, 3.0], [6.0, 4.0], [0.0, 4.0]]))
+//!     .build()?;
+//! assert_eq!(Analysis::of(&scene).frames[0].contacts.len(), 4);
+//! # Ok::<(), drystone::scene::Problems>(())
+//! ```
+//!
 //! # What a verdict says, and what it does not
 //!
 //! *Stable* says that a balance of forces **exists**: some set of forces that contacts and robots can give holds every block
@@ -42,6 +60,7 @@
 //! | | makes | from |
 //! |---|---|---|
 //! | [`Scene::from_json`] | [`Scene`], checked | text |
+//! | [`Scene::builder`] | [`Scene`], checked | calls that read like the file |
 //! | [`starter`] | a scene file | a few lengths and counts |
 //! | [`import`](mod@import) | a scene file | a drawing: SVG, GeoJSON or WKT |
 //! | [`interface`] | what touches what | a scene |

@@ -108,7 +108,7 @@ pub struct Refusal {
 /// let imported = import(drawing, Format::Svg, &Options::default()).expect("a block on ground");
 /// assert_eq!(imported.snapped[0].body, "post");
 /// let scene = Scene::from_json(&imported.scene.to_json())?;
-/// assert_eq!(scene.blocks[0].body.polygon.bounds().min, drystone::scene::Point::new(0.02, 0.01));
+/// assert_eq!(scene.blocks()[0].body.polygon.bounds().min, drystone::scene::Point::new(0.02, 0.01));
 /// # Ok::<(), drystone::scene::Problems>(())
 /// ```
 pub fn import(text: &str, format: Format, options: &Options) -> Result<Imported, Refusal> {

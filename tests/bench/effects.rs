@@ -85,7 +85,7 @@ fn main() {
     let base = median(&times[0]);
     println!(
         "| wall of {} bricks with | verdict | unknowns | ms | ratio |",
-        scenes[0].blocks.len()
+        scenes[0].blocks().len()
     );
     println!("|---|---|---|---|---|");
     for ((case, scene), times) in cases.iter().zip(&scenes).zip(&times) {

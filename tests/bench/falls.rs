@@ -129,7 +129,7 @@ fn medians<const N: usize>(work: [&dyn Fn(); N]) -> [f64; N] {
 /// The program of a structure that hangs together.
 fn program(scene: &Scene) -> Program {
     let found = Interfaces::of(scene);
-    let frame = &scene.frames[0];
+    let frame = &scene.frames()[0];
     let (assembly, _) = assemble(&Situation {
         scene,
         frame,

@@ -280,7 +280,7 @@ fn a_mechanism_presses_nothing_and_its_fastest_point_has_speed_one() {
         }
         seen += 1;
         let scene = scene(&told.file);
-        let find = |id: &str| scene.blocks.iter().find(|b| b.id == id).expect("a block");
+        let find = |id: &str| scene.blocks().iter().find(|b| b.id == id).expect("a block");
         let centroid = |id: &str| {
             let at = find(id).centroid;
             [at.x, at.y]
@@ -393,7 +393,7 @@ fn margins_are_borne_out_by_verdicts_on_either_side() {
                 let mut changed = file.clone();
                 let scene = scene(&file);
                 let mut loads = list(&file["loads"]).to_vec();
-                for block in &scene.blocks {
+                for block in scene.blocks() {
                     let at = [block.centroid.x, block.centroid.y];
                     loads.push(json!({ "block": block.id, "force": [way * share * block.weight, 0.0], "at": at }));
                 }

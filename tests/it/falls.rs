@@ -18,14 +18,14 @@ fn turned(mut file: Value, degrees: f64) -> Value {
 /// The worst force and moment over the length 1 m that weights, contacts and what sticks leave on a block, in newtons.
 fn left(scene: &Scene, frame: &FrameAnalysis) -> f64 {
     let mut sums: Vec<(Vector, f64)> = Vec::new();
-    for block in &scene.blocks {
+    for block in scene.blocks() {
         sums.push((scene.down() * block.weight, 0.0));
     }
     let mut act = |bodies: [BodyId; 2], at: Point, force: Vector| {
         for (body, sign) in bodies.into_iter().zip([1.0, -1.0]) {
             if let BodyId::Block(id) = body {
                 sums[id.0].0 += force * sign;
-                sums[id.0].1 += cross(at - scene.blocks[id.0].centroid, force * sign);
+                sums[id.0].1 += cross(at - scene.blocks()[id.0].centroid, force * sign);
             }
         }
     };

@@ -250,14 +250,14 @@ fn frozen(scene: &Scene, frame: &Frame, degrees: f64, written: Written) -> Value
     let blocks: Vec<Value> = (frame.placed.iter())
         .map(|id| {
             let mut value = body(BodyId::Block(*id));
-            value["id"] = json!(scene.blocks[id.0].id);
-            value["weight"] = json!(scene.blocks[id.0].weight);
+            value["id"] = json!(scene.blocks()[id.0].id);
+            value["weight"] = json!(scene.blocks()[id.0].weight);
             value
         })
         .collect();
     let robots: Vec<Value> = (frame.holds.iter())
         .map(|hold| {
-            let robot = &scene.robots[hold.robot.0];
+            let robot = &scene.robots()[hold.robot.0];
             let mut limits = json!({ "torque": robot.limits.torque });
             for (key, limit) in [("fx", robot.limits.fx), ("fy", robot.limits.fy)] {
                 if limit.is_finite() {
@@ -265,15 +265,15 @@ fn frozen(scene: &Scene, frame: &Frame, degrees: f64, written: Written) -> Value
                 }
             }
             json!({
-                "id": robot.id, "holds": scene.blocks[hold.block.0].id,
+                "id": robot.id, "holds": scene.blocks()[hold.block.0].id,
                 "at": place(hold.at.x, hold.at.y), "limits": limits
             })
         })
         .collect();
     json!({
-        "drystone": 1, "gravity": turned(scene.gravity.x, scene.gravity.y), "kernel": scene.kernel,
-        "corner_contacts": scene.corner_contacts,
-        "ground": (0..scene.ground.len()).map(|i| body(BodyId::Ground(i))).collect::<Vec<_>>(),
+        "drystone": 1, "gravity": turned(scene.gravity().x, scene.gravity().y), "kernel": scene.kernel(),
+        "corner_contacts": scene.corner_contacts(),
+        "ground": (0..scene.ground().len()).map(|i| body(BodyId::Ground(i))).collect::<Vec<_>>(),
         "blocks": blocks, "robots": robots
     })
 }
@@ -290,7 +290,7 @@ fn every_frame_of_the_thesis_keeps_its_verdict() {
     for path in paths {
         let scene = Scene::from_json(&std::fs::read_to_string(&path).unwrap()).unwrap();
         let meant = Analysis::of(&scene);
-        for (number, (frame, meant)) in scene.frames.iter().zip(&meant.frames).enumerate() {
+        for (number, (frame, meant)) in scene.frames().iter().zip(&meant.frames).enumerate() {
             // Its centre of gravity lies exactly above a corner: rounding moves it to either side.
             if path.ends_with("figure-6-kernel-0.json") && number == 0 {
                 continue;
@@ -319,7 +319,7 @@ fn where_coordinates_come_from_is_told() {
     let wall = bond(3, 3, 0.5);
     let source = |written| {
         let scene = Scene::from_json(&wall.file(17.3, written, None).to_string()).unwrap();
-        (scene.healed.source, scene.tolerance.gap, scene.healed)
+        (scene.healed().source, scene.tolerance().gap, *scene.healed())
     };
     let (from, gap, healed) = source(Written::Decimals(4));
     assert_eq!(from, ToleranceSource::Decimals(4));
@@ -338,7 +338,7 @@ fn where_coordinates_come_from_is_told() {
     assert_eq!((from, healed.corners), (ToleranceSource::Size, 0));
     // Upright, everything fits already.
     let scene = Scene::from_json(&wall.file(0.0, Written::Decimals(3), None).to_string()).unwrap();
-    assert_eq!(scene.healed.corners, 0);
+    assert_eq!(scene.healed().corners, 0);
 }
 
 /// A lintel on two posts, its right end `gap` above its post.
@@ -394,7 +394,7 @@ fn a_small_stone_keeps_its_own_tolerance() {
     };
     for (x, gap) in [(2e-5, true), (0.0, false)] {
         let file = pebble(x);
-        let own = checked(&file).blocks[1].body.gap;
+        let own = checked(&file).blocks()[1].body.gap;
         assert!(own < 2.1e-6, "{own}");
         let is_pebble = |c: &&Contact| c.interface.bodies[0] == BodyId::Block(BlockId(1));
         let touching = first(&file).contacts.iter().filter(is_pebble).count();

@@ -182,17 +182,15 @@ fn our_own_figures_read_back_give_the_same_verdicts() {
             .flatten()
             .map(|r| serde_json::from_value(r["limits"].clone()).ok())
             .collect();
-        for (number, (frame, found)) in scene.frames.iter().zip(&analysis.frames).enumerate() {
-            let first = &scene.blocks[frame.placed[0].0];
+        for (number, (frame, found)) in scene.frames().iter().zip(&analysis.frames).enumerate() {
+            let first = &scene.blocks()[frame.placed[0].0];
             let options = Options {
                 frame: Some(number),
-                scene: SceneFile {
-                    friction: Some(json["friction"].as_f64().expect("given")),
-                    kernel: Some(json["kernel"].as_f64().unwrap_or(0.0)),
-                    gravity: Some([0.0, -1.0]),
-                    density: Some(first.weight / first.body.polygon.area()),
-                    ..SceneFile::default()
-                },
+                scene: Scene::builder()
+                    .friction(json["friction"].as_f64().expect("given"))
+                    .kernel(json["kernel"].as_f64().unwrap_or(0.0))
+                    .gravity([0.0, -1.0])
+                    .density(first.weight / first.body.polygon.area()),
                 ..Options::default()
             };
             let told = format!("{} frame {number}", path.display());
@@ -202,29 +200,29 @@ fn our_own_figures_read_back_give_the_same_verdicts() {
             let names: Vec<&str> = frame
                 .placed
                 .iter()
-                .map(|id| scene.blocks[id.0].id.as_str())
+                .map(|id| scene.blocks()[id.0].id.as_str())
                 .collect();
             assert_eq!(ids(&imported), names, "{told}");
-            assert_eq!(imported.scene.ground.len(), scene.ground.len(), "{told}");
+            assert_eq!(imported.scene.ground.len(), scene.ground().len(), "{told}");
             assert_eq!(imported.scene.robots.len(), frame.holds.len(), "{told}");
             // A drawing holds no limits and no weights: the scene's own are put in.
             for (robot, hold) in imported.scene.robots.iter_mut().zip(&frame.holds) {
-                let own = &scene.robots[hold.robot.0];
+                let own = &scene.robots()[hold.robot.0];
                 assert_eq!(robot.id.as_deref(), Some(own.id.as_str()), "{told}");
                 assert_eq!(
                     robot.holds.as_deref(),
-                    Some(scene.blocks[hold.block.0].id.as_str()),
+                    Some(scene.blocks()[hold.block.0].id.as_str()),
                     "{told}"
                 );
                 robot.limits = limits[hold.robot.0].clone();
             }
             for (block, id) in imported.scene.blocks.iter_mut().zip(&frame.placed) {
-                block.weight = Some(scene.blocks[id.0].weight);
+                block.weight = Some(scene.blocks()[id.0].weight);
             }
-            imported.scene.corner_contacts = Some(scene.corner_contacts);
+            imported.scene.corner_contacts = Some(scene.corner_contacts());
             let read = Scene::from_json(&imported.scene.to_json()).expect("sound");
-            for (block, id) in read.blocks.iter().zip(&frame.placed) {
-                let drawn = &scene.blocks[id.0].body.polygon;
+            for (block, id) in read.blocks().iter().zip(&frame.placed) {
+                let drawn = &scene.blocks()[id.0].body.polygon;
                 let off = (block.body.polygon.centroid() - drawn.centroid()).norm();
                 assert!(off < 1e-3, "{told}: {} is off by {off} m", block.id);
             }

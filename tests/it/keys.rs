@@ -16,7 +16,7 @@ fn a_load_tells_its_amount_and_a_key_what_it_is() {
         .flat_map(texts)
         .map(|t| t.words)
         .collect();
-    assert_eq!(amounts.len(), scene.loads.len(), "{amounts:?}");
+    assert_eq!(amounts.len(), scene.loads().len(), "{amounts:?}");
     let key: Vec<Text> = classes(&drawing.items, &["key"])
         .into_iter()
         .flat_map(texts)
@@ -37,7 +37,7 @@ fn robots_beyond_the_key_are_counted_in_it() {
         .into_iter()
         .flat_map(texts)
         .collect();
-    for robot in &scene.robots {
+    for robot in scene.robots() {
         let words = format!("robot {}", robot.id);
         assert!(key.iter().any(|t| t.words == words), "{words}");
     }

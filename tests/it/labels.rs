@@ -255,7 +255,7 @@ fn on_a_page_as_wide_as_a_column_words_stay_large_and_nothing_is_cut() {
                 figure::draw(&analysis, kind, &options),
             ));
         }
-        let block = scene.frames[0].placed[0];
+        let block = scene.frames()[0].placed[0];
         let free = figure::freebody(&analysis, 0, block, &options).expect("placed");
         drawings.push((format!("{name} freebody"), free));
     }
@@ -348,8 +348,8 @@ fn what_the_words_below_a_frame_name_is_labelled_and_what_is_not_is_counted() {
                 let drawing = figure::draw(&analysis, kind, &options);
                 let what = format!("{name} {} {width:?}", kind.name());
                 let frames = classes(&drawing.items, &["frame"]);
-                assert_eq!(frames.len(), scene.frames.len(), "{what}");
-                for (frame, group) in scene.frames.iter().zip(frames) {
+                assert_eq!(frames.len(), scene.frames().len(), "{what}");
+                for (frame, group) in scene.frames().iter().zip(frames) {
                     let own: Vec<Text> = group
                         .items
                         .iter()
@@ -365,7 +365,7 @@ fn what_the_words_below_a_frame_name_is_labelled_and_what_is_not_is_counted() {
                         .flat_map(texts)
                         .map(|t| t.words)
                         .collect();
-                    let blocks = frame.placed.iter().map(|id| &scene.blocks[id.0].id);
+                    let blocks = frame.placed.iter().map(|id| &scene.blocks()[id.0].id);
                     for id in blocks.filter(|id| names(&said, id)) {
                         named += 1;
                         assert!(labels.contains(id), "{what}: {id} of {said:?} has no label");
@@ -396,7 +396,7 @@ fn what_the_words_below_a_frame_name_is_labelled_and_what_is_not_is_counted() {
 fn around_a_block_its_neighbours_are_drawn_and_named() {
     let scene = scene("tests/scenes/tinyhuge.json");
     let pebble = scene
-        .blocks
+        .blocks()
         .iter()
         .position(|b| b.id == "pebble")
         .expect("there is one");
@@ -462,7 +462,7 @@ fn every_name_of_a_free_body_is_legible() {
     };
     for (name, scene) in gallery().into_iter().chain(crate::lines::brought()) {
         let analysis = Analysis::of(&scene);
-        for (frame, found) in scene.frames.iter().enumerate().take(3) {
+        for (frame, found) in scene.frames().iter().enumerate().take(3) {
             for block in &found.placed {
                 for options in [&Options::default(), &column, &corners] {
                     let drawing = figure::freebody(&analysis, frame, *block, options)

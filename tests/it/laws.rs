@@ -83,7 +83,7 @@ impl Change {
 fn weighed(mut file: Value) -> Value {
     let scene = crate::structure::scene(&file);
     let bodies: Vec<(Vec<[f64; 2]>, f64)> = scene
-        .blocks
+        .blocks()
         .iter()
         .map(|b| {
             (
@@ -106,7 +106,7 @@ fn weighed(mut file: Value) -> Value {
         *block = json!({ "id": block["id"], "polygon": outline, "weight": weight });
     }
     let ground: Vec<Value> = scene
-        .ground
+        .ground()
         .iter()
         .map(|g| json!({ "polygon": g.body.polygon.outline().iter().map(|p| [p.x, p.y]).collect::<Vec<_>>() }))
         .collect();

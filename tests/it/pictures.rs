@@ -210,7 +210,7 @@ fn a_figure_says_its_verdicts_and_numbers_to_those_who_do_not_see_it() {
 fn the_largest_arrow_is_one_edge_long_in_each_panel() {
     let scene = scene("assets/thesis/figure-4.json");
     let analysis = Analysis::of(&scene);
-    for frame in 0..scene.frames.len() {
+    for frame in 0..scene.frames().len() {
         let arrows = figure::arrows(&analysis, frame, &Options::default());
         let longest = arrows.iter().map(|a| a.vector.norm()).fold(0.0, f64::max);
         assert!((longest - 1.0).abs() < 1e-9, "frame {frame}: {longest}");
@@ -418,7 +418,7 @@ fn odd_scenes_are_drawn_too() {
         assert!(
             picture.len() > 500 && picture.len() < 1_000_000,
             "{}",
-            scene.title
+            scene.title()
         );
     }
 }

@@ -145,7 +145,7 @@ fn json_has_the_same_values_and_nothing_that_acts() {
             assert_eq!(value["scene"], *hostile);
             assert_eq!(value["frames"][0]["title"], *hostile);
         }
-        assert_eq!(scene.title, *hostile, "nothing is lost on the way in");
+        assert_eq!(scene.title(), hostile, "nothing is lost on the way in");
     });
 }
 
@@ -153,8 +153,9 @@ fn json_has_the_same_values_and_nothing_that_acts() {
 fn a_page_a_table_and_markdown_of_a_study_keep_their_shape() {
     let mut shapes = Vec::new();
     for hostile in HOSTILE {
-        let mut scene = Scene::from_json(&scene(hostile)).expect("sound");
-        scene.frames.truncate(1);
+        let mut file: Value = serde_json::from_str(&scene(hostile)).expect("JSON");
+        file["steps"].as_array_mut().expect("steps").truncate(1);
+        let scene = Scene::from_json(&file.to_string()).expect("sound");
         let study = study(&[scene], &TOLERANCES[..1], &mut |_| {});
         let page = report::accuracy::page(&study).expect("drawn");
         silent(&page, hostile);

@@ -213,7 +213,7 @@ fn verdicts_alone_are_judged_both_ways_at_overlaps() {
         ],
     );
     let scene = Scene::from_json(&file.to_string()).expect("a scene");
-    assert_eq!(scene.penetrations.len(), 1);
+    assert_eq!(scene.penetrations().len(), 1);
     let frame = Analysis::of(&scene).frames.remove(0);
     assert_eq!(frame.verdict, Verdict::Undecided, "{:?}", frame.notices);
     let alone = verdicts(&scene, &Options::default());
@@ -413,7 +413,7 @@ fn a_falling_pebble_makes_any_structure_fall() {
         let Ok(scene) = Scene::from_json(&file.to_string()) else {
             continue;
         };
-        if !scene.penetrations.is_empty() {
+        if !scene.penetrations().is_empty() {
             continue;
         }
         let analysis = Analysis::of(&scene);
@@ -454,7 +454,7 @@ fn reported_forces_keep_the_rule_at_every_block() {
         let scene = Scene::from_json(&file.to_string()).expect("a scene");
         let frame = Analysis::of(&scene).frames.remove(0);
         assert_eq!(frame.verdict, STANDS, "{file}");
-        for (number, block) in scene.blocks.iter().enumerate() {
+        for (number, block) in scene.blocks().iter().enumerate() {
             let outline = block.body.polygon.outline().iter();
             let reach = outline.map(|p| (p - block.centroid).norm());
             let radius = reach.fold(0.0, f64::max);

@@ -279,7 +279,7 @@ fn whatever_is_said_to_be_wedged_has_no_rest() {
                 if frame.verdict != Verdict::Stable {
                     continue;
                 }
-                let bar = scene(&file).blocks[0].centroid;
+                let bar = scene(&file).blocks()[0].centroid;
                 let rests = Between::of(&frame, [bar.x, bar.y], 6.0).rests();
                 match frame.only_by_wedging {
                     Some(only) => assert_eq!(only, !rests, "lean {lean}, friction {friction}"),
@@ -367,7 +367,7 @@ fn without_friction_a_balance_is_reached_from_rest() {
         let Ok(scene) = drystone::Scene::from_json(&file.to_string()) else {
             continue;
         };
-        let smooth = scene.frames.len() == 1;
+        let smooth = scene.frames().len() == 1;
         let frame = asked(&file);
         if smooth && frame.verdict == Verdict::Stable {
             standing += 1;

@@ -93,6 +93,15 @@ pub(in crate::scene) fn duplicate_key(key: &str, line: usize, column: usize) -> 
     )
 }
 
+/// The same of an object that was made in code.
+pub(in crate::scene) fn key_twice(key: &str) -> Wording {
+    say(
+        Code::DuplicateKey,
+        format!("the key `{}` stands here twice", shortened(key)),
+        "take one of the two out",
+    )
+}
+
 pub(in crate::scene) fn missing_key(key: &str) -> Wording {
     let help = match key {
         "drystone" => "add `\"drystone\": 1`, the version of the scene format".into(),
