@@ -1,7 +1,7 @@
 //! Contact: two normal forces per edge interface, pressing only. Source: [Vallat23](crate::doc::references) §2.0.1–2.
 
 use super::{Call, Situation, counted};
-use crate::assembly::{Assembly, Contact};
+use crate::assembly::{Assembly, AssemblyContact};
 use crate::interface::{ContactKind, Interface};
 use crate::scene::BodyId;
 
@@ -36,7 +36,7 @@ pub(super) fn add(
     for (number, interface) in situation.interfaces.iter().enumerate() {
         let [on, from] = interface.bodies.map(body);
         if let (true, Some(on)) = (interface.kind == kind, on) {
-            assembly.contacts.push(Contact {
+            assembly.contacts.push(AssemblyContact {
                 interface: number,
                 bodies: interface.bodies,
                 on,

@@ -2,7 +2,7 @@
 //! [Vallat23](crate::doc::references) §2.0.6.
 
 use super::{Call, Situation, counted};
-use crate::assembly::{Assembly, Grip};
+use crate::assembly::{Assembly, AssemblyGrip};
 use crate::scene::Limits;
 
 /// Name in results.
@@ -26,7 +26,7 @@ pub fn contribute(situation: &Situation, assembly: &mut Assembly) {
     for (number, hold) in situation.frame.holds.iter().enumerate() {
         if let Some(body) = numbers[hold.block.0] {
             let limits = situation.scene.robots[hold.robot.0].limits;
-            assembly.grips.push(Grip {
+            assembly.grips.push(AssemblyGrip {
                 hold: number,
                 robot: hold.robot,
                 body,

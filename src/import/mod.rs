@@ -21,7 +21,7 @@ pub use draft::Remark;
 
 use crate::scene::Scene;
 use crate::scene::format::SceneFile;
-use draft::{Draft, Form, Kind};
+use draft::{Draft, Form, Role};
 use outline::Outlines;
 
 /// What a drawing is written in.
@@ -180,12 +180,12 @@ fn made(mut draft: Draft, options: &Options) -> Result<Imported, Refusal> {
     let size = outline::size(&mut draft);
     let flatten = options.flatten.unwrap_or(1e-3 * size);
     let close = options.gap.unwrap_or(1e-3 * size).min(1e-3 * size);
-    if draft.parts.iter().any(|p| matches!(&p.form, Form::Tracks(t, _) if p.kind != Kind::Robot && t.iter().any(track::Track::bends))) {
+    if draft.parts.iter().any(|p| matches!(&p.form, Form::Tracks(t, _) if p.kind != Role::Robot && t.iter().any(track::Track::bends))) {
         draft.notes.push(format!("curves are cut into chords, {} m from them at most", entry::short(flatten)));
     }
     let title = std::mem::take(&mut draft.title);
     let mut outlines = Outlines::of(&mut draft, flatten, close);
-    if !outlines.bodies.iter().any(|b| b.kind == Kind::Block) {
+    if !outlines.bodies.iter().any(|b| b.kind == Role::Block) {
         let empty = Remark {
             element: String::new(),
             message: "nothing in the drawing becomes a block".into(),

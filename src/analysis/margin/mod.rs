@@ -26,7 +26,7 @@ use crate::assembly::Assembly;
 use crate::proof::Motion;
 use crate::scene::RobotId;
 use crate::solve::{Limit, least, most};
-use edge::{Edge, Loads, Way};
+use edge::{Loads, Threshold, Way};
 pub use kind::{MarginKind, MarginKinds};
 pub use trial::trials;
 use trial::{Limited, Setting, Trial};
@@ -308,7 +308,7 @@ fn friction(trial: &mut Trial) -> Margin {
         friction: Some(mu),
         ..Setting::default()
     };
-    Edge {
+    Threshold {
         way: Way::Least,
         loads: Loads::Constant,
         natural: 1.0,
@@ -322,7 +322,7 @@ fn kernel(trial: &mut Trial) -> Margin {
         kernel: Some(kernel),
         ..Setting::default()
     };
-    Edge {
+    Threshold {
         way: Way::Most,
         loads: Loads::Constant,
         natural: 1.0,
@@ -373,7 +373,7 @@ fn linear(
     alone: Setting,
     base: Option<f64>,
 ) -> Margin {
-    let edge = Edge {
+    let edge = Threshold {
         way: Way::Most,
         loads: Loads::Linear,
         natural: 1.0,
@@ -412,7 +412,7 @@ fn limit(trial: &mut Trial, grip: usize, component: usize) -> Margin {
     if component == 2 {
         unit *= program.scale.length;
     }
-    let edge = Edge {
+    let edge = Threshold {
         way: Way::Least,
         loads: Loads::Linear,
         natural: unit * crate::program::Scale::HEAVIEST,
