@@ -7,6 +7,7 @@
 
 mod component;
 mod cost;
+mod doubt;
 mod frame;
 mod gather;
 mod judgement;
@@ -18,6 +19,7 @@ mod pair;
 mod wedged;
 
 use std::collections::BTreeMap;
+use std::fmt;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -25,10 +27,10 @@ use std::time::Instant;
 use rayon::prelude::*;
 
 use crate::assembly::Assembly;
-#[doc(inline)]
-pub use crate::effect::EffectReport;
 use crate::effect::wedging::{self, Wedging};
 use crate::effect::{self, Situation};
+#[doc(inline)]
+pub use crate::effect::{EffectName, EffectReport};
 use crate::geometry::{Point, Vector};
 use crate::interface::Interfaces;
 #[doc(inline)]
@@ -43,6 +45,7 @@ use crate::solve::{Effort, Until};
 pub use component::Method;
 use component::{Findings, solved};
 pub use cost::{SolveReport, Stages};
+pub use doubt::Doubt;
 use frame::settle;
 use gather::{add, gathered};
 pub(crate) use judgement::{Guess, hinges_on_gaps};
@@ -65,6 +68,13 @@ pub enum Verdict {
     Unstable,
 }
 
+/// The word in results, for programs: `stable`, `undecided` or `unstable`.
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(crate::wording::verdict::word(*self))
+    }
+}
+
 /// A scene and what was found out about each of its frames.
 #[derive(Clone, Debug)]
 pub struct Analysis {
@@ -81,8 +91,8 @@ pub struct Analysis {
 pub struct FrameAnalysis {
     /// Whether it stands.
     pub verdict: Verdict,
-    /// Why it is undecided, in words, with both proofs' numbers; empty otherwise.
-    pub doubt: String,
+    /// Why it is undecided; empty otherwise. [`FrameAnalysis::doubt`] says it in a sentence.
+    pub doubts: Vec<Doubt>,
     /// L in metres, by which torques are weighed against forces: the median length of the frame's edge interfaces, or the
     /// median block's square root of area where nothing touches.
     pub length: f64,
@@ -203,9 +213,6 @@ pub enum Failure {
         torque: f64,
     },
 }
-
-/// Why a frame is undecided whose programs were given up at the deadline.
-const LATE: &str = "the time limit was reached before it was decided";
 
 /// What is known of the components of earlier frames.
 #[derive(Default)]
@@ -345,7 +352,7 @@ fn examined(situation: &Situation, options: Options, known: &mut Known) -> Frame
         .fold(Count::default(), |sum, f| sum.and(f.1.count));
     settle(&mut analysis, situation, count, options.verdict_only);
     if analysis.verdict == Verdict::Undecided && options.is_late() {
-        analysis.doubt = format!("{LATE}: {}", analysis.doubt);
+        analysis.doubts.insert(0, Doubt::Late);
     }
     stages.solution = start.elapsed().as_secs_f64() - stages.assembly;
     let _until = Until::set(options.deadline);

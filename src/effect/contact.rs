@@ -1,12 +1,12 @@
 //! Contact: two normal forces per edge interface, pressing only. Source: [Vallat23](crate::doc::references) §2.0.1–2.
 
-use super::{Call, Situation, counted};
+use super::{Call, EffectName, Situation, counted};
 use crate::assembly::{Assembly, AssemblyContact};
 use crate::interface::{ContactKind, Interface};
 use crate::scene::BodyId;
 
 /// Name in results.
-pub const NAME: &str = "contact";
+pub const NAME: EffectName = EffectName::Contact;
 
 /// Called for when two bodies touch.
 pub fn called_for(situation: &Situation) -> Call {

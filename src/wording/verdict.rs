@@ -50,8 +50,8 @@ pub fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
     if found.only_by_wedging == Some(true) {
         sentences.push("only by wedging: its loads alone do not build up what holds it".to_owned());
     }
-    if found.verdict == Verdict::Undecided && !found.doubt.is_empty() {
-        sentences.push(found.doubt.clone());
+    if found.verdict == Verdict::Undecided && !found.doubts.is_empty() {
+        sentences.push(found.doubt());
     }
     sentences.join("; ")
 }
@@ -67,7 +67,7 @@ pub fn lacks(scene: &Scene, found: &FrameAnalysis) -> String {
         parts.push("only wedged, by forces that its loads alone do not build up".to_owned());
     }
     if found.verdict == Verdict::Undecided {
-        parts.push(found.doubt.clone());
+        parts.push(found.doubt());
     }
     parts.retain(|p| !p.is_empty());
     parts.join("; ")
@@ -96,7 +96,7 @@ pub fn sentence(scene: &Scene, found: &FrameAnalysis) -> String {
         },
         Verdict::Undecided => format!(
             "It is undecided: neither forces that hold it nor a motion by which it falls could be proved; {}.",
-            found.doubt
+            found.doubt()
         ),
     }
 }

@@ -223,7 +223,7 @@ fn at(file: &Value, accuracy: Accuracy) -> (Verdict, Proof, String) {
         ..Options::default()
     };
     let frame = Analysis::with(&scene, &options).frames.remove(0);
-    (frame.verdict, frame.proof, frame.doubt)
+    (frame.verdict, frame.proof, frame.doubt())
 }
 
 #[test]

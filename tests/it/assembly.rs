@@ -8,7 +8,7 @@
 use std::fs;
 use std::path::Path;
 
-use drystone::analysis::Verdict;
+use drystone::analysis::{EffectName, Verdict};
 use drystone::internals::assembly::Assembly;
 use drystone::internals::effect::{Situation, assemble};
 use drystone::internals::geometry::{Point, Vector};
@@ -244,7 +244,7 @@ fn components_hold_every_body_contact_and_grip_once_and_effects_count_what_is_po
             let reported: usize = result
                 .effects
                 .iter()
-                .filter(|e| e.simulated && e.effect != "sticking")
+                .filter(|e| e.simulated && e.effect != EffectName::Sticking)
                 .map(|e| e.unknowns)
                 .sum();
             assert_eq!(reported, posed, "{name}: {:?}", result.effects);

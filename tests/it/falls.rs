@@ -1,7 +1,7 @@
 //! What falls: its failures are named, whatever the turn of gravity, and with them every block is in balance.
 
 use drystone::Analysis;
-use drystone::analysis::{Ask, Failure, FrameAnalysis, Options, Verdict};
+use drystone::analysis::{Ask, EffectName, Failure, FrameAnalysis, Options, Verdict};
 use drystone::internals::geometry::{Point, Vector, cross};
 use drystone::scene::{BodyId, Scene};
 use serde_json::{Value, json};
@@ -140,7 +140,10 @@ fn the_verdict_alone_is_proved_and_says_what_it_leaves_out() {
         let programs = |frame: &FrameAnalysis| frame.solve.programs;
         assert!(programs(&frame) <= programs(&whole), "{degrees}°");
         let sticking = |frame: &FrameAnalysis| {
-            let effect = frame.effects.iter().find(|e| e.effect == "sticking");
+            let effect = frame
+                .effects
+                .iter()
+                .find(|e| e.effect == EffectName::Sticking);
             let effect = effect.expect("every effect is told");
             (effect.simulated, effect.why.contains("only the verdict"))
         };

@@ -163,7 +163,7 @@ impl Built {
 /// The verdict and the total force of a scene's only frame.
 fn judged(file: &Value) -> (Verdict, f64, String) {
     let frame = first(file);
-    (frame.verdict, frame.total_force, frame.doubt)
+    (frame.verdict, frame.total_force, frame.doubt())
 }
 
 fn same(name: &str, meant: (Verdict, f64), file: &Value, written: Written) {
@@ -319,7 +319,11 @@ fn where_coordinates_come_from_is_told() {
     let wall = bond(3, 3, 0.5);
     let source = |written| {
         let scene = Scene::from_json(&wall.file(17.3, written, None).to_string()).unwrap();
-        (scene.healed().source, scene.tolerance().gap, *scene.healed())
+        (
+            scene.healed().source,
+            scene.tolerance().gap,
+            *scene.healed(),
+        )
     };
     let (from, gap, healed) = source(Written::Decimals(4));
     assert_eq!(from, ToleranceSource::Decimals(4));
@@ -449,7 +453,7 @@ fn a_slight_overlap_on_which_nothing_hinges_is_told_beside_the_verdict() {
     };
     for (push, expected) in [(1.0, Verdict::Stable), (10.0, Verdict::Unstable)] {
         let frame = first(&file(push));
-        assert_eq!(frame.verdict, expected, "{}", frame.doubt);
+        assert_eq!(frame.verdict, expected, "{}", frame.doubt());
         let told = |n: &String| n.contains("4.00e-3 m of overlap between a and b");
         assert!(frame.notices.iter().any(told), "{:?}", frame.notices);
     }

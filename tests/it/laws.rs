@@ -178,16 +178,19 @@ fn same(
     use drystone::scene::{BlockId, BodyId};
     let what = format!("{name} under {change:?}");
     assert_eq!(
-        before.verdict, after.verdict,
+        before.verdict,
+        after.verdict,
         "{what}: {:?} {:?} {}",
-        before.proof, after.proof, after.doubt
+        before.proof,
+        after.proof,
+        after.doubt()
     );
     // A random pile may have a gap on which the verdict hinges; then it has it however it lies.
-    if before.doubt.contains("narrow gaps") {
+    if before.doubt().contains("narrow gaps") {
         assert!(
-            after.doubt.contains("narrow gaps"),
+            after.doubt().contains("narrow gaps"),
             "{what}: {}",
-            after.doubt
+            after.doubt()
         );
         return;
     }
@@ -195,7 +198,7 @@ fn same(
         before.verdict,
         Verdict::Undecided,
         "{what}: {}",
-        before.doubt
+        before.doubt()
     );
     let force = change.force;
     let heaviest = before.weight.max(before.total_force) * force;
@@ -367,9 +370,12 @@ fn with_the_noise_of_32_bit_floats() {
         }
         let (before, after) = (first(&file), first(&other));
         assert_eq!(
-            before.verdict, after.verdict,
+            before.verdict,
+            after.verdict,
             "{name}: {:?} {:?} {}",
-            before.proof, after.proof, after.doubt
+            before.proof,
+            after.proof,
+            after.doubt()
         );
         assert_eq!(before.contacts.len(), after.contacts.len(), "{name}");
         assert!(

@@ -216,7 +216,7 @@ fn examine(text: &str) -> Result<bool, String> {
     };
     let analysis = Analysis::of(&scene);
     for frame in &analysis.frames {
-        if frame.verdict == Verdict::Undecided && frame.doubt.is_empty() {
+        if frame.verdict == Verdict::Undecided && frame.doubt().is_empty() {
             return Err("undecided without a reason".into());
         }
     }

@@ -193,11 +193,11 @@ fn slivers_between_large_blocks_are_judged_both_ways() {
     let scene = Scene::from_json(&file.to_string()).expect("a scene");
     let frame = Analysis::of(&scene).frames.remove(0);
     assert_eq!(frame.verdict, Verdict::Undecided, "{:?}", frame.notices);
-    assert!(frame.doubt.contains("left") && frame.doubt.contains("contact_tolerance"));
+    assert!(frame.doubt().contains("left") && frame.doubt().contains("contact_tolerance"));
     assert_eq!(verdicts(&scene, &Options::default()), [Verdict::Undecided]);
     for (tolerance, expected) in [(0.5 * length, STANDS), (1.01 * length, FALLS)] {
         file["contact_tolerance"] = json!(tolerance);
-        assert_eq!(verdict(&file), expected, "{tolerance:e}: {}", frame.doubt);
+        assert_eq!(verdict(&file), expected, "{tolerance:e}: {}", frame.doubt());
     }
 }
 
@@ -428,9 +428,10 @@ fn a_falling_pebble_makes_any_structure_fall() {
         }
         tried += 1;
         assert_eq!(
-            frame.verdict, FALLS,
+            frame.verdict,
+            FALLS,
             "round {round}: {}\n{file}",
-            frame.doubt
+            frame.doubt()
         );
     }
     assert!(tried > 25, "{tried}");

@@ -1,7 +1,7 @@
 //! Wedging: which structures stand only by a self-stress that nobody built up.
 
 use drystone::Analysis;
-use drystone::analysis::{Ask, FrameAnalysis, Options, Verdict};
+use drystone::analysis::{Ask, EffectName, FrameAnalysis, Options, Verdict};
 use serde_json::{Value, json};
 
 use crate::structure::{arch, block, harmonic, on_floor, on_slope, rectangle, scene, wall};
@@ -106,7 +106,10 @@ fn the_answer_does_not_depend_on_size() {
 #[test]
 fn it_is_an_effect_on_request() {
     let told = |frame: &FrameAnalysis| {
-        let effect = frame.effects.iter().find(|e| e.effect == "wedging");
+        let effect = frame
+            .effects
+            .iter()
+            .find(|e| e.effect == EffectName::Wedging);
         let effect = effect.expect("every effect is told");
         (effect.simulated, effect.why.clone())
     };
@@ -450,7 +453,10 @@ fn few_random_scenes_stay_open() {
         if frame.verdict == Verdict::Stable {
             standing += 1;
             if frame.only_by_wedging.is_none() {
-                let effect = frame.effects.iter().find(|e| e.effect == "wedging");
+                let effect = frame
+                    .effects
+                    .iter()
+                    .find(|e| e.effect == EffectName::Wedging);
                 assert!(effect.expect("every effect is told").why.contains("open"));
                 open.push(number);
             }

@@ -97,7 +97,7 @@ fuzz_target!(|heap: Heap| {
     for frame in &analysis.frames {
         assert!(frame.total_force.is_finite() && frame.total_sticking.is_finite());
         match frame.verdict {
-            Verdict::Undecided => assert!(!frame.doubt.is_empty()),
+            Verdict::Undecided => assert!(!frame.doubt().is_empty()),
             _ => assert!(frame.proof.holds(), "{:?}", frame.proof),
         }
         for contact in &frame.contacts {

@@ -263,7 +263,7 @@ fn the_smallest_stone_is_judged_as_an_exact_program_does() {
                         true => judged(&scene, &touches, frame, false).0,
                         false => Standing::TouchesElsewhere,
                     };
-                    (standing, format!("{:?} {}", frame.proof, frame.doubt))
+                    (standing, format!("{:?} {}", frame.proof, frame.doubt()))
                 }
                 Err(_) => (Standing::Refused, String::new()),
             };

@@ -5,6 +5,8 @@ mod least_force;
 mod least_residual;
 mod least_sticking;
 
+use std::fmt;
+
 pub(super) use closed_form::single;
 
 use crate::program::Program;
@@ -38,6 +40,12 @@ impl Method {
             Method::LeastResidual => "least residual",
             Method::LeastSticking => "least sticking",
         }
+    }
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
     }
 }
 
