@@ -90,6 +90,8 @@
 
 // Blank lines keep the order of reading: the formatter would sort them.
 
+mod setter;
+
 pub mod scene;
 
 pub mod starter;

@@ -77,6 +77,7 @@ impl fmt::Display for Verdict {
 
 /// A scene and what was found out about each of its frames.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Analysis {
     /// The scene examined.
     pub scene: Arc<Scene>,
@@ -88,6 +89,7 @@ pub struct Analysis {
 
 /// What was found out about one frame.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct FrameAnalysis {
     /// Whether it stands.
     pub verdict: Verdict,
@@ -137,6 +139,7 @@ pub struct FrameAnalysis {
 
 /// An interface and the admissible force it carries.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Contact {
     /// Where the two bodies touch; forces are those on `interface.bodies[0]`.
     pub interface: Interface,
@@ -154,6 +157,7 @@ pub struct Contact {
 
 /// What a robot gives to the block it holds.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct RobotForce {
     /// The robot.
     pub robot: RobotId,
@@ -171,6 +175,7 @@ pub struct RobotForce {
 
 /// One thing that would have to stick, or one thing a robot would have to give beyond its limits.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Failure {
     /// A pull across an interface, at one of its application points.
     Tension {

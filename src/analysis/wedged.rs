@@ -13,6 +13,7 @@ use crate::solve::Squeeze;
 /// shows: along it no other face takes work, they take at most 1 W for each newton of their normal forces, and the loads
 /// give `at_least` watts.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Wedged {
     /// The faces, as numbers of the frame's contacts.
     pub interfaces: Vec<usize>,

@@ -28,6 +28,7 @@ use crate::scene::{Frame, Scene};
 
 /// One effect in one frame.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct EffectReport {
     /// Its name.
     pub effect: EffectName,

@@ -4,7 +4,7 @@
 //! the few that matter; a thousand outlines on one spot are half a million pairs, and no structure.
 
 use super::outline::Outlines;
-use super::{Role, Remark};
+use super::{Remark, Role};
 use crate::geometry::Bounds;
 use crate::geometry::snap::Corner;
 

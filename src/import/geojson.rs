@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value};
 
-use super::draft::{Draft, Form, Role, Part, Rule, Values};
+use super::draft::{Draft, Form, Part, Role, Rule, Values};
 use super::track::Track;
 use crate::geometry::Point;
 

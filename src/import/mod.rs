@@ -21,11 +21,13 @@ pub use draft::Remark;
 
 use crate::scene::Scene;
 use crate::scene::format::SceneFile;
+use crate::setter::{optional_setters, setters};
 use draft::{Draft, Form, Role};
 use outline::Outlines;
 
 /// What a drawing is written in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Format {
     /// Scalable Vector Graphics, as Inkscape and Illustrator write it, or a figure by this library.
     Svg,
@@ -37,6 +39,7 @@ pub enum Format {
 
 /// How a drawing is to be read, and what a scene needs that no drawing holds.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Options {
     /// Metres per unit of the drawing. Default: the real size of an SVG that has one, that of a figure by this library,
     /// else 1.
@@ -52,8 +55,22 @@ pub struct Options {
     pub scene: SceneFile,
 }
 
+impl Options {
+    setters! {
+        scene: SceneFile, "Friction, kernel, density, thickness and gravity of the scene.";
+    }
+
+    optional_setters! {
+        scale: f64, "Metres per unit of the drawing.";
+        flatten: f64, "Farthest that a chord may lie from its curve, in metres.";
+        gap: f64, "What is no farther apart, in metres, is made to touch; 0 for nothing.";
+        frame: usize, "Which frame of a figure by this library, from 0.";
+    }
+}
+
 /// A drawing that has become a scene.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Imported {
     /// The scene file. It is sound: [`Scene::from_json`] takes its text.
     pub scene: SceneFile,
@@ -67,6 +84,7 @@ pub struct Imported {
 
 /// A body that was moved so that it touches.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Snapped {
     /// The body: a block's id, or `ground[2]`.
     pub body: String,
@@ -82,6 +100,7 @@ pub struct Snapped {
 
 /// A drawing that does not become a scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Refusal {
     /// Why, at least one reason.
     pub problems: Vec<Remark>,

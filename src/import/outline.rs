@@ -1,6 +1,6 @@
 //! [`Outlines`]: the bodies and robots of a draft, their curves cut, each one outline with its holes.
 
-use super::draft::{Draft, Form, Role, Part, Values};
+use super::draft::{Draft, Form, Part, Role, Values};
 use super::name::Names;
 use super::region::regions;
 use super::track::Track;

@@ -1,6 +1,6 @@
 //! Well-known text into a [`Draft`]: one geometry per line, with its name before it where it has one.
 
-use super::draft::{Draft, Form, Role, Part, Rule, Values};
+use super::draft::{Draft, Form, Part, Role, Rule, Values};
 use super::track::Track;
 use crate::geometry::Point;
 

@@ -168,6 +168,7 @@ impl Forces {
 
 /// A block's velocity.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Motion {
     /// The block.
     pub block: BlockId,

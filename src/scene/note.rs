@@ -31,6 +31,7 @@ codes! {
 
 /// Something that is allowed, and seldom meant.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Note {
     /// What sort of note it is.
     pub code: NoteCode,

@@ -28,14 +28,8 @@ const TURNS: usize = 15;
 
 fn main() {
     let plain = Options::default();
-    let margins = Options {
-        margins: Ask::Yes,
-        ..plain
-    };
-    let wedging = Options {
-        wedging: Ask::Yes,
-        ..plain
-    };
+    let margins = plain.margins(Ask::Yes);
+    let wedging = plain.wedging(Ask::Yes);
     let robots = json!([{ "id": "r", "holds": "40", "limits": { "force": 100.0 } },
         { "id": "s", "holds": "60", "limits": { "force": 100.0 } }]);
     let mut strong = robots.clone();

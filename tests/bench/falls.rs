@@ -61,10 +61,7 @@ fn main() {
 
 fn told(name: &str, blocks: usize, file: &Value, angle: f64) {
     let [stands, falls] = [scene(file), scene(&turned(file, angle))];
-    let verdict_only = Options {
-        verdict_only: Ask::Yes,
-        ..Options::default()
-    };
+    let verdict_only = Options::default().verdict_only(Ask::Yes);
     let upright = Analysis::of(&stands);
     assert_eq!(
         upright.verdict(),

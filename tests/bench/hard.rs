@@ -78,10 +78,7 @@ fn medians(scenes: &[Scene; 2]) -> [f64; 2] {
     {
         for (scene, times) in scenes.iter().zip(&mut times) {
             let start = Instant::now();
-            let options = Options {
-                accuracy: Accuracy::Standard,
-                ..Options::default()
-            };
+            let options = Options::default().accuracy(Accuracy::Standard);
             std::hint::black_box(Analysis::with(std::hint::black_box(scene), &options));
             times.push(1e3 * start.elapsed().as_secs_f64());
         }

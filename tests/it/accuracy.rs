@@ -218,10 +218,7 @@ fn the_same_study_is_the_same_picture() {
 
 fn at(file: &Value, accuracy: Accuracy) -> (Verdict, Proof, String) {
     let scene = scene(file);
-    let options = Options {
-        accuracy,
-        ..Options::default()
-    };
+    let options = Options::default().accuracy(accuracy);
     let frame = Analysis::with(&scene, &options).frames.remove(0);
     (frame.verdict, frame.proof, frame.doubt())
 }

@@ -115,10 +115,7 @@ fn an_arch_of_a_thousand_is_carried_the_same_way_from_either_end() {
 /// With the verdict alone the verdict and its proof are there, no soft program was posed, and the result says so.
 #[test]
 fn the_verdict_alone_is_proved_and_says_what_it_leaves_out() {
-    let asked = Options {
-        verdict_only: Ask::Yes,
-        ..Options::default()
-    };
+    let asked = Options::default().verdict_only(Ask::Yes);
     let files = [
         (wall(10, 10), 0.0, Verdict::Stable),
         (wall(10, 10), 28.0, Verdict::Stable),

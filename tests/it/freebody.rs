@@ -50,10 +50,7 @@ fn balances(name: &str, analysis: &Analysis, frame: usize, id: BlockId) -> usize
     let (scene, found) = (&analysis.scene, &analysis.frames[frame]);
     let mut listed = 0;
     for corners in [Corners::Few, Corners::All] {
-        let options = Options {
-            corners,
-            ..Options::default()
-        };
+        let options = Options::default().corners(corners);
         let drawing = figure::freebody(analysis, frame, id, &options).expect("it is placed");
         let what = format!("{name}, frame {frame}, block {}", scene.blocks()[id.0].id);
         let rows = rows(&drawing.description);

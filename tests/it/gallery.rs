@@ -249,6 +249,7 @@ fn amount(failure: &Failure) -> f64 {
         | Failure::Friction { force, .. }
         | Failure::RobotForce { force, .. } => force.norm(),
         Failure::RobotTorque { torque, .. } => torque.abs(),
+        other => panic!("{other:?} is new here"),
     }
 }
 

@@ -96,10 +96,7 @@ fn a_doorway_from_inkscape_stands_at_its_real_size() {
     // In each pier 2 with the ground, 4 in courses and 8 between them; the lintel on both, and two that stand alone.
     assert_eq!(touching(&imported.scene), 2 * (2 + 4 + 8) + 2 + 2);
     assert_eq!(verdict(&imported.scene), Verdict::Stable);
-    let unsnapped = Options {
-        gap: Some(0.0),
-        ..Options::default()
-    };
+    let unsnapped = Options::default().gap(0.0);
     let text = fs::read_to_string(asset("import/doorway.svg")).expect("an asset");
     assert!(
         import(&text, Format::Svg, &unsnapped).is_err(),
@@ -153,10 +150,7 @@ fn geojson_and_wkt_become_scenes_with_their_values() {
     assert_eq!(steps.scene.robots[0].holds.as_deref(), Some("tread-3"));
     assert_eq!(steps.snapped[0].body, "tread-2");
     assert_eq!(verdict(&steps.scene), Verdict::Stable);
-    let options = Options {
-        scale: Some(2.0),
-        ..Options::default()
-    };
+    let options = Options::default().scale(2.0);
     let post = read("post.wkt", Format::Wkt, &options);
     assert_eq!(ids(&post), ["footing", "post"]);
     assert_eq!(
@@ -184,15 +178,13 @@ fn our_own_figures_read_back_give_the_same_verdicts() {
             .collect();
         for (number, (frame, found)) in scene.frames().iter().zip(&analysis.frames).enumerate() {
             let first = &scene.blocks()[frame.placed[0].0];
-            let options = Options {
-                frame: Some(number),
-                scene: Scene::builder()
+            let options = Options::default().frame(number).scene(
+                Scene::builder()
                     .friction(json["friction"].as_f64().expect("given"))
                     .kernel(json["kernel"].as_f64().unwrap_or(0.0))
                     .gravity([0.0, -1.0])
                     .density(first.weight / first.body.polygon.area()),
-                ..Options::default()
-            };
+            );
             let told = format!("{} frame {number}", path.display());
             let mut imported =
                 import(&svg, Format::Svg, &options).unwrap_or_else(|r| panic!("{told}: {r:?}"));

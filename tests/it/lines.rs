@@ -244,18 +244,9 @@ fn from_tail_to_tip_every_arrow_is_as_long_as_its_force_and_so_is_the_scale() {
     let (mut checked, mut shortest, mut left_out) = (0, f64::INFINITY, 0);
     let options = [
         Options::default(),
-        Options {
-            style: ForceStyle::Components,
-            ..Options::default()
-        },
-        Options {
-            normalisation: Normalisation::Source,
-            ..Options::default()
-        },
-        Options {
-            width: Some(396.0),
-            ..Options::default()
-        },
+        Options::default().style(ForceStyle::Components),
+        Options::default().normalisation(Normalisation::Source),
+        Options::default().width(396.0),
     ];
     for (name, scene) in gallery().into_iter().chain(brought()) {
         let analysis = Analysis::of(&scene);

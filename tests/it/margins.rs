@@ -9,10 +9,7 @@ use serde_json::{Value, json};
 use crate::structure::{arch, block, on_floor, on_slope, rectangle, scene, verdict, wall};
 
 fn frames(scene: &Scene) -> Vec<FrameAnalysis> {
-    let asked = Options {
-        margins: Ask::Yes,
-        ..Options::default()
-    };
+    let asked = Options::default().margins(Ask::Yes);
     Analysis::with(scene, &asked).frames
 }
 
@@ -366,11 +363,9 @@ fn few_changed_frames_are_judged_for_a_margin() {
 fn a_margin_alone_is_what_it_is_among_all() {
     let file = scene(&arch(15, 0.3, 0.7));
     let all = frames(&file).remove(0);
-    let asked = Options {
-        margins: Ask::Yes,
-        margin_kinds: MarginKinds::of(&[MarginKind::Friction]),
-        ..Options::default()
-    };
+    let asked = Options::default()
+        .margins(Ask::Yes)
+        .margin_kinds(MarginKinds::of(&[MarginKind::Friction]));
     let alone = Analysis::with(&file, &asked).frames.remove(0);
     assert!(judged(&alone) < judged(&all));
     let (all, alone) = (

@@ -346,11 +346,7 @@ fn every_key_of_real_results_is_told_and_every_told_key_occurs() {
                 .map(|p| std::fs::read_to_string(p).expect("readable")),
         );
     }
-    let options = Options {
-        margins: Ask::Yes,
-        wedging: Ask::Yes,
-        ..Options::default()
-    };
+    let options = Options::default().margins(Ask::Yes).wedging(Ask::Yes);
     for text in &texts {
         let scene = Scene::from_json(text).expect("sound");
         let analysis = Analysis::with(&scene, &options);

@@ -262,10 +262,7 @@ fn verdicts_alone_are_those_of_a_whole_analysis() {
         stands += whole.iter().filter(|v| **v == Verdict::Stable).count();
     }
     assert!(falls > 100 && stands > 100, "{falls} fall, {stands} stand");
-    let strict = Options {
-        accuracy: Accuracy::Proved,
-        ..options
-    };
+    let strict = options.accuracy(Accuracy::Proved);
     for (text, scene) in scenes.iter().step_by(10) {
         let whole = Analysis::with(scene, &strict);
         let whole: Vec<Verdict> = whole.frames.iter().map(|f| f.verdict).collect();

@@ -318,16 +318,10 @@ fn a_report_keeps_words_as_words_in_all_its_forms() {
             text: &text,
         };
         let entry = Entry::of(file, analysis, &Wanted::default());
-        let problem = Problem {
-            code: drystone::scene::Code::NotJson,
-            path: hostile.into(),
-            line: 1,
-            column: 1,
-            span: None,
-            message: hostile.into(),
-            help: hostile.into(),
-            place: None,
-        };
+        let mut problem: Problem = Scene::from_json("").expect_err("refused").list.remove(0);
+        problem.path = hostile.into();
+        problem.message = hostile.into();
+        problem.help = hostile.into();
         for form in [Form::Html, Form::Split, Form::Markdown, Form::Json] {
             let piece = |number| Piece::of(&entry, number, form, "r").expect("drawn");
             let report = Report {

@@ -26,6 +26,7 @@ pub enum Notation {
 
 /// One thing that is wrong with a style file.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct StyleProblem {
     /// Where, such as `widths.force` or `arrows[2]`; empty for the file as a whole.
     pub path: String,
@@ -57,7 +58,11 @@ impl Theme {
     /// assert!(problems.to_string().contains("the nearest known key is `failure`"));
     /// # Ok::<(), drystone::drawing::style::format::StyleProblems>(())
     /// ```
-    pub fn read(text: &str, notation: Notation, base: Option<&Theme>) -> Result<Theme, StyleProblems> {
+    pub fn read(
+        text: &str,
+        notation: Notation,
+        base: Option<&Theme>,
+    ) -> Result<Theme, StyleProblems> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let value = match notation {
             Notation::Json => value::json(text),

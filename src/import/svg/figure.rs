@@ -6,7 +6,7 @@ use super::style::Style;
 use super::viewport::Viewport;
 use super::{Around, Walk, element, is, words};
 use crate::import::affine::Affine;
-use crate::import::draft::{Form, Role, Part, Rule, Values};
+use crate::import::draft::{Form, Part, Role, Rule, Values};
 
 const SCALE: &str = "data-drystone-scale";
 const ORIGIN: &str = "data-drystone-origin";

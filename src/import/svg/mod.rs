@@ -21,7 +21,7 @@ use self::style::{Fill, Style};
 use self::viewport::Viewport;
 use super::affine::Affine;
 use super::crowd::{MOST_BODIES, too_many};
-use super::draft::{Draft, Form, Role, Part, Values};
+use super::draft::{Draft, Form, Part, Role, Values};
 use super::entry;
 
 const SVG: &str = "http://www.w3.org/2000/svg";

@@ -9,21 +9,9 @@ use super::{
     StepEntry,
 };
 use crate::scene::{NoteCode, Problems, Scene};
+use crate::setter::optional_setters;
 
-/// Methods that set a key that may be left out.
-macro_rules! keys {
-    ($($key:ident: $type:ty, $doc:literal;)*) => {
-        $(
-            #[doc = $doc]
-            pub fn $key(mut self, $key: $type) -> Self {
-                self.$key = Some($key);
-                self
-            }
-        )*
-    };
-}
-
-/// The same of keys whose values are words.
+/// Methods that set a key whose value is words.
 macro_rules! words {
     ($($key:ident, $doc:literal;)*) => {
         $(
@@ -63,7 +51,7 @@ macro_rules! outline {
 macro_rules! body {
     () => {
         outline!();
-        keys! {
+        optional_setters! {
             at: Pair, "Where its origin goes: metres, or a lattice point where the scene has a grid.";
             angle: f64, "Turn about its own origin before it is moved, degrees anticlockwise.";
             friction: f64, "Its own friction coefficient, at least 0.";
@@ -98,7 +86,7 @@ macro_rules! from_corners {
 from_corners! { GroundEntry BlockEntry ShapeEntry }
 
 impl SceneFile {
-    keys! {
+    optional_setters! {
         gravity: Pair, "Gravity [x, y] in m/s²; weights act along it.";
         friction: f64, "Friction coefficient μ of whatever gives none itself, at least 0.";
         kernel: f64, "Safety kernel, 0 to 1.";
@@ -184,7 +172,7 @@ impl SceneFile {
 }
 
 impl MaterialEntry {
-    keys! {
+    optional_setters! {
         density: f64, "Density in kg/m³, at least 0.";
         friction: f64, "Friction coefficient, at least 0.";
     }
@@ -208,7 +196,7 @@ impl BlockEntry {
     }
 
     body!();
-    keys! {
+    optional_setters! {
         weight: f64, "Weight in newtons along gravity, at least 0. Wins over mass and density.";
         mass: f64, "Mass in kg, at least 0. Wins over density.";
         density: f64, "Its own density in kg/m³, at least 0.";
@@ -224,7 +212,7 @@ impl RobotEntry {
         RobotEntry::default().id(id)
     }
 
-    keys! {
+    optional_setters! {
         at: Pair, "Where it grips the block it `holds`, [x, y] in metres.";
         limits: LimitsEntry, "What it can give.";
     }
@@ -235,7 +223,7 @@ impl RobotEntry {
 }
 
 impl LimitsEntry {
-    keys! {
+    optional_setters! {
         fx: f64, "Largest horizontal force in newtons, at least 0.";
         fy: f64, "Largest vertical force in newtons, at least 0.";
         torque: f64, "Largest torque in N·m, at least 0.";
@@ -252,7 +240,7 @@ impl LoadEntry {
         }
     }
 
-    keys! {
+    optional_setters! {
         force: Pair, "Force [x, y] in newtons.";
         at: Pair, "Where the force acts, [x, y] in metres; the block's centroid otherwise.";
         torque: f64, "Torque in N·m, anticlockwise positive.";

@@ -17,6 +17,7 @@ pub(super) const MANY_BLOCKS: usize = 200;
 
 /// How a component was decided, in the order of trust.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
 pub enum Method {
     /// Without a solver.
     ClosedForm,
