@@ -90,7 +90,34 @@
 
 // Blank lines keep the order of reading: the formatter would sort them.
 
-mod setter;
+// Types that callers fill and that will grow are `#[non_exhaustive]`: from outside they begin with their default, and each
+// field has a method that gives back what it was called on. These macros write them, for every room below.
+
+/// Methods that set a field.
+macro_rules! setters {
+    ($($field:ident: $type:ty, $doc:literal;)*) => {
+        $(
+            #[doc = $doc]
+            pub fn $field(mut self, $field: $type) -> Self {
+                self.$field = $field;
+                self
+            }
+        )*
+    };
+}
+
+/// Methods that set a field that may be left out.
+macro_rules! optional_setters {
+    ($($field:ident: $type:ty, $doc:literal;)*) => {
+        $(
+            #[doc = $doc]
+            pub fn $field(mut self, $field: $type) -> Self {
+                self.$field = Some($field);
+                self
+            }
+        )*
+    };
+}
 
 pub mod scene;
 

@@ -68,10 +68,21 @@ pub enum Verdict {
     Unstable,
 }
 
+impl Verdict {
+    /// Its word in results, for programs.
+    pub fn word(self) -> &'static str {
+        match self {
+            Verdict::Stable => "stable",
+            Verdict::Unstable => "unstable",
+            Verdict::Undecided => "undecided",
+        }
+    }
+}
+
 /// The word in results, for programs: `stable`, `undecided` or `unstable`.
 impl fmt::Display for Verdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(crate::wording::verdict::word(*self))
+        f.write_str(self.word())
     }
 }
 

@@ -6,7 +6,6 @@ use std::time::Instant;
 
 use super::margin::MarginKinds;
 use crate::proof::Demand;
-use crate::setter::{optional_setters, setters};
 use crate::solve::{Choice, Conditioning, SolverSettings, TOLERANCE};
 
 /// How an analysis is made.

@@ -3,7 +3,6 @@
 use crate::analysis::Toward;
 use crate::drawing::Theme;
 use crate::scene::BlockId;
-use crate::setter::{optional_setters, setters};
 
 /// How the force of an interface is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -21,7 +21,6 @@ pub use draft::Remark;
 
 use crate::scene::Scene;
 use crate::scene::format::SceneFile;
-use crate::setter::{optional_setters, setters};
 use draft::{Draft, Form, Role};
 use outline::Outlines;
 

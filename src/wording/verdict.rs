@@ -10,11 +10,7 @@ const MOST: usize = 4;
 
 /// The verdict's word in results, for programs. People read [`plain`] and [`counted`].
 pub fn word(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::Stable => "stable",
-        Verdict::Unstable => "unstable",
-        Verdict::Undecided => "undecided",
-    }
+    verdict.word()
 }
 
 /// The verdict's word for people, in tables, figures and sentences: what the structure does.

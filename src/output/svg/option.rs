@@ -1,7 +1,6 @@
 //! [`Options`]: what there is to choose about an SVG beside its drawing.
 
 use crate::output::fonts::Fonts;
-use crate::setter::{optional_setters, setters};
 
 /// How words are written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

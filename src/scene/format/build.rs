@@ -9,7 +9,6 @@ use super::{
     StepEntry,
 };
 use crate::scene::{NoteCode, Problems, Scene};
-use crate::setter::optional_setters;
 
 /// Methods that set a key whose value is words.
 macro_rules! words {
