@@ -7,14 +7,15 @@
 
 use std::error::Error;
 
-use drystone::scene::format::{BlockEntry, GroundEntry, Pair, SceneFile};
+use drystone::scene::Problems;
+use drystone::scene::format::{BlockEntry, Pair};
 use drystone::{Analysis, Scene};
 
 const BRICKS: usize = 6;
 
 fn main() -> Result<(), Box<dyn Error>> {
     for share in [0.999, 1.001] {
-        let scene = Scene::new(stack(share))?;
+        let scene = stack(share)?;
         let frame = &Analysis::of(&scene).frames[0];
         let reach: f64 = (1..=BRICKS).map(|n| share * 0.5 / n as f64).sum();
         println!(
@@ -26,28 +27,16 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 /// Bricks of 1 × 0.25, the lowest first; the k-th from the top overhangs the one below it by `share`/2k.
-fn stack(share: f64) -> SceneFile {
+fn stack(share: f64) -> Result<Scene, Problems> {
     let mut right = 0.0;
-    let mut blocks = Vec::new();
+    let mut scene = Scene::builder().ground(rectangle(-3.0, -1.0, 0.0, 0.0));
     for row in 0..BRICKS {
         right += share * 0.5 / (BRICKS - row) as f64;
         let bottom = 0.25 * row as f64;
-        let polygon = Some(rectangle(right - 1.0, bottom, right, bottom + 0.25));
-        blocks.push(BlockEntry {
-            id: Some(format!("brick {row}")),
-            polygon,
-            ..BlockEntry::default()
-        });
+        let outline = rectangle(right - 1.0, bottom, right, bottom + 0.25);
+        scene = scene.block(BlockEntry::new(format!("brick {row}")).polygon(outline));
     }
-    let table = GroundEntry {
-        polygon: Some(rectangle(-3.0, -1.0, 0.0, 0.0)),
-        ..GroundEntry::default()
-    };
-    SceneFile {
-        blocks,
-        ground: vec![table],
-        ..SceneFile::default()
-    }
+    scene.build()
 }
 
 fn rectangle(left: f64, bottom: f64, right: f64, top: f64) -> Vec<Pair> {

@@ -22,6 +22,24 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! The same scene made in code; what is wrong with it is told by its path, as that of a file is by its line:
+//!
+//! ```
+//! use drystone::{Analysis, Scene, scene::format::BlockEntry};
+//!
+//! let post = [[0.0, 0.0], [1.0, 0.0], [1.0, 3.0], [0.0, 3.0]];
+//! let scene = Scene::builder()
+//!     .title("A lintel")
+//!     .friction(0.6)
+//!     .ground([[-1.0, -1.0], [7.0, -1.0], [7.0, 0.0], [-1.0, 0.0]])
+//!     .block(BlockEntry::new("left").polygon(post))
+//!     .block(BlockEntry::new("right").polygon(post).at([5.0, 0.0]))
+//!     .block(BlockEntry::new("lintel").polygon([[0.0, 3.0], [6.0, 3.0], [6.0, 4.0], [0.0, 4.0]]))
+//!     .build()?;
+//! assert_eq!(Analysis::of(&scene).frames[0].contacts.len(), 4);
+//! # Ok::<(), drystone::scene::Problems>(())
+//! ```
+//!
 //! # What a verdict says, and what it does not
 //!
 //! *Stable* says that a balance of forces **exists**: some set of forces that contacts and robots can give holds every block
@@ -42,6 +60,7 @@
 //! | | makes | from |
 //! |---|---|---|
 //! | [`Scene::from_json`] | [`Scene`], checked | text |
+//! | [`Scene::builder`] | [`Scene`], checked | calls that read like the file |
 //! | [`starter`] | a scene file | a few lengths and counts |
 //! | [`import`](mod@import) | a scene file | a drawing: SVG, GeoJSON or WKT |
 //! | [`interface`] | what touches what | a scene |
@@ -70,6 +89,35 @@
 #![cfg_attr(not(feature = "cli"), allow(dead_code, unused_imports))]
 
 // Blank lines keep the order of reading: the formatter would sort them.
+
+// Types that callers fill and that will grow are `#[non_exhaustive]`: from outside they begin with their default, and each
+// field has a method that gives back what it was called on. These macros write them, for every room below.
+
+/// Methods that set a field.
+macro_rules! setters {
+    ($($field:ident: $type:ty, $doc:literal;)*) => {
+        $(
+            #[doc = $doc]
+            pub fn $field(mut self, $field: $type) -> Self {
+                self.$field = $field;
+                self
+            }
+        )*
+    };
+}
+
+/// Methods that set a field that may be left out.
+macro_rules! optional_setters {
+    ($($field:ident: $type:ty, $doc:literal;)*) => {
+        $(
+            #[doc = $doc]
+            pub fn $field(mut self, $field: $type) -> Self {
+                self.$field = Some($field);
+                self
+            }
+        )*
+    };
+}
 
 pub mod scene;
 

@@ -4,6 +4,7 @@ use super::Method;
 
 /// How a frame was solved.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct SolveReport {
     /// How the component that was hardest to decide was decided.
     pub method: Method,
@@ -24,6 +25,7 @@ pub struct SolveReport {
 /// Where the wall time of a frame went, seconds. An effect that is left out brings no unknowns, so it costs nothing in any
 /// of these.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Stages {
     /// Posing the frame: contacts, loads and grips from what each effect contributes.
     pub assembly: f64,

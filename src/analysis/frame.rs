@@ -57,7 +57,7 @@ pub(super) fn settle(
 ) {
     let unstable = analysis.verdict == Verdict::Unstable;
     if analysis.verdict != Verdict::Undecided {
-        analysis.doubt.clear();
+        analysis.doubts.clear();
     }
     for report in analysis.effects.iter_mut().filter(|r| r.simulated) {
         report.unknowns = match report.effect {

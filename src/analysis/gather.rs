@@ -41,7 +41,7 @@ pub(super) fn gathered(
         .collect();
     FrameAnalysis {
         verdict: Verdict::Stable,
-        doubt: String::new(),
+        doubts: Vec::new(),
         length: assembly.length,
         total_force: 0.0,
         force_bound: Some(0.0),
@@ -121,10 +121,7 @@ pub(super) fn add(
         let blocks = component.bodies.iter().map(|body| body.block);
         analysis.unsupported.extend(blocks);
     }
-    if found.verdict == Verdict::Undecided && !analysis.doubt.is_empty() {
-        analysis.doubt.push_str("; ");
-    }
-    analysis.doubt.push_str(&found.doubt);
+    analysis.doubts.extend(found.doubt.clone());
     analysis.proof = match (analysis.verdict, found.verdict) {
         // Components of the same verdict: the worst of their numbers. Otherwise the worse verdict brings its own proof.
         (a, b) if a == b => worst(analysis.proof, found.proof),

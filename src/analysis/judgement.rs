@@ -57,6 +57,7 @@ pub(crate) fn hinges_on_gaps(scene: &Scene, found: &Interfaces) -> bool {
 
 /// What a verdict came from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Source {
     /// The forces or the motion that were known, with what the change called for.
     Guess,

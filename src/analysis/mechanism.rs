@@ -28,6 +28,7 @@ const KEPT: f64 = 0.5;
 
 /// In which direction a frame is followed until it falls.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Toward {
     /// Gravity turns: degrees, positive where its tip moves to the right; loads do not turn.
     #[default]

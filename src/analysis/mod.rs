@@ -7,6 +7,7 @@
 
 mod component;
 mod cost;
+mod doubt;
 mod frame;
 mod gather;
 mod judgement;
@@ -18,6 +19,7 @@ mod pair;
 mod wedged;
 
 use std::collections::BTreeMap;
+use std::fmt;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -25,10 +27,10 @@ use std::time::Instant;
 use rayon::prelude::*;
 
 use crate::assembly::Assembly;
-#[doc(inline)]
-pub use crate::effect::EffectReport;
 use crate::effect::wedging::{self, Wedging};
 use crate::effect::{self, Situation};
+#[doc(inline)]
+pub use crate::effect::{EffectName, EffectReport};
 use crate::geometry::{Point, Vector};
 use crate::interface::Interfaces;
 #[doc(inline)]
@@ -44,6 +46,7 @@ use crate::solve::{Effort, Until};
 pub use component::Method;
 use component::{Findings, solved};
 pub use cost::{SolveReport, Stages};
+pub use doubt::Doubt;
 use frame::settle;
 use gather::{add, gathered};
 pub(crate) use judgement::{Guess, hinges_on_gaps};
@@ -66,8 +69,27 @@ pub enum Verdict {
     Unstable,
 }
 
+impl Verdict {
+    /// Its word in results, for programs.
+    pub fn word(self) -> &'static str {
+        match self {
+            Verdict::Stable => "stable",
+            Verdict::Unstable => "unstable",
+            Verdict::Undecided => "undecided",
+        }
+    }
+}
+
+/// The word in results, for programs: `stable`, `undecided` or `unstable`.
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.word())
+    }
+}
+
 /// A scene and what was found out about each of its frames.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Analysis {
     /// The scene examined.
     pub scene: Arc<Scene>,
@@ -79,11 +101,12 @@ pub struct Analysis {
 
 /// What was found out about one frame.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct FrameAnalysis {
     /// Whether it stands.
     pub verdict: Verdict,
-    /// Why it is undecided, in words, with both proofs' numbers; empty otherwise.
-    pub doubt: String,
+    /// Why it is undecided; empty otherwise. [`FrameAnalysis::doubt`] says it in a sentence.
+    pub doubts: Vec<Doubt>,
     /// L in metres, by which torques are weighed against forces: the median length of the frame's edge interfaces, or the
     /// median block's square root of area where nothing touches.
     pub length: f64,
@@ -128,6 +151,7 @@ pub struct FrameAnalysis {
 
 /// An interface and the admissible force it carries.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Contact {
     /// Where the two bodies touch; forces are those on `interface.bodies[0]`.
     pub interface: Interface,
@@ -145,6 +169,7 @@ pub struct Contact {
 
 /// What a robot gives to the block it holds.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct RobotForce {
     /// The robot.
     pub robot: RobotId,
@@ -162,6 +187,7 @@ pub struct RobotForce {
 
 /// One thing that would have to stick, or one thing a robot would have to give beyond its limits.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Failure {
     /// A pull across an interface, at one of its application points.
     Tension {
@@ -204,9 +230,6 @@ pub enum Failure {
         torque: f64,
     },
 }
-
-/// Why a frame is undecided whose programs were given up at the deadline.
-const LATE: &str = "the time limit was reached before it was decided";
 
 /// What is known of the components of earlier frames.
 #[derive(Default)]
@@ -346,7 +369,7 @@ fn examined(situation: &Situation, options: Options, known: &mut Known) -> Frame
         .fold(Count::default(), |sum, f| sum.and(f.1.count));
     settle(&mut analysis, situation, count, options.verdict_only);
     if analysis.verdict == Verdict::Undecided && options.is_late() {
-        analysis.doubt = format!("{LATE}: {}", analysis.doubt);
+        analysis.doubts.insert(0, Doubt::Late);
     }
     stages.solution = start.elapsed().as_secs_f64() - stages.assembly;
     let _until = Until::set(options.deadline);

@@ -6,7 +6,7 @@
 //! differ nobody can say which structure was meant: the frame is undecided, with the places and the tolerance that settles
 //! it. If they agree an overlap is reported beside the verdict. A tolerance that somebody gave settles it already.
 
-use super::{Ask, FrameAnalysis, Options, Verdict, examine, examine_found};
+use super::{Ask, Doubt, FrameAnalysis, Options, Verdict, examine, examine_found};
 use crate::geometry::Point;
 use crate::interface::{Interface, Interfaces, Near, Touching, held_open};
 use crate::scene::{BodyId, Note, NoteCode, Penetration, Scene, ToleranceSource};
@@ -104,7 +104,7 @@ pub(super) fn judge(
             continue;
         }
         if frame.verdict != other.verdict && !unsure {
-            frame.doubt = words(scene, [frame.verdict, other.verdict], &places);
+            frame.doubts = vec![gaps(scene, [frame.verdict, other.verdict], &places)];
             frame.verdict = Verdict::Undecided;
         } else if !overlaps.is_empty() && !open(frame.verdict) {
             frame.notices.push(format!(
@@ -142,12 +142,12 @@ fn judge_slivers(
             BodyId::Block(id) => played.placed.contains(id),
         };
         let slivers = (found.slivers.iter()).filter(|s| s.bodies.iter().all(placed));
-        frame.doubt = sliver_words(scene, &slivers.collect::<Vec<&Interface>>());
+        frame.doubts = vec![slivers_of(scene, &slivers.collect::<Vec<&Interface>>())];
         frame.verdict = Verdict::Undecided;
     }
 }
 
-fn sliver_words(scene: &Scene, slivers: &[&Interface]) -> String {
+fn slivers_of(scene: &Scene, slivers: &[&Interface]) -> Doubt {
     let mut slivers = slivers.to_vec();
     slivers.sort_by(|a, b| b.length().total_cmp(&a.length()));
     let named = slivers.iter().take(NAMED).map(|sliver| {
@@ -164,13 +164,20 @@ fn sliver_words(scene: &Scene, slivers: &[&Interface]) -> String {
         n => format!(" and {n} more"),
     };
     let length = |sliver: Option<&&Interface>| sliver.map_or(0.0, |s| s.length());
-    format!(
-        "it stands where contacts of next to no length carry force and falls where they are touching corners: {}{more}; a \
-         contact_tolerance of {:.2e} m counts them, one of {:.2e} m does not",
-        named.join(", "),
+    let (counting, ignoring) = (
         0.5 * length(slivers.last()),
         ENOUGH * length(slivers.first()),
-    )
+    );
+    let words = format!(
+        "it stands where contacts of next to no length carry force and falls where they are touching corners: {}{more}; a \
+         contact_tolerance of {counting:.2e} m counts them, one of {ignoring:.2e} m does not",
+        named.join(", "),
+    );
+    Doubt::Slivers {
+        counting,
+        ignoring,
+        words,
+    }
 }
 
 /// The scene's own notes, and one for each of the first few gaps that are nearly contacts.
@@ -217,17 +224,23 @@ pub(super) fn notes(scene: &Scene, found: &Interfaces) -> Vec<Note> {
     notes
 }
 
-fn words(scene: &Scene, verdicts: [Verdict; 2], places: &[Place]) -> String {
+fn gaps(scene: &Scene, verdicts: [Verdict; 2], places: &[Place]) -> Doubt {
+    let widest = places.first().map_or(0.0, |place| place.size);
+    Doubt::Gaps {
+        open: verdicts[0],
+        closed: verdicts[1],
+        closing: ENOUGH * widest,
+        words: words(scene, verdicts, places, ENOUGH * widest),
+    }
+}
+
+fn words(scene: &Scene, verdicts: [Verdict; 2], places: &[Place], closing: f64) -> String {
     let [written, closed] = verdicts.map(|verdict| match verdict {
         Verdict::Stable => "stands",
         Verdict::Unstable => "falls",
         Verdict::Undecided => "is undecided",
     });
-    let widest = places.first().map_or(0.0, |place| place.size);
-    let enough = format!(
-        "a contact_tolerance of {:.2e} m closes them",
-        ENOUGH * widest
-    );
+    let enough = format!("a contact_tolerance of {closing:.2e} m closes them");
     let (places, overlap) = (listed(scene, places), places.iter().any(|p| p.overlaps));
     if overlap {
         return format!(

@@ -10,6 +10,7 @@ use crate::solve::{Choice, Conditioning, SolverSettings, TOLERANCE};
 
 /// How an analysis is made.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Options {
     /// How accurate it is.
     pub accuracy: Accuracy,
@@ -41,6 +42,7 @@ pub enum Ask {
 
 /// What an answer may cost, and how well it must be proved.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Accuracy {
     /// Any balance at all, from a solver that stops at [`Accuracy::LOOSE`]; verdicts are as honest as in `Standard`, but where a
     /// load can go several ways the forces shown are one way of many, and may depend on the order of the file.
@@ -66,6 +68,19 @@ impl Accuracy {
 }
 
 impl Options {
+    setters! {
+        accuracy: Accuracy, "How accurate it is.";
+        margins: Ask, "How far each frame is from the edge of standing.";
+        margin_kinds: MarginKinds, "Which margins, where they are asked for.";
+        wedging: Ask, "Whether each standing frame stands only by wedging.";
+        verdict_only: Ask, "The verdict with its proof, and no program beyond what decides.";
+    }
+
+    optional_setters! {
+        tolerance: f64, "A tolerance for the solver in place of the level's own, to measure what it costs.";
+        deadline: Instant, "When to give up.";
+    }
+
     /// Nothing but the verdict, its proof and what belongs to it.
     pub(super) const PLAIN: Options = Options {
         accuracy: Accuracy::Standard,

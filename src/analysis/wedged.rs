@@ -13,6 +13,7 @@ use crate::solve::{self, Slide, Squeeze};
 /// shows: along it no other face takes work, they take at most 1 W for each newton of their normal forces, and the loads
 /// give `at_least` watts.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Wedged {
     /// The faces, as numbers of the frame's contacts.
     pub interfaces: Vec<usize>,
@@ -33,6 +34,7 @@ pub struct Wedged {
 /// N ≥ −g and |T| ≤ μ(N₁ + N₂) hold all the same. Springs have unit stiffness. With the balance, and where no robot holds on
 /// with loads whose work is not negative, this has no solution.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct RuledOut {
     /// The application points of which it says whether they press.
     pub points: Vec<PointCase>,
@@ -42,6 +44,7 @@ pub struct RuledOut {
 
 /// Whether an application point presses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct PointCase {
     /// Number of the frame's contact.
     pub interface: usize,
@@ -53,6 +56,7 @@ pub struct PointCase {
 
 /// How a face with friction slides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct FaceCase {
     /// Number of the frame's contact.
     pub interface: usize,

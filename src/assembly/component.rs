@@ -1,6 +1,6 @@
 //! Components: bodies that can influence each other, found by following contacts that avoid the ground.
 
-use super::{Assembly, Contact, Grip};
+use super::{Assembly, AssemblyContact, AssemblyGrip};
 
 impl Assembly {
     /// Parts the assembly into components, in the order of their first bodies.
@@ -35,7 +35,7 @@ impl Assembly {
         }
         for contact in &self.contacts {
             let (part, on) = place[contact.on];
-            parts[part].contacts.push(Contact {
+            parts[part].contacts.push(AssemblyContact {
                 on,
                 from: contact.from.map(|body| place[body].1),
                 ..*contact
@@ -43,7 +43,7 @@ impl Assembly {
         }
         for grip in &self.grips {
             let (part, body) = place[grip.body];
-            parts[part].grips.push(Grip { body, ..*grip });
+            parts[part].grips.push(AssemblyGrip { body, ..*grip });
         }
         parts
     }

@@ -23,11 +23,11 @@ use crate::scene::{BlockId, BodyId, Frame, Limits, RobotId, Scene};
 #[derive(Clone, Debug)]
 pub struct Assembly {
     /// The free bodies, in the order of their blocks.
-    pub bodies: Vec<Body>,
+    pub bodies: Vec<AssemblyBody>,
     /// Where they touch each other or the ground, in the order of the frame's interfaces.
-    pub contacts: Vec<Contact>,
+    pub contacts: Vec<AssemblyContact>,
     /// Where robots hold them, in the order of the frame's holds.
-    pub grips: Vec<Grip>,
+    pub grips: Vec<AssemblyGrip>,
     /// The pull of gravity in newtons per newton of weight: a unit vector along gravity unless changed.
     pub pull: Vector,
     /// The factor on the listed loads: 1 unless changed.
@@ -76,7 +76,7 @@ impl LoadVector {
 
 /// A free rigid body.
 #[derive(Clone, Debug)]
-pub struct Body {
+pub struct AssemblyBody {
     /// The block of the scene.
     pub block: BlockId,
     /// Centroid, metres; moments of the body are taken about it.
@@ -91,7 +91,7 @@ pub struct Body {
     pub load: LoadVector,
 }
 
-impl Body {
+impl AssemblyBody {
     /// Distance of the farthest corner from the centroid, metres.
     pub fn radius(&self) -> f64 {
         let reach = self.corners.iter().map(|p| (p - self.centroid).norm());
@@ -101,7 +101,7 @@ impl Body {
 
 /// A contact between two bodies, or between a body and the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Contact {
+pub struct AssemblyContact {
     /// Its number among the frame's interfaces.
     pub interface: usize,
     /// The two bodies of the scene, `on` first.
@@ -122,7 +122,7 @@ pub struct Contact {
     pub friction: f64,
 }
 
-impl Contact {
+impl AssemblyContact {
     /// The unit tangent (−n_y, n_x) along which friction is counted positive.
     pub fn tangent(&self) -> Vector {
         quarter_turn(self.normal)
@@ -139,7 +139,7 @@ impl Contact {
 
 /// A robot's hold on a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Grip {
+pub struct AssemblyGrip {
     /// Its number among the frame's holds.
     pub hold: usize,
     /// The robot.
@@ -159,7 +159,7 @@ impl Assembly {
         placed.sort();
         let bodies = placed.into_iter().map(|block| {
             let given = &scene.blocks[block.0];
-            Body {
+            AssemblyBody {
                 block,
                 centroid: given.centroid,
                 corners: given.body.polygon.outline().into(),

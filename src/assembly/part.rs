@@ -1,6 +1,6 @@
 //! Parts: some bodies of an assembly, all others held still.
 
-use super::{Assembly, Contact, Grip};
+use super::{Assembly, AssemblyContact, AssemblyGrip};
 
 /// Some bodies of an assembly with all others held still, as if they were ground.
 #[derive(Clone, Debug)]
@@ -35,12 +35,12 @@ impl Assembly {
         for (number, contact) in self.contacts.iter().enumerate() {
             let from = contact.from.and_then(|body| place[body]);
             let seen = match (place[contact.on], from) {
-                (Some(on), from) => Contact {
+                (Some(on), from) => AssemblyContact {
                     on,
                     from,
                     ..*contact
                 },
-                (None, Some(from)) => Contact {
+                (None, Some(from)) => AssemblyContact {
                     on: from,
                     from: None,
                     bodies: [contact.bodies[1], contact.bodies[0]],
@@ -54,7 +54,7 @@ impl Assembly {
         }
         for (number, grip) in self.grips.iter().enumerate() {
             if let Some(body) = place[grip.body] {
-                part.grips.push(Grip { body, ..*grip });
+                part.grips.push(AssemblyGrip { body, ..*grip });
                 grips.push(number);
             }
         }

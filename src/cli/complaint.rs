@@ -36,7 +36,7 @@ pub(crate) enum Complaint {
         /// The file's name.
         name: String,
         /// What is wrong with it.
-        problems: style::format::Problems,
+        problems: style::format::StyleProblems,
     },
     /// An input cannot be read.
     NotRead {

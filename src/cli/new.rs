@@ -16,7 +16,7 @@ use crate::starter::{Arch, Doorway, Lattice, Tower, Wall};
 #[derive(Debug, Args)]
 pub(crate) struct New {
     #[command(subcommand)]
-    kind: Option<Kind>,
+    kind: Option<Structure>,
     /// The file to write; - or nothing prints the scene
     #[arg(short, long, value_name = "FILE", global = true)]
     output: Option<PathBuf>,
@@ -26,7 +26,7 @@ pub(crate) struct New {
 }
 
 #[derive(Debug, Subcommand)]
-enum Kind {
+enum Structure {
     /// A round arch
     Arch {
         /// How many voussoirs
@@ -131,10 +131,10 @@ fn at_least_zero(typed: &str) -> Result<f64, String> {
     }
 }
 
-impl Kind {
+impl Structure {
     fn text(&self) -> String {
         let scene = match *self {
-            Kind::Arch {
+            Structure::Arch {
                 voussoirs,
                 span,
                 thickness,
@@ -146,7 +146,7 @@ impl Kind {
                 friction,
             }
             .scene(),
-            Kind::Wall {
+            Structure::Wall {
                 courses,
                 bricks,
                 length,
@@ -160,7 +160,7 @@ impl Kind {
                 friction,
             }
             .scene(),
-            Kind::Tower {
+            Structure::Tower {
                 blocks,
                 width,
                 height,
@@ -174,7 +174,7 @@ impl Kind {
                 friction,
             }
             .scene(),
-            Kind::Doorway {
+            Structure::Doorway {
                 courses,
                 width,
                 height,
@@ -190,7 +190,7 @@ impl Kind {
                 friction,
             }
             .scene(),
-            Kind::Lattice {
+            Structure::Lattice {
                 rows,
                 side,
                 friction,

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 
-use choice::{ArrowScale, Arrows, Fill, Kind, Margin, Normalise};
+use choice::{ArrowScale, Arrows, Fill, KindChoice, Margin, Normalise};
 use target::{part_path, paths};
 
 use crate::analysis::{self, Analysis, Verdict};
@@ -57,7 +57,7 @@ pub(crate) struct Render {
     arrow_scale: ArrowScale,
     /// What the figure shows
     #[arg(long, value_enum, default_value = "forces")]
-    kind: Kind,
+    kind: KindChoice,
     /// The block that a free-body diagram cuts free, by its id
     #[arg(long, value_name = "ID")]
     block: Option<String>,
@@ -163,11 +163,11 @@ impl Render {
             .format(self.picture.asked())
             .map_err(|c| vec![c])?;
         self.picture.check(format).map_err(|c| vec![c])?;
-        if self.block.is_some() && !matches!(self.kind, Kind::Freebody) {
+        if self.block.is_some() && !matches!(self.kind, KindChoice::Freebody) {
             let why = "--block names the block of a free-body diagram; add --kind freebody";
             return Err(vec![Complaint::CommandLine(why.into())]);
         }
-        if self.corners && !matches!(self.kind, Kind::Freebody) {
+        if self.corners && !matches!(self.kind, KindChoice::Freebody) {
             let why = "--corners is about the forces of a free-body diagram; add --kind freebody";
             return Err(vec![Complaint::CommandLine(why.into())]);
         }
@@ -178,7 +178,7 @@ impl Render {
         let scenes = source::files(&self.scenes).map_err(|c| vec![c])?;
         self.check_count(&scenes, &destination, format, terminal)
             .map_err(|c| vec![c])?;
-        if self.margin.is_some() && !matches!(self.kind, Kind::Margin) {
+        if self.margin.is_some() && !matches!(self.kind, KindChoice::Margin) {
             let why = "--margin is about the direction of a margin; add --kind margin";
             return Err(vec![Complaint::CommandLine(why.into())]);
         }
@@ -214,7 +214,7 @@ impl Render {
         };
         let progress = Progress::begin(2 * sources.len(), shown);
         let mut asked = self.level.options();
-        if matches!(self.kind, Kind::Margin) {
+        if matches!(self.kind, KindChoice::Margin) {
             asked.margins = analysis::Ask::Yes;
         }
         let rendered: Vec<Result<Rendered, Complaint>> = match &sources[..] {

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use clap::builder::styling::{AnsiColor, Style};
 
-use crate::analysis::{Analysis, FrameAnalysis, Verdict};
+use crate::analysis::{Analysis, EffectName, FrameAnalysis, Verdict};
 use crate::cli::page::Page;
 use crate::report::result::Timing;
 use crate::scene::Scene;
@@ -185,8 +185,8 @@ fn remarks(scene: &Scene, frame: &FrameAnalysis) -> Vec<String> {
             names.join(", ")
         ));
     }
-    if !frame.doubt.is_empty() {
-        remarks.push(frame.doubt.clone());
+    if !frame.doubts.is_empty() {
+        remarks.push(frame.doubt());
     }
     if frame.only_by_wedging == Some(true) {
         remarks.push("stands only by wedging: nothing that acts on it builds up the forces that would hold it".into());
@@ -194,7 +194,7 @@ fn remarks(scene: &Scene, frame: &FrameAnalysis) -> Vec<String> {
     let wedging = frame
         .effects
         .iter()
-        .find(|e| e.effect == "wedging" && e.simulated);
+        .find(|e| e.effect == EffectName::Wedging && e.simulated);
     if let Some(effect) = wedging.filter(|_| frame.only_by_wedging != Some(false)) {
         remarks.push(format!("wedging: {}", effect.why));
     }

@@ -1,12 +1,12 @@
 //! Contact: two normal forces per edge interface, pressing only. Source: [Vallat23](crate::doc::references) §2.0.1–2.
 
-use super::{Call, Situation, counted};
-use crate::assembly::{Assembly, Contact};
+use super::{Call, EffectName, Situation, counted};
+use crate::assembly::{Assembly, AssemblyContact};
 use crate::interface::{ContactKind, Interface};
 use crate::scene::BodyId;
 
 /// Name in results.
-pub const NAME: &str = "contact";
+pub const NAME: EffectName = EffectName::Contact;
 
 /// Called for when two bodies touch.
 pub fn called_for(situation: &Situation) -> Call {
@@ -36,7 +36,7 @@ pub(super) fn add(
     for (number, interface) in situation.interfaces.iter().enumerate() {
         let [on, from] = interface.bodies.map(body);
         if let (true, Some(on)) = (interface.kind == kind, on) {
-            assembly.contacts.push(Contact {
+            assembly.contacts.push(AssemblyContact {
                 interface: number,
                 bodies: interface.bodies,
                 on,

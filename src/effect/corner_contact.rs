@@ -1,12 +1,12 @@
 //! Corner contacts: tips that touch edges or tips carry force. The source leaves them out as unreliable
 //! ([Vallat23](crate::doc::references) §3).
 
-use super::{Call, Situation, contact};
+use super::{Call, EffectName, Situation, contact};
 use crate::assembly::Assembly;
 use crate::interface::ContactKind;
 
 /// Name in results.
-pub const NAME: &str = "corner contacts";
+pub const NAME: EffectName = EffectName::CornerContacts;
 
 /// Called for when the scene asks for them and a tip touches something.
 pub fn called_for(situation: &Situation) -> Call {

@@ -2,11 +2,11 @@
 //!
 //! Each application point of a rough interface gets two more unknowns: the normal force with full friction either way.
 
-use super::{Call, Situation, counted};
+use super::{Call, EffectName, Situation, counted};
 use crate::assembly::Assembly;
 
 /// Name in results.
-pub const NAME: &str = "friction";
+pub const NAME: EffectName = EffectName::Friction;
 
 /// Called for when some interface has μ > 0.
 pub fn called_for(situation: &Situation) -> Call {

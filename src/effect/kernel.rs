@@ -1,12 +1,12 @@
 //! Safety kernel: application points move inward by half the kernel of the stretch. Adds no unknown. Source:
 //! [Vallat23](crate::doc::references) §2.0.10.
 
-use super::{Call, Situation};
+use super::{Call, EffectName, Situation};
 use crate::assembly::Assembly;
 use crate::interface::application_points;
 
 /// Name in results.
-pub const NAME: &str = "kernel";
+pub const NAME: EffectName = EffectName::Kernel;
 
 /// Called for when the kernel is above 0 and there is an interface to shrink.
 pub fn called_for(situation: &Situation) -> Call {

@@ -1,10 +1,10 @@
 //! Loads: forces and torques on blocks beside their weight. Add no unknown.
 
-use super::{Call, Situation, counted};
+use super::{Call, EffectName, Situation, counted};
 use crate::assembly::{Assembly, about};
 
 /// Name in results.
-pub const NAME: &str = "loads";
+pub const NAME: EffectName = EffectName::Loads;
 
 /// Called for when the scene lists a load on a placed block.
 pub fn called_for(situation: &Situation) -> Call {

@@ -13,11 +13,14 @@ pub mod kernel;
 pub mod load;
 pub mod margin;
 pub mod mechanism;
+mod name;
 pub mod robot;
 pub mod robot_torque;
 pub mod sticking;
 pub mod wedging;
 pub mod weight;
+
+pub use name::EffectName;
 
 use crate::assembly::Assembly;
 use crate::interface::Interface;
@@ -25,9 +28,10 @@ use crate::scene::{Frame, Scene};
 
 /// One effect in one frame.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct EffectReport {
     /// Its name.
-    pub effect: &'static str,
+    pub effect: EffectName,
     /// Whether it was simulated.
     pub simulated: bool,
     /// Why, in words.
@@ -37,7 +41,7 @@ pub struct EffectReport {
 }
 
 impl EffectReport {
-    fn simulated(effect: &'static str, why: String, unknowns: usize) -> EffectReport {
+    fn simulated(effect: EffectName, why: String, unknowns: usize) -> EffectReport {
         EffectReport {
             effect,
             simulated: true,
@@ -46,7 +50,7 @@ impl EffectReport {
         }
     }
 
-    fn skipped(effect: &'static str, why: impl Into<String>, unknowns: usize) -> EffectReport {
+    fn skipped(effect: EffectName, why: impl Into<String>, unknowns: usize) -> EffectReport {
         EffectReport {
             effect,
             simulated: false,
@@ -84,7 +88,7 @@ impl Call {
 
 /// An effect that contributes to the assembly.
 struct Effect {
-    name: &'static str,
+    name: EffectName,
     called_for: fn(&Situation) -> Call,
     contribute: fn(&Situation, &mut Assembly),
 }

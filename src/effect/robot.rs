@@ -1,12 +1,12 @@
 //! Robots: a force F_x±, F_y± at the grip point of each held block, within its limits. Source:
 //! [Vallat23](crate::doc::references) §2.0.6.
 
-use super::{Call, Situation, counted};
-use crate::assembly::{Assembly, Grip};
+use super::{Call, EffectName, Situation, counted};
+use crate::assembly::{Assembly, AssemblyGrip};
 use crate::scene::Limits;
 
 /// Name in results.
-pub const NAME: &str = "robots";
+pub const NAME: EffectName = EffectName::Robots;
 
 /// Called for when some robot holds a placed block.
 pub fn called_for(situation: &Situation) -> Call {
@@ -26,7 +26,7 @@ pub fn contribute(situation: &Situation, assembly: &mut Assembly) {
     for (number, hold) in situation.frame.holds.iter().enumerate() {
         if let Some(body) = numbers[hold.block.0] {
             let limits = situation.scene.robots[hold.robot.0].limits;
-            assembly.grips.push(Grip {
+            assembly.grips.push(AssemblyGrip {
                 hold: number,
                 robot: hold.robot,
                 body,

@@ -2,11 +2,11 @@
 //! [Vallat23](crate::doc::references) §2.0.6;
 //! its §3 sets every torque limit to 0, because real robots control torque badly.
 
-use super::{Call, Situation, counted};
+use super::{Call, EffectName, Situation, counted};
 use crate::assembly::Assembly;
 
 /// Name in results.
-pub const NAME: &str = "robot torque";
+pub const NAME: EffectName = EffectName::RobotTorque;
 
 /// Called for when a holding robot may give a torque.
 pub fn called_for(situation: &Situation) -> Call {

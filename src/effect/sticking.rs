@@ -2,10 +2,10 @@
 //! Source: [Vallat23](crate::doc::references) §2.0.8, posed lexicographically: first the least sticking, then the
 //! least force.
 
-use super::{EffectReport, counted};
+use super::{EffectName, EffectReport, counted};
 
 /// Name in results.
-pub const NAME: &str = "sticking";
+pub const NAME: EffectName = EffectName::Sticking;
 
 /// Whether sticking was sought.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -7,10 +7,10 @@
 //! stiffness and without stress before the loads act, friction after Coulomb. "Only by wedging" says that no such springs
 //! come to rest.
 
-use super::EffectReport;
+use super::{EffectName, EffectReport};
 
 /// Name in results.
-pub const NAME: &str = "wedging";
+pub const NAME: EffectName = EffectName::Wedging;
 
 /// What was found out.
 #[derive(Clone, Debug, PartialEq, Eq)]

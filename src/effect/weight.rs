@@ -1,11 +1,11 @@
 //! Weight: each block's own weight at its centroid, along gravity. Adds no unknown. Source:
 //! [Vallat23](crate::doc::references) §2.0.1.
 
-use super::{Call, Situation, counted};
+use super::{Call, EffectName, Situation, counted};
 use crate::assembly::Assembly;
 
 /// Name in results.
-pub const NAME: &str = "weight";
+pub const NAME: EffectName = EffectName::Weight;
 
 /// Called for when some placed block has weight and gravity has a direction.
 pub fn called_for(situation: &Situation) -> Call {

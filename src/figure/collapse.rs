@@ -19,7 +19,7 @@ pub(crate) fn reason(analysis: &Analysis, frame: usize) -> String {
     let found = &analysis.frames[frame];
     match found.verdict {
         Verdict::Stable => "there is no mechanism".into(),
-        Verdict::Undecided => format!("no mechanism is proved: {}", found.doubt),
+        Verdict::Undecided => format!("no mechanism is proved: {}", found.doubt()),
         Verdict::Unstable => collapse(analysis, frame),
     }
 }

@@ -22,6 +22,7 @@ use crate::geometry::Bounds;
 
 /// What the panels of a figure show.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Kind {
     /// Every force as an arrow on the block it acts on, and what is missing.
     #[default]

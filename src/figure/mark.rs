@@ -122,7 +122,7 @@ pub fn marks(analysis: &Analysis, frame: usize, options: &Options, newtons_per_u
     }
     let scene = &analysis.scene;
     let edge = unit(scene, options.zoom);
-    let pen = Pen {
+    let pen = ArrowMaker {
         scene,
         options,
         edge,
@@ -169,14 +169,14 @@ fn parts(contact: &Contact, style: ForceStyle) -> Vec<Part> {
     }
 }
 
-struct Pen<'a> {
+struct ArrowMaker<'a> {
     scene: &'a Scene,
     options: &'a Options,
     edge: f64,
     metres_per_newton: f64,
 }
 
-impl Pen<'_> {
+impl ArrowMaker<'_> {
     fn straight(
         &self,
         marks: &mut Marks,

@@ -6,6 +6,7 @@ use crate::scene::BlockId;
 
 /// How the force of an interface is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum ForceStyle {
     /// Normal and friction force as one arrow on each of the two bodies.
     #[default]
@@ -16,6 +17,7 @@ pub enum ForceStyle {
 
 /// Which amplitude is one unit long.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Normalisation {
     /// The largest amplitude that is drawn.
     #[default]
@@ -28,6 +30,7 @@ pub enum Normalisation {
 
 /// Over what the scale of arrows is shared.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum ArrowScale {
     /// Each panel has its own.
     #[default]
@@ -38,6 +41,7 @@ pub enum ArrowScale {
 
 /// What the colours of blocks tell.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Fill {
     /// The larger of a block's weight and the largest normal force of one of its interfaces, on a scale from 0 to the
     /// largest in the figure.
@@ -57,6 +61,7 @@ pub enum Fill {
 
 /// Which forces of its interfaces a free-body diagram shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Corners {
     /// Those at both ends of every interface where there are at most three, one for each interface where there are more;
     /// what is zero is left out.
@@ -68,6 +73,7 @@ pub enum Corners {
 
 /// The choices about a figure of forces.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Options {
     /// How the force of an interface is drawn.
     pub style: ForceStyle,
@@ -136,6 +142,31 @@ impl Default for Options {
 }
 
 impl Options {
+    setters! {
+        style: ForceStyle, "How the force of an interface is drawn.";
+        normalisation: Normalisation, "Which amplitude is one unit long.";
+        scale: ArrowScale, "Over what the scale of arrows is shared.";
+        fill: Fill, "What the colours of blocks tell.";
+        corners: Corners, "Which forces of its interfaces a free-body diagram shows.";
+        toward: Toward, "In which direction [`Kind::Margin`](super::Kind::Margin) follows a frame until it falls.";
+        way: f64, "How much of the way a mechanism is drawn along, 0 … 1.";
+        theme: Theme, "Colours.";
+        titles: bool, "Whether the figure's title is written.";
+        captions: bool, "Whether the frames' captions are written.";
+        verdicts: bool, "Whether verdicts and what is written below them are shown.";
+        keys: bool, "Whether the scale of arrows and the key are shown.";
+        scale_bar: bool, "Whether a bar of a round number of metres is shown.";
+        dimensions: bool, "Whether the width and the height of all blocks of a frame are measured at its edges.";
+        labels: bool, "Whether blocks and robots bear their names, in frames of at most 60 blocks.";
+        amounts: bool, "Whether arrows bear their amounts, in frames of at most 60 blocks.";
+    }
+
+    optional_setters! {
+        columns: usize, "Panels beside each other.";
+        zoom: BlockId, "The block whose neighbourhood alone is shown.";
+        width: f64, "Width of the page, pixels. Words keep their size whatever the width.";
+    }
+
     /// Whether arrows look as in the source's printed figures: components to the source's scale.
     pub(crate) fn printed(&self) -> bool {
         self.normalisation == Normalisation::Source && self.style == ForceStyle::Components

@@ -4,7 +4,7 @@
 //! the few that matter; a thousand outlines on one spot are half a million pairs, and no structure.
 
 use super::outline::Outlines;
-use super::{Kind, Remark};
+use super::{Remark, Role};
 use crate::geometry::Bounds;
 use crate::geometry::snap::Corner;
 
@@ -22,14 +22,14 @@ pub(super) fn problem(outlines: &Outlines) -> Option<Remark> {
     if count > MOST_BODIES {
         return Some(too_many(count));
     }
-    let boxes = |kind: Kind| -> Vec<Bounds> {
+    let boxes = |kind: Role| -> Vec<Bounds> {
         let bodies = outlines.bodies.iter().filter(|b| b.kind == kind);
         bodies
             .filter_map(|b| Bounds::of(b.rings.iter().flatten().map(|c| c.at)))
             .collect()
     };
     let most = MOST_PAIRS + PAIRS_EACH * count;
-    let (blocks, ground) = (boxes(Kind::Block), boxes(Kind::Ground));
+    let (blocks, ground) = (boxes(Role::Block), boxes(Role::Ground));
     (pairs(blocks, most) > most || pairs(ground, most) > most).then(|| Remark {
         element: String::new(),
         message: format!(

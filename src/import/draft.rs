@@ -28,7 +28,7 @@ pub struct Remark {
 /// One element of a drawing.
 #[derive(Debug)]
 pub(super) struct Part {
-    pub(super) kind: Kind,
+    pub(super) kind: Role,
     /// The name it asks for, perhaps empty or used twice.
     pub(super) name: String,
     /// How a person finds it in the drawing.
@@ -56,7 +56,7 @@ pub(super) enum Rule {
 
 /// What an element is to become.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum Role {
     Block,
     Ground,
     Robot,
@@ -72,19 +72,19 @@ pub(super) struct Values {
     pub(super) weight: Option<f64>,
 }
 
-impl Kind {
+impl Role {
     /// What a name asks for by its beginning, in upper or lower case.
-    pub(super) fn of(name: &str) -> Option<Kind> {
+    pub(super) fn of(name: &str) -> Option<Role> {
         let begins = |with: &str| {
             name.get(..with.len())
                 .is_some_and(|start| start.eq_ignore_ascii_case(with))
         };
         if begins("ground") {
-            Some(Kind::Ground)
+            Some(Role::Ground)
         } else if begins("robot") {
-            Some(Kind::Robot)
+            Some(Role::Robot)
         } else if begins("ignore") || begins("guide") {
-            Some(Kind::Ignored)
+            Some(Role::Ignored)
         } else {
             None
         }
@@ -113,16 +113,16 @@ mod tests {
     #[test]
     fn names_tell_what_things_are_by_their_beginning() {
         for (name, kind) in [
-            ("Ground", Some(Kind::Ground)),
-            ("robot-1", Some(Kind::Robot)),
-            ("guides", Some(Kind::Ignored)),
-            ("IGNORE me", Some(Kind::Ignored)),
+            ("Ground", Some(Role::Ground)),
+            ("robot-1", Some(Role::Robot)),
+            ("guides", Some(Role::Ignored)),
+            ("IGNORE me", Some(Role::Ignored)),
             ("underground", None),
             ("groun", None),
             ("gröund", None),
             ("", None),
         ] {
-            assert_eq!(Kind::of(name), kind, "{name}");
+            assert_eq!(Role::of(name), kind, "{name}");
         }
     }
 }

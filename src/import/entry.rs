@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::draft::{Draft, Kind};
+use super::draft::{Draft, Role};
 use super::name::Names;
 use super::outline::{Body, Outlines};
 use crate::geometry::{Bounds, Point, Polygon};
@@ -88,7 +88,7 @@ fn robots(
         .bodies
         .iter()
         .enumerate()
-        .filter(|(_, b)| b.kind == Kind::Block)
+        .filter(|(_, b)| b.kind == Role::Block)
         .filter_map(|(i, b)| Some((i, b.polygon()?)))
         .map(|(i, polygon)| (i, polygon.bounds(), polygon))
         .collect();

@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value};
 
-use super::draft::{Draft, Form, Kind, Part, Rule, Values};
+use super::draft::{Draft, Form, Part, Role, Rule, Values};
 use super::track::Track;
 use crate::geometry::Point;
 
@@ -31,7 +31,7 @@ pub(super) fn read(text: &str, scale: f64) -> Result<Draft, String> {
 #[derive(Clone, Debug, Default)]
 struct About {
     name: String,
-    kind: Option<Kind>,
+    kind: Option<Role>,
     fill: Option<[u8; 3]>,
     values: Values,
 }
@@ -49,7 +49,7 @@ impl Reader {
             "GeometryCollection" => self.each(object, "geometries", at, about),
             "Feature" => {
                 let about = self.about(object, at);
-                if about.kind == Some(Kind::Ignored) {
+                if about.kind == Some(Role::Ignored) {
                     let note = format!(
                         "{} is left out: it asks for it by its name",
                         labelled(at, &about.name)
@@ -80,7 +80,7 @@ impl Reader {
                 }
                 None => self.unreadable(at, about),
             },
-            "Point" if about.kind == Some(Kind::Robot) => {
+            "Point" if about.kind == Some(Role::Robot) => {
                 match object.get("coordinates").and_then(|c| self.point(c)) {
                     Some(spot) => self.part(Form::Spot(spot), at, about),
                     None => self.unreadable(at, about),
@@ -129,14 +129,14 @@ impl Reader {
             .or_else(|| text(feature.get("id")))
             .unwrap_or_default();
         let mut about = About {
-            kind: Kind::of(&name),
+            kind: Role::of(&name),
             name,
             ..About::default()
         };
         let word = properties.get("kind").and_then(Value::as_str);
         match word.map(str::to_ascii_lowercase).as_deref() {
-            Some("block") => about.kind = Some(Kind::Block),
-            Some(word) => match Kind::of(word) {
+            Some("block") => about.kind = Some(Role::Block),
+            Some(word) => match Role::of(word) {
                 Some(kind) => about.kind = Some(kind),
                 None => {
                     let why = format!(
@@ -148,7 +148,7 @@ impl Reader {
             None => {}
         }
         if properties.get("ground").and_then(Value::as_bool) == Some(true) {
-            about.kind = Some(Kind::Ground);
+            about.kind = Some(Role::Ground);
         }
         let mut number = |key: &str| {
             let value = properties.get(key).filter(|v| !v.is_null())?;
@@ -197,7 +197,7 @@ impl Reader {
 
     fn part(&mut self, form: Form, at: &str, about: &About) {
         self.draft.parts.push(Part {
-            kind: about.kind.unwrap_or(Kind::Block),
+            kind: about.kind.unwrap_or(Role::Block),
             name: about.name.clone(),
             element: labelled(at, &about.name),
             form,
@@ -251,8 +251,8 @@ mod tests {
             { "type": "Feature", "properties": { "kind": "cloud" }, "geometry": { "type": "LineString", "coordinates": [] } },
             { "type": "Feature", "properties": null, "geometry": null }, 7 ] }"##;
         let draft = read(text, 2.0).expect("readable");
-        let kinds: Vec<Kind> = draft.parts.iter().map(|p| p.kind).collect();
-        assert_eq!(kinds, [Kind::Ground, Kind::Block, Kind::Block, Kind::Robot]);
+        let kinds: Vec<Role> = draft.parts.iter().map(|p| p.kind).collect();
+        assert_eq!(kinds, [Role::Ground, Role::Block, Role::Block, Role::Robot]);
         assert_eq!(draft.parts[0].values.friction, Some(0.4));
         assert_eq!(draft.parts[1].name, "12");
         assert_eq!(draft.parts[1].fill, Some([0x8b, 0x6b, 0x3d]));

@@ -21,11 +21,12 @@ pub use draft::Remark;
 
 use crate::scene::Scene;
 use crate::scene::format::SceneFile;
-use draft::{Draft, Form, Kind};
+use draft::{Draft, Form, Role};
 use outline::Outlines;
 
 /// What a drawing is written in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Format {
     /// Scalable Vector Graphics, as Inkscape and Illustrator write it, or a figure by this library.
     Svg,
@@ -37,6 +38,7 @@ pub enum Format {
 
 /// How a drawing is to be read, and what a scene needs that no drawing holds.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Options {
     /// Metres per unit of the drawing. Default: the real size of an SVG that has one, that of a figure by this library,
     /// else 1.
@@ -52,8 +54,22 @@ pub struct Options {
     pub scene: SceneFile,
 }
 
+impl Options {
+    setters! {
+        scene: SceneFile, "Friction, kernel, density, thickness and gravity of the scene.";
+    }
+
+    optional_setters! {
+        scale: f64, "Metres per unit of the drawing.";
+        flatten: f64, "Farthest that a chord may lie from its curve, in metres.";
+        gap: f64, "What is no farther apart, in metres, is made to touch; 0 for nothing.";
+        frame: usize, "Which frame of a figure by this library, from 0.";
+    }
+}
+
 /// A drawing that has become a scene.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Imported {
     /// The scene file. It is sound: [`Scene::from_json`] takes its text.
     pub scene: SceneFile,
@@ -67,6 +83,7 @@ pub struct Imported {
 
 /// A body that was moved so that it touches.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Snapped {
     /// The body: a block's id, or `ground[2]`.
     pub body: String,
@@ -82,6 +99,7 @@ pub struct Snapped {
 
 /// A drawing that does not become a scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Refusal {
     /// Why, at least one reason.
     pub problems: Vec<Remark>,
@@ -108,7 +126,7 @@ pub struct Refusal {
 /// let imported = import(drawing, Format::Svg, &Options::default()).expect("a block on ground");
 /// assert_eq!(imported.snapped[0].body, "post");
 /// let scene = Scene::from_json(&imported.scene.to_json())?;
-/// assert_eq!(scene.blocks[0].body.polygon.bounds().min, drystone::scene::Point::new(0.02, 0.01));
+/// assert_eq!(scene.blocks()[0].body.polygon.bounds().min, drystone::scene::Point::new(0.02, 0.01));
 /// # Ok::<(), drystone::scene::Problems>(())
 /// ```
 pub fn import(text: &str, format: Format, options: &Options) -> Result<Imported, Refusal> {
@@ -180,12 +198,12 @@ fn made(mut draft: Draft, options: &Options) -> Result<Imported, Refusal> {
     let size = outline::size(&mut draft);
     let flatten = options.flatten.unwrap_or(1e-3 * size);
     let close = options.gap.unwrap_or(1e-3 * size).min(1e-3 * size);
-    if draft.parts.iter().any(|p| matches!(&p.form, Form::Tracks(t, _) if p.kind != Kind::Robot && t.iter().any(track::Track::bends))) {
+    if draft.parts.iter().any(|p| matches!(&p.form, Form::Tracks(t, _) if p.kind != Role::Robot && t.iter().any(track::Track::bends))) {
         draft.notes.push(format!("curves are cut into chords, {} m from them at most", entry::short(flatten)));
     }
     let title = std::mem::take(&mut draft.title);
     let mut outlines = Outlines::of(&mut draft, flatten, close);
-    if !outlines.bodies.iter().any(|b| b.kind == Kind::Block) {
+    if !outlines.bodies.iter().any(|b| b.kind == Role::Block) {
         let empty = Remark {
             element: String::new(),
             message: "nothing in the drawing becomes a block".into(),

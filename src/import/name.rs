@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::draft::Kind;
+use super::draft::Role;
 use super::outline::Outlines;
 
 /// What bodies and robots are called in the scene and in what is reported.
@@ -21,7 +21,7 @@ pub(super) fn given(outlines: &mut Outlines) -> Names {
     let mut bodies = Vec::new();
     for (i, body) in outlines.bodies.iter().enumerate() {
         bodies.push(match (body.kind, body.name.as_str()) {
-            (Kind::Ground, _) => format!("ground[{i}]"),
+            (Role::Ground, _) => format!("ground[{i}]"),
             (_, "") => taken.first_free("", i + 1 - ground, &wanted),
             (_, name) if taken.names.insert(name.to_owned()) => name.to_owned(),
             (_, name) => taken.first_free(&format!("{name}-"), 2, &wanted),

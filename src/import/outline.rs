@@ -1,6 +1,6 @@
 //! [`Outlines`]: the bodies and robots of a draft, their curves cut, each one outline with its holes.
 
-use super::draft::{Draft, Form, Kind, Part, Values};
+use super::draft::{Draft, Form, Part, Role, Values};
 use super::name::Names;
 use super::region::regions;
 use super::track::Track;
@@ -24,7 +24,7 @@ pub(super) struct Outlines {
 
 /// A block or a part of the ground.
 pub(super) struct Body {
-    pub(super) kind: Kind,
+    pub(super) kind: Role,
     pub(super) name: String,
     pub(super) element: String,
     pub(super) rings: Rings,
@@ -55,7 +55,7 @@ pub(super) fn size(draft: &mut Draft) -> f64 {
             .iter()
             .all(|p| p.x.abs() <= FARTHEST && p.y.abs() <= FARTHEST)
         {
-            if part.kind == Kind::Block {
+            if part.kind == Role::Block {
                 let own = Bounds::of(hull);
                 around = around.into_iter().chain(own).reduce(Bounds::union);
             }
@@ -102,7 +102,7 @@ impl Outlines {
                 }
             }
         }
-        outlines.bodies.sort_by_key(|b| b.kind == Kind::Block);
+        outlines.bodies.sort_by_key(|b| b.kind == Role::Block);
         outlines
     }
 
@@ -114,7 +114,7 @@ impl Outlines {
                 return;
             }
         };
-        if part.kind == Kind::Robot {
+        if part.kind == Role::Robot {
             self.robots.push(Robot {
                 name: part.name.clone(),
                 element: part.element.clone(),
@@ -190,7 +190,7 @@ impl Outlines {
 
     /// How deep an overlap a scene of these blocks takes for noise, in metres.
     fn tolerance(&self) -> f64 {
-        let blocks = self.bodies.iter().filter(|b| b.kind == Kind::Block);
+        let blocks = self.bodies.iter().filter(|b| b.kind == Role::Block);
         let boxes: Vec<Bounds> = blocks
             .filter_map(|b| Bounds::of(b.rings.iter().flatten().map(|c| c.at)))
             .collect();
@@ -205,7 +205,7 @@ impl Outlines {
     pub(super) fn ground(&self) -> usize {
         self.bodies
             .iter()
-            .filter(|b| b.kind == Kind::Ground)
+            .filter(|b| b.kind == Role::Ground)
             .count()
     }
 

@@ -1,6 +1,6 @@
 //! Well-known text into a [`Draft`]: one geometry per line, with its name before it where it has one.
 
-use super::draft::{Draft, Form, Kind, Part, Rule, Values};
+use super::draft::{Draft, Form, Part, Role, Rule, Values};
 use super::track::Track;
 use crate::geometry::Point;
 
@@ -21,8 +21,8 @@ pub(super) fn read(text: &str, scale: f64) -> Draft {
         if !name.is_empty() {
             element = format!("{element} \"{name}\"");
         }
-        let kind = Kind::of(name);
-        if kind == Some(Kind::Ignored) {
+        let kind = Role::of(name);
+        if kind == Some(Role::Ignored) {
             draft
                 .notes
                 .push(format!("{element} is left out: it asks for it by its name"));
@@ -31,7 +31,7 @@ pub(super) fn read(text: &str, scale: f64) -> Draft {
         let mut reader = Reader {
             rest,
             scale,
-            robot: kind == Some(Kind::Robot),
+            robot: kind == Some(Role::Robot),
             found: Vec::new(),
         };
         let read = reader.geometry(0).and_then(|()| {
@@ -55,7 +55,7 @@ pub(super) fn read(text: &str, scale: f64) -> Draft {
         draft
             .parts
             .extend(reader.found.into_iter().map(|form| Part {
-                kind: kind.unwrap_or(Kind::Block),
+                kind: kind.unwrap_or(Role::Block),
                 name: name.to_owned(),
                 element: element.clone(),
                 form,
@@ -247,7 +247,7 @@ mod tests {
             robot-1; POINT (0.2 0.3)\n\nGEOMETRYCOLLECTION(POLYGONZ((0 0 1,1 0 1,0 1 1)),POLYGON EMPTY)\n\
             guide; POLYGON((0 0,1 0,0 1))\nb; LINESTRING (0 0, 1 1)\nPOLYGON ((0 0, 1 x))\nPOLYGON EMPTY\nPOLYGON((0 0,1 0,0 1)) x\n(";
         let draft = read(text, 1.0);
-        let found: Vec<(&str, Kind)> = draft
+        let found: Vec<(&str, Role)> = draft
             .parts
             .iter()
             .map(|p| (p.name.as_str(), p.kind))
@@ -255,12 +255,12 @@ mod tests {
         assert_eq!(
             found,
             [
-                ("ground", Kind::Ground),
-                ("a", Kind::Block),
-                ("a", Kind::Block),
-                ("", Kind::Block),
-                ("robot-1", Kind::Robot),
-                ("", Kind::Block)
+                ("ground", Role::Ground),
+                ("a", Role::Block),
+                ("a", Role::Block),
+                ("", Role::Block),
+                ("robot-1", Role::Robot),
+                ("", Role::Block)
             ]
         );
         assert!(matches!(&draft.parts[2].form, Form::Tracks(tracks, _) if tracks.len() == 2));

@@ -17,6 +17,7 @@ use crate::scene::{BlockId, BodyId, Frame, Scene};
 
 /// What kind of contact an interface is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum ContactKind {
     /// Two edges share a stretch.
     Edge,
@@ -26,6 +27,7 @@ pub enum ContactKind {
 
 /// A stretch of edge shared by two bodies.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Interface {
     /// The two bodies; the first is always a block, the later one in the file.
     pub bodies: [BodyId; 2],

@@ -194,7 +194,7 @@ fn document(
             let (x, y) = (scale * part.at.x as f32, scale * part.at.y as f32);
             let own = scale * part.scale as f32;
             surface.push_transform(&Transform::from_row(own, 0.0, 0.0, own, x, y));
-            let mut pen = Pen {
+            let mut pen = PdfPainter {
                 surface: &mut surface,
                 fonts: std::mem::take(&mut known),
             };
@@ -216,12 +216,12 @@ fn document(
         .map_err(|e| PdfError::Unwritable(e.to_string()))
 }
 
-struct Pen<'s, 'd> {
+struct PdfPainter<'s, 'd> {
     surface: &'s mut Surface<'d>,
     fonts: Vec<(Face, Font)>,
 }
 
-impl Pen<'_, '_> {
+impl PdfPainter<'_, '_> {
     fn group(&mut self, group: &usvg::Group) {
         let mut pushed = 0;
         if !group.transform().is_identity() {

@@ -9,6 +9,7 @@ use super::{MM_PER_INCH, tree};
 
 /// How large a picture is.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Size {
     /// One pixel per unit of the drawing.
     Natural,

@@ -7,46 +7,19 @@
 mod font;
 #[cfg(feature = "png")]
 mod glyph;
+mod option;
 mod outline;
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
+pub use option::{Options, Words};
 use outline::{number, steps};
 
-use super::fonts::Fonts;
 #[cfg(feature = "png")]
 use super::tree;
 use crate::drawing::{Anchor, Drawing, Face, Group, Item, Join, Path, Stroke, Text};
 use crate::text::xml;
-
-/// How words are written.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Words {
-    /// As words, in fonts by their names: small, and set by whoever opens the file in what he has of them.
-    #[default]
-    Names,
-    /// As words, with the letters that are used in the file: for browsers.
-    #[cfg(feature = "embed")]
-    Embedded,
-    /// As outlines: the same everywhere, and no text for searching or editing any more.
-    #[cfg(feature = "png")]
-    Outlines,
-}
-
-/// What else there is to choose.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Options {
-    /// Width in print, mm; where nothing is given a pixel is a 96th of an inch.
-    pub width_mm: Option<f64>,
-    /// How words are written.
-    pub words: Words,
-    /// The fonts in which words become outlines.
-    pub fonts: Fonts,
-    /// What the names of its elements begin with, letters and digits; made from the drawing's content where nothing is
-    /// said. Two drawings of the same content on one page need marks of their own.
-    pub mark: Option<String>,
-}
 
 /// Words that could not be laid out, or a font that could not be cut.
 #[derive(Debug, thiserror::Error)]
@@ -93,7 +66,7 @@ pub fn write(drawing: &Drawing) -> String {
 /// let words = Text::new(PagePoint::new(5.0, 20.0), "Keystone", Face::Serif, 14.0, Colour::BLACK);
 /// let drawing = Drawing { width: 120.0, height: 30.0, title: "A word".into(), description: String::new(),
 ///     background: None, items: vec![words.into()] };
-/// let svg = write_with(&drawing, &Options { width_mm: Some(84.0), words: Words::Outlines, ..Options::default() })?;
+/// let svg = write_with(&drawing, &Options::default().width_mm(84.0).words(Words::Outlines))?;
 /// assert!(svg.contains("width=\"84mm\" height=\"21mm\" viewBox=\"0 0 120 30\""));
 /// assert!(!svg.contains("<text"));
 /// # Ok::<(), drystone::output::svg::WordsError>(())

@@ -32,7 +32,7 @@ pub fn write(drawing: &Drawing, width_mm: Option<f64>) -> String {
         Some(mm) => mm / drawing.width * BIG_POINTS / MM_PER_INCH,
         None => BIG_POINTS / PIXELS_PER_INCH,
     };
-    let mut pen = Pen {
+    let mut pen = TikzWriter {
         text: String::new(),
         unit,
     };
@@ -54,13 +54,13 @@ pub fn write(drawing: &Drawing, width_mm: Option<f64>) -> String {
     pen.text
 }
 
-struct Pen {
+struct TikzWriter {
     text: String,
     /// Big points per pixel.
     unit: f64,
 }
 
-impl Pen {
+impl TikzWriter {
     fn line(&mut self, line: &str) {
         self.text.push_str(line);
         self.text.push('\n');

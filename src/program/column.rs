@@ -6,7 +6,7 @@
 //! sum of these with amounts ≥ 0, so no inequality rows remain ([Vallat23](crate::doc::references) §2.0.3 in other
 //! unknowns, the same optimum).
 
-use super::{Contact, GripTerm, Program};
+use super::{ContactTerm, GripTerm, Program};
 use crate::geometry::{Vector, cross, quarter_turn};
 use crate::interface::ContactKind;
 
@@ -313,7 +313,7 @@ pub fn sticking_columns(program: &Program) -> Vec<Column> {
 }
 
 fn contact_column(
-    contact: &Contact,
+    contact: &ContactTerm,
     point: usize,
     direction: Vector,
     force: Force,

@@ -31,7 +31,7 @@ pub struct Program {
     /// What contacts and robots must give each body: minus its load vector, as (x, y, moment).
     pub loads: Vec<f64>,
     /// The contacts.
-    pub contacts: Vec<Contact>,
+    pub contacts: Vec<ContactTerm>,
     /// The grips.
     pub grips: Vec<GripTerm>,
     /// The units.
@@ -40,7 +40,7 @@ pub struct Program {
 
 /// One contact as the program sees it.
 #[derive(Clone, Debug)]
-pub struct Contact {
+pub struct ContactTerm {
     /// Edge or corner.
     pub kind: ContactKind,
     /// The pushed block and the arms of the application points about its centroid.
@@ -81,7 +81,7 @@ impl Program {
                 -body.load.moment / scale.moment(),
             ]);
         }
-        let contacts = assembly.contacts.iter().map(|contact| Contact {
+        let contacts = assembly.contacts.iter().map(|contact| ContactTerm {
             kind: contact.kind,
             on: arms(contact.on, contact.points),
             from: contact.from.map(|body| arms(body, contact.points)),

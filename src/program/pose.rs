@@ -337,7 +337,7 @@ pub fn source(program: &Program, beta: f64) -> Conic {
         contacts: smooth
             .contacts
             .iter()
-            .map(|c| super::Contact {
+            .map(|c| super::ContactTerm {
                 friction: 1.0,
                 ..*c
             })

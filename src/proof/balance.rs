@@ -11,7 +11,7 @@
 //! or τ of its load.
 
 use super::Forces;
-use crate::assembly::{Assembly, Body};
+use crate::assembly::{Assembly, AssemblyBody};
 use crate::geometry::{Point, Sum, Triple, Vector, cross, least_scale, scale_at_most};
 
 /// Rounding of a few sums and products, in parts of what is summed.
@@ -45,7 +45,7 @@ struct Acting {
 }
 
 impl Acting {
-    fn on(body: &Body, pull: Vector, load_factor: f64) -> Acting {
+    fn on(body: &AssemblyBody, pull: Vector, load_factor: f64) -> Acting {
         let mut acting = Acting {
             centroid: body.centroid,
             radius: body.radius(),

@@ -19,7 +19,7 @@ mod least;
 pub use balance::imbalances;
 pub use least::least_sum;
 
-use crate::assembly::{Assembly, Body, LoadVector};
+use crate::assembly::{Assembly, AssemblyBody, LoadVector};
 use crate::geometry::{Point, Vector, quarter_turn};
 use crate::interface::ContactKind;
 use crate::scene::{BlockId, Scene};
@@ -168,6 +168,7 @@ impl Forces {
 
 /// A block's velocity.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Motion {
     /// The block.
     pub block: BlockId,
@@ -208,7 +209,7 @@ impl Motion {
 }
 
 /// Speed of the fastest corner of a body.
-pub fn fastest(body: &Body, motion: &Motion) -> f64 {
+pub fn fastest(body: &AssemblyBody, motion: &Motion) -> f64 {
     motion.fastest_of(body.centroid, &body.corners)
 }
 
@@ -263,7 +264,7 @@ pub fn moving_load(assembly: &Assembly, motions: &[Motion]) -> f64 {
 }
 
 /// Weight and listed loads of a body, N, a moment over its radius; not less where they act against each other.
-pub fn gross_load(assembly: &Assembly, body: &Body) -> f64 {
+pub fn gross_load(assembly: &Assembly, body: &AssemblyBody) -> f64 {
     let listed = body.listed.times(assembly.load_factor);
     let moment = listed.moment.abs() / body.radius();
     assembly.pull.norm() * body.weight + listed.force.norm() + moment

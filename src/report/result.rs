@@ -38,7 +38,9 @@ pub use refusal::{problem_line, refusal};
 use solve::Solve;
 use wedging::Wedging;
 
-use crate::analysis::{Analysis, Contact, Failure, FrameAnalysis, Motion as Moved, RobotForce};
+use crate::analysis::{
+    Analysis, Contact, EffectName, Failure, FrameAnalysis, Motion as Moved, RobotForce,
+};
 use crate::geometry::{Point, Vector};
 use crate::interface::ContactKind;
 use crate::scene::format::Lines;
@@ -143,7 +145,7 @@ struct Frame<'a> {
     title: &'a str,
     verdict: &'static str,
     #[serde(skip_serializing_if = "str::is_empty")]
-    doubt: &'a str,
+    doubt: String,
     length: Number,
     total_force: Number,
     #[serde(skip_serializing_if = "is_least")]
@@ -302,7 +304,7 @@ impl<'a> Frame<'a> {
         Frame {
             title,
             verdict: word(frame.verdict),
-            doubt: &frame.doubt,
+            doubt: frame.doubt(),
             length: Number(frame.length),
             total_force: Number(frame.total_force),
             total_force_least: frame.least_force,
@@ -327,13 +329,13 @@ impl<'a> Frame<'a> {
                 .map(|m| Motion::of(scene, m))
                 .collect(),
             margins: frame.margins.as_ref().map(|m| Margins::of(scene, m)),
-            only_by_wedging: looked_at(frame, "wedging").then_some(frame.only_by_wedging),
+            only_by_wedging: looked_at(frame, EffectName::Wedging).then_some(frame.only_by_wedging),
             wedging: (frame.wedged.as_ref()).map(|w| Wedging::of(scene, frame, w)),
             effects: frame
                 .effects
                 .iter()
                 .map(|e| Effect {
-                    effect: e.effect,
+                    effect: e.effect.word(),
                     simulated: e.simulated,
                     why: &e.why,
                     unknowns: e.unknowns,
@@ -347,7 +349,7 @@ impl<'a> Frame<'a> {
 }
 
 /// Whether an effect was simulated.
-fn looked_at(frame: &FrameAnalysis, effect: &str) -> bool {
+fn looked_at(frame: &FrameAnalysis, effect: EffectName) -> bool {
     frame
         .effects
         .iter()

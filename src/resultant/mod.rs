@@ -10,6 +10,7 @@ use crate::scene::BodyId;
 
 /// The one force that stands for both corners of an interface.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Resultant {
     /// The body it acts on; its partner gets the opposite.
     pub on: BodyId,

@@ -25,6 +25,7 @@ pub struct Rgb(pub [u8; 3]);
 
 /// What a block and the ground have in common, in its place in the world.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Body {
     /// Outline and holes in metres.
     pub polygon: Polygon,
@@ -44,6 +45,7 @@ pub struct Body {
 
 /// A part of the ground: carries anything, never moves.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Ground {
     /// Its body.
     pub body: Body,
@@ -51,6 +53,7 @@ pub struct Ground {
 
 /// A rigid block.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Block {
     /// The name given in the file.
     pub id: String,
@@ -85,6 +88,7 @@ impl Default for Limits {
 
 /// Where a robot grips a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Grip {
     /// The block held.
     pub block: BlockId,
@@ -94,6 +98,7 @@ pub struct Grip {
 
 /// A robot that can hold a block.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Robot {
     /// The name given in the file.
     pub id: String,
@@ -105,6 +110,7 @@ pub struct Robot {
 
 /// A load on a block, beside its weight.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Load {
     /// The loaded block.
     pub block: BlockId,
@@ -118,6 +124,7 @@ pub struct Load {
 
 /// A material by name.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Material {
     /// Its name in the file.
     pub name: String,

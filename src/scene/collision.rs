@@ -51,6 +51,7 @@ pub(super) struct Comparison<'s> {
 /// Two bodies that lie in each other, deeper than they may and by less than a hundredth of the smaller one's size: they may
 /// have been meant to touch.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Penetration {
     /// The two bodies, the later block second.
     pub bodies: [BodyId; 2],

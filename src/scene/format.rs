@@ -1,9 +1,10 @@
 //! The scene file as it is written: one type per object of the JSON, and the JSON Schema made from them.
 //!
-//! Build a [`SceneFile`] in Rust, or read one; [`crate::scene::Scene::new`] checks it. Nothing here is checked beyond
-//! its type. A key may be left out or be `null` wherever the field is an `Option`. This file and those below it are
+//! Build a [`SceneFile`] in Rust, by methods with the keys' names, or read one; [`SceneFile::build`] checks it. Nothing here
+//! is checked beyond its type. A key may be left out or be `null` wherever the field is an `Option`. This file and those below it are
 //! the only ones of the room that name serde, serde_json and schemars.
 
+mod build;
 mod lines;
 mod map;
 #[cfg(feature = "schema")]
@@ -28,6 +29,7 @@ pub type Pair = [f64; 2];
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 #[cfg_attr(feature = "schema", schemars(title = "drystone scene"))]
+#[non_exhaustive]
 pub struct SceneFile {
     /// Where the JSON Schema of this file lies, for editors; not read.
     #[serde(rename = "$schema", skip_serializing_if = "Option::is_none")]
@@ -102,9 +104,8 @@ impl SceneFile {
     ///
     /// # Example
     /// ```
-    /// use drystone::scene::{Scene, format::{BlockEntry, SceneFile}};
-    /// let block = BlockEntry { polygon: Some(vec![[0.0, 0.0], [3.0, 0.0], [0.0, 1.0]]), ..BlockEntry::default() };
-    /// let text = SceneFile { blocks: vec![block], ..SceneFile::default() }.to_json();
+    /// use drystone::Scene;
+    /// let text = Scene::builder().block([[0.0, 0.0], [3.0, 0.0], [0.0, 1.0]]).to_json();
     /// assert_eq!(text.lines().count(), 6);
     /// assert!(Scene::from_json(&text).is_ok());
     /// ```
@@ -135,6 +136,7 @@ impl Default for Version {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct MaterialEntry {
     /// Density in kg/m³, at least 0.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -154,6 +156,7 @@ pub struct MaterialEntry {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct FrictionPairEntry {
     /// Names of the two materials, in any order; the same name twice for a material against itself.
     pub between: [String; 2],
@@ -166,6 +169,7 @@ pub struct FrictionPairEntry {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct GridEntry {
     /// Which lattice.
     pub kind: GridKind,
@@ -179,6 +183,7 @@ pub struct GridEntry {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(rename_all = "lowercase")]
+#[non_exhaustive]
 pub enum GridKind {
     /// Equilateral triangles: lattice point (x, y) is at side·(x + y/2, y·√3/2).
     #[default]
@@ -191,6 +196,7 @@ pub enum GridKind {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(untagged)]
+#[non_exhaustive]
 pub enum CellEntry {
     /// A triangle on, or hanging below, the edge from (x, y) to (x+1, y). Coordinates are whole numbers.
     Triangle(f64, f64, CellHalf),
@@ -213,6 +219,7 @@ pub enum CellHalf {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct ShapeEntry {
     /// Corners [x, y] of the outline in metres, either way round; simple, not necessarily convex.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -231,6 +238,7 @@ pub struct ShapeEntry {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct GroundEntry {
     /// Corners [x, y] of the outline in metres, either way round; simple, not necessarily convex.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -271,6 +279,7 @@ pub struct GroundEntry {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct BlockEntry {
     /// Its name, used once. Default: its number in the list, from 1.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -326,6 +335,7 @@ pub struct BlockEntry {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct RobotEntry {
     /// Its name, used once. Default: "r" and its number in the list, from 0.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -345,6 +355,7 @@ pub struct RobotEntry {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct LimitsEntry {
     /// Largest horizontal force in newtons, at least 0. Default: `force`, else unlimited.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -368,6 +379,7 @@ pub struct LimitsEntry {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct LoadEntry {
     /// The loaded block.
     pub block: String,

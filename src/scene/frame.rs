@@ -5,6 +5,7 @@ use crate::geometry::Point;
 
 /// A robot holding a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Hold {
     /// The robot.
     pub robot: RobotId,
@@ -16,6 +17,7 @@ pub struct Hold {
 
 /// A block a robot is about to place: drawn as an outline, carries no force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Plan {
     /// The robot.
     pub robot: RobotId,
@@ -25,6 +27,7 @@ pub struct Plan {
 
 /// The state after one step.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Frame {
     /// The step's title, empty where there is none.
     pub title: String,

@@ -27,6 +27,7 @@ const LAST: f64 = 16.0;
 
 /// Where the contact tolerance of a scene comes from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum ToleranceSource {
     /// The bodies are cells of a lattice: contacts are exact.
     Lattice,
@@ -47,6 +48,7 @@ pub enum ToleranceSource {
 
 /// What healing has moved.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Healed {
     /// Where the tolerance comes from.
     pub source: ToleranceSource,

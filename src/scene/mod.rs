@@ -45,45 +45,45 @@ pub use crate::geometry::{
     Bounds, Cell, Flaw, Half, Lattice, LatticeKind, Point, Polygon, Tolerance, Vector,
 };
 
-/// A structure to be examined, checked.
+/// A structure to be examined, checked. It cannot be changed: [`Scene::builder`] and the readers of files are the ways in.
 #[derive(Clone, Debug)]
 pub struct Scene {
     /// Title, empty where the file gives none.
-    pub title: String,
+    pub(crate) title: String,
     /// Gravity in m/s². Weights act along it; only its direction matters for blocks with a given weight.
-    pub gravity: Vector,
+    pub(crate) gravity: Vector,
     /// How thick the structure is, metres, across the plane.
-    pub thickness: f64,
+    pub(crate) thickness: f64,
     /// The safety kernel in 0 … 1: application points move inward by half this share of the stretch, each.
-    pub kernel: f64,
+    pub(crate) kernel: f64,
     /// The lattice, where the scene has one.
-    pub lattice: Option<Lattice>,
+    pub(crate) lattice: Option<Lattice>,
     /// Whether every body is a set of lattice cells, so that contacts are decided in whole numbers.
-    pub exact: bool,
+    pub(crate) exact: bool,
     /// How close is close in this scene; exact on a lattice.
-    pub tolerance: Tolerance,
+    pub(crate) tolerance: Tolerance,
     /// Where the tolerance comes from, and what was moved within it before anything was judged.
-    pub healed: Healed,
+    pub(crate) healed: Healed,
     /// Bodies that lie in each other by so little that they may have been meant to touch; empty where the tolerance is given.
-    pub penetrations: Vec<Penetration>,
+    pub(crate) penetrations: Vec<Penetration>,
     /// The ground's parts.
-    pub ground: Vec<Ground>,
+    pub(crate) ground: Vec<Ground>,
     /// The blocks, in the file's order.
-    pub blocks: Vec<Block>,
+    pub(crate) blocks: Vec<Block>,
     /// The robots, in the file's order.
-    pub robots: Vec<Robot>,
+    pub(crate) robots: Vec<Robot>,
     /// Loads on blocks.
-    pub loads: Vec<Load>,
+    pub(crate) loads: Vec<Load>,
     /// Materials, in the file's order.
-    pub materials: Vec<Material>,
+    pub(crate) materials: Vec<Material>,
     /// Friction coefficients of pairs of materials, by their numbers.
-    pub friction_pairs: Vec<([usize; 2], f64)>,
+    pub(crate) friction_pairs: Vec<([usize; 2], f64)>,
     /// Whether tips that touch edges or tips carry force.
-    pub corner_contacts: bool,
+    pub(crate) corner_contacts: bool,
     /// The frames, at least one.
-    pub frames: Vec<Frame>,
+    pub(crate) frames: Vec<Frame>,
     /// What is allowed and seldom meant, in the order of looking.
-    pub notes: Vec<Note>,
+    pub(crate) notes: Vec<Note>,
     /// Sorts of notes that the author does not want.
     pub(crate) silenced: Vec<NoteCode>,
     /// In which lines of the file the bodies stand.
@@ -91,6 +91,96 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// Title, empty where the file gives none.
+    pub fn title(&self) -> &str {
+        &self.title
+    }
+
+    /// Gravity in m/s². Weights act along it; only its direction matters for blocks with a given weight.
+    pub fn gravity(&self) -> Vector {
+        self.gravity
+    }
+
+    /// How thick the structure is, metres, across the plane.
+    pub fn thickness(&self) -> f64 {
+        self.thickness
+    }
+
+    /// The safety kernel in 0 … 1: application points move inward by half this share of the stretch, each.
+    pub fn kernel(&self) -> f64 {
+        self.kernel
+    }
+
+    /// The lattice, where the scene has one.
+    pub fn lattice(&self) -> Option<Lattice> {
+        self.lattice
+    }
+
+    /// Whether every body is a set of lattice cells, so that contacts are decided in whole numbers.
+    pub fn exact(&self) -> bool {
+        self.exact
+    }
+
+    /// How close is close in this scene; exact on a lattice.
+    pub fn tolerance(&self) -> Tolerance {
+        self.tolerance
+    }
+
+    /// Where the tolerance comes from, and what was moved within it before anything was judged.
+    pub fn healed(&self) -> &Healed {
+        &self.healed
+    }
+
+    /// Bodies that lie in each other by so little that they may have been meant to touch; empty where the tolerance is given.
+    pub fn penetrations(&self) -> &[Penetration] {
+        &self.penetrations
+    }
+
+    /// The ground's parts.
+    pub fn ground(&self) -> &[Ground] {
+        &self.ground
+    }
+
+    /// The blocks, in the file's order.
+    pub fn blocks(&self) -> &[Block] {
+        &self.blocks
+    }
+
+    /// The robots, in the file's order.
+    pub fn robots(&self) -> &[Robot] {
+        &self.robots
+    }
+
+    /// Loads on blocks.
+    pub fn loads(&self) -> &[Load] {
+        &self.loads
+    }
+
+    /// Materials, in the file's order.
+    pub fn materials(&self) -> &[Material] {
+        &self.materials
+    }
+
+    /// Friction coefficients of pairs of materials, by their numbers.
+    pub fn friction_pairs(&self) -> &[([usize; 2], f64)] {
+        &self.friction_pairs
+    }
+
+    /// Whether tips that touch edges or tips carry force.
+    pub fn corner_contacts(&self) -> bool {
+        self.corner_contacts
+    }
+
+    /// The frames, at least one.
+    pub fn frames(&self) -> &[Frame] {
+        &self.frames
+    }
+
+    /// What is allowed and seldom meant, in the order of looking.
+    pub fn notes(&self) -> &[Note] {
+        &self.notes
+    }
+
     /// The body behind an id.
     pub fn body(&self, id: BodyId) -> &Body {
         match id {

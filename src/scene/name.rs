@@ -1,10 +1,21 @@
 //! [`Names`]: what goes by which name, and the nearest known name where one is unknown.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::finding::Findings;
+use super::format::Map;
 use super::path::Trail;
 use super::problem;
+
+/// Notes the keys of an object that stand twice. A file's were noted when it was read, and are not there any more.
+pub(super) fn once<T>(findings: &mut Findings, at: &Trail<'_>, map: &Map<T>) {
+    let mut seen = BTreeSet::new();
+    for (name, _) in &map.0 {
+        if !seen.insert(name.as_str()) {
+            findings.add_key(&at.key(name), problem::entry::key_twice(name));
+        }
+    }
+}
 
 /// Names of one sort with their numbers.
 pub(super) struct Names<'f> {

@@ -27,10 +27,12 @@ codes! {
     DefaultDensity "default_density" "blocks of the default density, 1 kg/m³, beside loads or limits in newtons",
     NoGround "no_ground" "a scene without ground",
     NearMiss "near_miss" "edges that nearly touch, with a gap of up to 1 % of a block",
+    AngleRadians "angle_radians" "an angle in degrees that is a multiple of 15° written in radians",
 }
 
 /// Something that is allowed, and seldom meant.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Note {
     /// What sort of note it is.
     pub code: NoteCode,
@@ -111,6 +113,7 @@ pub(super) fn of(file: &SceneFile, scene: &Scene, source: Option<&Source<'_>>) -
         scene,
     };
     notes.friction(file);
+    notes.angles(file);
     notes.grips(file);
     notes.loads(file);
     notes.unused(file);
@@ -176,6 +179,22 @@ impl Notes<'_> {
         }
         for (i, block) in file.blocks.iter().enumerate() {
             check(&top.key("blocks").index(i), block.friction);
+        }
+    }
+
+    fn angles(&mut self, file: &SceneFile) {
+        let top = Trail::Top;
+        let mut check = |at: &Trail<'_>, angle: Option<f64>| {
+            if let Some((angle, degrees)) = angle.and_then(|a| Some((a, in_degrees(a)?))) {
+                let wording = say::angle_radians(angle, degrees);
+                self.add(NoteCode::AngleRadians, &at.key("angle"), wording);
+            }
+        };
+        for (i, part) in file.ground.iter().enumerate() {
+            check(&top.key("ground").index(i), part.angle);
+        }
+        for (i, block) in file.blocks.iter().enumerate() {
+            check(&top.key("blocks").index(i), block.angle);
         }
     }
 
@@ -282,6 +301,16 @@ impl Notes<'_> {
             );
         }
     }
+}
+
+/// The multiple of 15° that an angle is if it was meant in radians: one of at most a full turn, off by no more than its third
+/// decimal, that is not written in whole hundredths as degrees are.
+fn in_degrees(angle: f64) -> Option<f64> {
+    let step = std::f64::consts::PI / 12.0;
+    let count = (angle / step).round();
+    let in_hundredths = (100.0 * angle - (100.0 * angle).round()).abs() < 1e-9;
+    let fits = (1.0..=24.0).contains(&count.abs()) && (angle - count * step).abs() <= 5e-4;
+    (fits && !in_hundredths).then_some(15.0 * count)
 }
 
 /// How far a point lies outside an outline, metres; `None` where it lies inside, or within the gap of it.

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use super::finding::Findings;
 use super::format::{HoldEntry, Pair, StepEntry};
 use super::frame::{Frame, Hold, Plan};
-use super::name::Names;
+use super::name::{self, Names};
 use super::number::is_sane;
 use super::path::Trail;
 use super::problem;
@@ -122,6 +122,7 @@ impl Standing {
             }
         }
         let list = at.key("hold");
+        name::once(findings, &list, &step.hold);
         for (robot, hold) in &step.hold.0 {
             self.hold(findings, &list.key(robot), robot, hold, cast);
         }
@@ -216,6 +217,7 @@ impl Standing {
         cast: &Cast<'_>,
     ) -> Vec<Plan> {
         let mut plans = Vec::new();
+        name::once(findings, at, &step.plan);
         for (robot_name, name) in &step.plan.0 {
             let at = at.key(robot_name);
             let robot = cast.robots.find_key(findings, &at, robot_name).map(RobotId);

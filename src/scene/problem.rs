@@ -25,6 +25,7 @@ use crate::geometry::Point;
 
 /// One thing that is wrong with a scene.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Problem {
     /// What sort of problem it is.
     pub code: Code,
@@ -46,6 +47,7 @@ pub struct Problem {
 
 /// Where in a structure a problem lies.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Place {
     /// At a point of the body's own outline, before it is turned and moved, metres.
     Own(Point),
@@ -55,6 +57,7 @@ pub enum Place {
 
 /// All that is wrong with a scene, in the order of the text.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Problems {
     /// The text that was read, from which all spans count; absent for a scene made in code.
     pub text: Option<String>,

@@ -30,7 +30,7 @@ impl Scene {
     /// let scene = Scene::from_json(r#"{ "drystone": 1,
     ///     "ground": [{ "polygon": [[-1, -1], [4, -1], [4, 0], [-1, 0]] }],
     ///     "blocks": [{ "id": "a", "polygon": [[0, 0], [2, 0], [2, 1], [0, 1]], "density": 3 }] }"#)?;
-    /// assert!((scene.blocks[0].weight - 3.0 * 2.0 * 9.81).abs() < 1e-12);
+    /// assert!((scene.blocks()[0].weight - 3.0 * 2.0 * 9.81).abs() < 1e-12);
     ///
     /// let problems = Scene::from_json(r#"{ "drystone": 1, "blokcs": [] }"#).unwrap_err();
     /// assert!(problems.to_string().contains("the nearest known key is `blocks`"));
@@ -82,6 +82,37 @@ impl Scene {
         }
     }
 
+    /// A scene made in code begins here: methods with the names of the file's keys, and
+    /// [`build`](SceneFile::build) at the end.
+    ///
+    /// # Example
+    /// ```
+    /// use drystone::scene::format::{BlockEntry, LimitsEntry, RobotEntry, StepEntry};
+    /// use drystone::{Analysis, Scene, analysis::Verdict};
+    ///
+    /// let scene = Scene::builder()
+    ///     .title("A lintel, and a robot that helps")
+    ///     .friction(0.6)
+    ///     .ground([[-1.0, -1.0], [7.0, -1.0], [7.0, 0.0], [-1.0, 0.0]])
+    ///     .shape("post", [[0.0, 0.0], [1.0, 0.0], [1.0, 3.0], [0.0, 3.0]])
+    ///     .block(BlockEntry::new("left").shape("post").weight(60.0))
+    ///     .block(BlockEntry::new("lintel").polygon([[0.0, 3.0], [6.0, 3.0], [6.0, 4.0], [0.0, 4.0]]).weight(110.0))
+    ///     .robot(RobotEntry::new("crane").limits(LimitsEntry::default().force(100.0)))
+    ///     .step(StepEntry::new("One post").place(["left"]))
+    ///     .step(StepEntry::new("The crane helps").place(["lintel"]).hold_at("crane", "lintel", [5.0, 4.0]))
+    ///     .step(StepEntry::new("It lets go").release(["crane"]))
+    ///     .build()?;
+    /// let verdicts = Analysis::of(&scene).frames.iter().map(|frame| frame.verdict).collect::<Vec<_>>();
+    /// assert_eq!(verdicts, [Verdict::Stable, Verdict::Stable, Verdict::Unstable]);
+    ///
+    /// let flat = Scene::builder().block(BlockEntry::new("a").polygon([[0.0, 0.0], [1.0, 0.0]]));
+    /// assert_eq!(flat.build().unwrap_err().list[0].path, "blocks[0].polygon");
+    /// # Ok::<(), drystone::scene::Problems>(())
+    /// ```
+    pub fn builder() -> SceneFile {
+        SceneFile::default()
+    }
+
     /// Checks a scene made in code.
     ///
     /// # Errors
@@ -89,10 +120,9 @@ impl Scene {
     ///
     /// # Example
     /// ```
-    /// use drystone::scene::{Scene, format::{BlockEntry, SceneFile}};
-    /// let block = BlockEntry { polygon: Some(vec![[0.0, 0.0], [3.0, 0.0], [0.0, 1.0]]), ..BlockEntry::default() };
-    /// let scene = Scene::new(SceneFile { blocks: vec![block], density: Some(2.0), ..SceneFile::default() })?;
-    /// assert_eq!(scene.blocks[0].id, "1");
+    /// use drystone::Scene;
+    /// let scene = Scene::new(Scene::builder().density(2.0).block([[0.0, 0.0], [3.0, 0.0], [0.0, 1.0]]))?;
+    /// assert_eq!(scene.blocks()[0].id, "1");
     /// # Ok::<(), drystone::scene::Problems>(())
     /// ```
     pub fn new(file: SceneFile) -> Result<Scene, Problems> {

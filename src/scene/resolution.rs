@@ -12,7 +12,7 @@ use super::finding::{Doubt, Finding, Findings};
 use super::format::{self, Pair, SceneFile};
 use super::frame::Hold;
 use super::heal::{self, Healed, Reach, ToleranceSource};
-use super::name::Names;
+use super::name::{self, Names};
 use super::note::{Lines, NoteCode};
 use super::number::{SMALLEST_EXTENT, at_least_zero, is_amount, is_sane};
 use super::outline::Outline;
@@ -83,6 +83,8 @@ impl<'f> Resolution<'f> {
         if is_sane(findings, &top.key("kernel"), &[kernel]) && !(0.0..=1.0).contains(&kernel) {
             findings.add(&top.key("kernel"), problem::number::kernel(kernel));
         }
+        name::once(findings, &top.key("materials"), &file.materials);
+        name::once(findings, &top.key("shapes"), &file.shapes);
         let lattice = lattice(findings, file.grid.as_ref());
         let grid_known =
             !findings.doubt.touches_key("grid") && lattice.is_some() == file.grid.is_some();

@@ -10,6 +10,7 @@ use crate::geometry::{Bounds, Point, Vector};
 
 /// The outlines of a scene file, and its problems.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Sketch {
     /// Its title; empty where there is none.
     pub title: String,
@@ -25,6 +26,7 @@ pub struct Sketch {
 
 /// A body as it is written, in its place.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct SketchedBody {
     /// Which body.
     pub id: BodyId,
@@ -37,6 +39,7 @@ pub struct SketchedBody {
 
 /// Where a problem lies.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Spot {
     /// The place, metres.
     pub at: Point,

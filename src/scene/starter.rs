@@ -4,7 +4,7 @@
 ///
 /// ```
 /// let scene = drystone::scene::Scene::from_json(drystone::scene::starter())?;
-/// assert!(scene.frames.len() > 1);
+/// assert!(scene.frames().len() > 1);
 /// # Ok::<(), drystone::scene::Problems>(())
 /// ```
 pub fn starter() -> &'static str {

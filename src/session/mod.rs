@@ -20,21 +20,14 @@ use crate::scene::{BlockId, BodyId, Hold, Problems, RobotId, Scene};
 /// A structure under construction.
 ///
 /// ```
-/// use drystone::analysis::Verdict;
-/// use drystone::scene::format::{BlockEntry, GroundEntry, RobotEntry, SceneFile};
-/// use drystone::session::Session;
+/// use drystone::scene::format::{BlockEntry, RobotEntry};
+/// use drystone::{Scene, analysis::Verdict, session::Session};
 ///
-/// let brick = |id: &str, x: f64, y: f64| BlockEntry {
-///     id: Some(id.into()),
-///     polygon: Some(vec![[x, y], [x + 3.0, y], [x + 3.0, y + 1.0], [x, y + 1.0]]),
-///     ..BlockEntry::default()
+/// let brick = |id: &str, x: f64, y: f64| {
+///     BlockEntry::new(id).polygon([[x, y], [x + 3.0, y], [x + 3.0, y + 1.0], [x, y + 1.0]])
 /// };
-/// let floor = GroundEntry { polygon: Some(vec![[-9.0, -1.0], [9.0, -1.0], [9.0, 0.0], [-9.0, 0.0]]), ..GroundEntry::default() };
-/// let mut session = Session::of(SceneFile {
-///     ground: vec![floor],
-///     robots: vec![RobotEntry { id: Some("crane".into()), ..RobotEntry::default() }],
-///     ..SceneFile::default()
-/// })?;
+/// let floor = [[-9.0, -1.0], [9.0, -1.0], [9.0, 0.0], [-9.0, 0.0]];
+/// let mut session = Session::of(Scene::builder().ground(floor).robot(RobotEntry::new("crane")))?;
 /// assert_eq!(session.place(brick("a", 0.0, 0.0))?, Verdict::Stable);
 /// assert_eq!(session.place(brick("b", 2.0, 1.0))?, Verdict::Unstable);
 /// assert_eq!(session.hold("crane", "b", None)?, Verdict::Stable);

@@ -5,6 +5,7 @@ use crate::text::line;
 
 /// Why a session did not take a step; everything is as it was before.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum Refusal {
     /// The scene, or the block, is wrong.
     #[error("{0}")]

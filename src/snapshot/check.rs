@@ -43,6 +43,7 @@ pub(crate) fn folders<'f>(files: impl IntoIterator<Item = &'f PathBuf>) -> Vec<P
 
 /// What is compared. Read from top to bottom, each explains the next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum Layer {
     /// Verdict, interfaces and forces, as text.
     Facts,
@@ -73,6 +74,7 @@ impl Layer {
 
 /// What is the matter with a reference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum State {
     /// There is none.
     Missing,

@@ -17,6 +17,7 @@ pub const FILE: &str = "drystone-snapshots.toml";
 
 /// What is checked, and how precisely.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Settings {
     /// What is compared: facts, SVG, pixels.
     pub layers: Vec<Layer>,

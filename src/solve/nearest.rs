@@ -338,7 +338,7 @@ mod tests {
     use super::*;
     use crate::geometry::Vector;
     use crate::interface::ContactKind;
-    use crate::program::{Contact, GripTerm, Scale};
+    use crate::program::{ContactTerm, GripTerm, Scale};
 
     /// A block 2 wide and 1 high, pressed down by 10 at `x` from its middle and pushed by `push` at its centre, on ground of
     /// friction 0.5.
@@ -347,7 +347,7 @@ mod tests {
         Program {
             blocks: 1,
             loads: vec![-push, 10.0, 10.0 * x],
-            contacts: vec![Contact {
+            contacts: vec![ContactTerm {
                 kind: ContactKind::Edge,
                 on: (0, arms),
                 from: None,

@@ -275,7 +275,7 @@ fn nearer(
 mod tests {
     use super::*;
     use crate::interface::ContactKind;
-    use crate::program::{Contact, Scale};
+    use crate::program::{ContactTerm, Scale};
 
     /// Blocks 1 wide and high in a tower, with these weights.
     fn tower(weights: &[f64], friction: f64) -> Program {
@@ -285,7 +285,7 @@ mod tests {
             blocks: weights.len(),
             loads: weights.iter().flat_map(|w| [0.0, *w, 0.0]).collect(),
             contacts: (0..weights.len())
-                .map(|k| Contact {
+                .map(|k| ContactTerm {
                     on: (k, foot),
                     from: (k > 0).then(|| (k - 1, head)),
                     normal: Vector::new(0.0, 1.0),

@@ -10,11 +10,7 @@ const MOST: usize = 4;
 
 /// The verdict's word in results, for programs. People read [`plain`] and [`counted`].
 pub fn word(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::Stable => "stable",
-        Verdict::Unstable => "unstable",
-        Verdict::Undecided => "undecided",
-    }
+    verdict.word()
 }
 
 /// The verdict's word for people, in tables, figures and sentences: what the structure does.
@@ -50,8 +46,8 @@ pub fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
     if found.only_by_wedging == Some(true) {
         sentences.push("only by wedging: its loads alone do not build up what holds it".to_owned());
     }
-    if found.verdict == Verdict::Undecided && !found.doubt.is_empty() {
-        sentences.push(found.doubt.clone());
+    if found.verdict == Verdict::Undecided && !found.doubts.is_empty() {
+        sentences.push(found.doubt());
     }
     sentences.join("; ")
 }
@@ -67,7 +63,7 @@ pub fn lacks(scene: &Scene, found: &FrameAnalysis) -> String {
         parts.push("only wedged, by forces that its loads alone do not build up".to_owned());
     }
     if found.verdict == Verdict::Undecided {
-        parts.push(found.doubt.clone());
+        parts.push(found.doubt());
     }
     parts.retain(|p| !p.is_empty());
     parts.join("; ")
@@ -96,7 +92,7 @@ pub fn sentence(scene: &Scene, found: &FrameAnalysis) -> String {
         },
         Verdict::Undecided => format!(
             "It is undecided: neither forces that hold it nor a motion by which it falls could be proved; {}.",
-            found.doubt
+            found.doubt()
         ),
     }
 }

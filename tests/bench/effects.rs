@@ -5,37 +5,33 @@
 //! machine; each time is a median.
 
 #![allow(
-    clippy::panic,
     clippy::print_stdout,
     clippy::unwrap_used,
-    reason = "the table is the result; a scene of our own that is not sound is a mistake here"
+    reason = "the table is the result; what cannot be read is a mistake here"
 )]
 
-#[allow(dead_code, reason = "the tests use the rest")]
-#[path = "../it/structure.rs"]
-mod structure;
+mod turn;
 
-use std::time::Instant;
+use std::hint::black_box;
 
 use drystone::analysis::{Ask, Options};
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
 
-use structure::{scene, wall};
+use turn::Turns;
+use turn::structure::{scene, wall};
 
 /// How often each wall is timed.
-const TURNS: usize = 15;
+const TURNS: Turns = Turns {
+    least: 15,
+    most: 15,
+    seconds: 0.0,
+};
 
 fn main() {
     let plain = Options::default();
-    let margins = Options {
-        margins: Ask::Yes,
-        ..plain
-    };
-    let wedging = Options {
-        wedging: Ask::Yes,
-        ..plain
-    };
+    let margins = plain.margins(Ask::Yes);
+    let wedging = plain.wedging(Ask::Yes);
     let robots = json!([{ "id": "r", "holds": "40", "limits": { "force": 100.0 } },
         { "id": "s", "holds": "60", "limits": { "force": 100.0 } }]);
     let mut strong = robots.clone();
@@ -69,26 +65,18 @@ fn main() {
         ),
     ];
     let scenes: Vec<Scene> = cases.iter().map(|c| scene(&c.1)).collect();
-    let mut times = vec![Vec::new(); cases.len()];
-    for _ in 0..TURNS {
-        for ((scene, case), times) in scenes.iter().zip(&cases).zip(&mut times) {
-            let start = Instant::now();
-            std::hint::black_box(Analysis::with(std::hint::black_box(scene), &case.2));
-            times.push(1e3 * start.elapsed().as_secs_f64());
+    let work = scenes.iter().zip(&cases).map(|(scene, case)| {
+        move || {
+            black_box(Analysis::with(black_box(scene), &case.2));
         }
-    }
-    let median = |times: &Vec<f64>| {
-        let mut times = times.clone();
-        times.sort_by(f64::total_cmp);
-        times[times.len() / 2]
-    };
-    let base = median(&times[0]);
+    });
+    let times = TURNS.medians(&work.collect::<Vec<_>>());
     println!(
         "| wall of {} bricks with | verdict | unknowns | ms | ratio |",
-        scenes[0].blocks.len()
+        scenes[0].blocks().len()
     );
     println!("|---|---|---|---|---|");
-    for ((case, scene), times) in cases.iter().zip(&scenes).zip(&times) {
+    for ((case, scene), time) in cases.iter().zip(&scenes).zip(&times) {
         let analysis = Analysis::with(scene, &case.2);
         let frame = &analysis.frames[0];
         let simulated = frame.effects.iter().filter(|e| e.simulated);
@@ -97,8 +85,8 @@ fn main() {
             case.0,
             frame.verdict,
             simulated.map(|e| e.unknowns).sum::<usize>(),
-            median(times),
-            median(times) / base,
+            time,
+            time / times[0],
         );
     }
 }

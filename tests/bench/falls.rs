@@ -6,18 +6,14 @@
 //! that other work on the machine slows them alike; told is the median. Walls are in running bond, μ is 0.7.
 
 #![allow(
-    clippy::panic,
     clippy::print_stdout,
     clippy::unwrap_used,
-    reason = "the table is the result; a scene of our own that is not sound is a mistake here"
+    reason = "the table is the result; what cannot be read is a mistake here"
 )]
 
-#[allow(dead_code, reason = "the tests use the rest")]
-#[path = "../it/structure.rs"]
-mod structure;
+mod turn;
 
 use std::hint::black_box;
-use std::time::Instant;
 
 use drystone::analysis::{Ask, Options, Verdict};
 use drystone::internals::effect::{Situation, assemble};
@@ -27,13 +23,15 @@ use drystone::internals::solve::{Conditioning, Status, TOLERANCE, solve};
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
 
-use structure::{arch, block, on_floor, rectangle, scene, wall};
+use turn::Turns;
+use turn::structure::{arch, block, on_floor, rectangle, scene, wall};
 
-/// How often each is timed, at most.
-const TURNS: usize = 7;
-
-/// No row is timed for more than about so many seconds.
-const LONGEST: f64 = 3.0;
+/// How often each of a row is timed, and for about how long.
+const TURNS: Turns = Turns {
+    least: 1,
+    most: 7,
+    seconds: 3.0,
+};
 
 /// Turns of gravity, degrees.
 const ANGLES: [f64; 4] = [26.0, 30.0, 40.0, 60.0];
@@ -61,10 +59,7 @@ fn main() {
 
 fn told(name: &str, blocks: usize, file: &Value, angle: f64) {
     let [stands, falls] = [scene(file), scene(&turned(file, angle))];
-    let verdict_only = Options {
-        verdict_only: Ask::Yes,
-        ..Options::default()
-    };
+    let verdict_only = Options::default().verdict_only(Ask::Yes);
     let upright = Analysis::of(&stands);
     assert_eq!(
         upright.verdict(),
@@ -82,7 +77,8 @@ fn told(name: &str, blocks: usize, file: &Value, angle: f64) {
         &|| posed(&hard[0]),
         &|| posed(&hard[1]),
     ];
-    let [stands, falls, alone, solver_stands, solver_falls] = medians(work);
+    let times = TURNS.medians(&work);
+    let [stands, falls, alone, solver_stands, solver_falls] = <[f64; 5]>::try_from(times).unwrap();
     println!(
         "| {name} {blocks} | {stands:.1} | {solver_stands:.1} | {angle}° | {} | {} | {} | {} | {falls:.1} | {:.1} | {alone:.1} | {:.1} | {solver_falls:.1} | {} |",
         match frame.verdict {
@@ -112,24 +108,10 @@ fn posed(conic: &Conic) {
     black_box(solve(black_box(conic), TOLERANCE, Conditioning::Full));
 }
 
-/// Median times of some work in milliseconds, each in its turn.
-fn medians<const N: usize>(work: [&dyn Fn(); N]) -> [f64; N] {
-    let start = Instant::now();
-    let mut times = [const { Vec::new() }; N];
-    while times[0].is_empty() || times[0].len() < TURNS && start.elapsed().as_secs_f64() < LONGEST {
-        for (work, times) in work.iter().zip(&mut times) {
-            let start = Instant::now();
-            work();
-            times.push(1e3 * start.elapsed().as_secs_f64());
-        }
-    }
-    times.map(median)
-}
-
 /// The program of a structure that hangs together.
 fn program(scene: &Scene) -> Program {
     let found = Interfaces::of(scene);
-    let frame = &scene.frames[0];
+    let frame = &scene.frames()[0];
     let (assembly, _) = assemble(&Situation {
         scene,
         frame,
@@ -151,11 +133,6 @@ fn hard(program: &Program) -> Conic {
         bound: soft.bound[..rows].to_vec(),
         ..soft
     }
-}
-
-fn median(mut times: Vec<f64>) -> f64 {
-    times.sort_by(f64::total_cmp);
-    times[times.len() / 2]
 }
 
 /// The same file with gravity turned to the right.

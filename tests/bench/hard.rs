@@ -4,29 +4,27 @@
 //! `cargo bench --bench hard` prints it. Case and sibling take turns, so that both see the same machine; told is the median.
 
 #![allow(
-    clippy::panic,
     clippy::print_stdout,
-    clippy::unwrap_used,
-    reason = "the table is the result; a scene of our own that is not sound is a mistake here"
+    reason = "the table is the result; what cannot be read is a mistake here"
 )]
 
-#[allow(dead_code, reason = "the tests use the rest")]
-#[path = "../it/structure.rs"]
-mod structure;
+mod turn;
 
-use std::time::Instant;
+use std::hint::black_box;
 
+use drystone::Analysis;
 use drystone::analysis::{Accuracy, Options, Proof, Verdict};
-use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
 
-use structure::{arch, block, on_floor, on_slope, rectangle, scene, wall};
+use turn::Turns;
+use turn::structure::{arch, block, on_floor, on_slope, rectangle, scene, wall};
 
-/// How often each is timed, at most.
-const TURNS: usize = 15;
-
-/// No case is timed for more than about so many seconds.
-const LONGEST: f64 = 6.0;
+/// How often a case and its sibling are timed, and for about how long.
+const TURNS: Turns = Turns {
+    least: 3,
+    most: 15,
+    seconds: 6.0,
+};
 
 fn main() {
     println!("| case | verdict | proof | ms | easy sibling, ms | ratio |");
@@ -44,7 +42,14 @@ fn main() {
         let scenes = [scene(&hard), scene(&easy)];
         let analysis = Analysis::of(&scenes[0]);
         let frame = &analysis.frames[0];
-        let [hard, easy] = medians(&scenes);
+        let options = &Options::default().accuracy(Accuracy::Standard);
+        let work = scenes.each_ref().map(|scene| {
+            move || {
+                black_box(Analysis::with(black_box(scene), options));
+            }
+        });
+        let times = TURNS.medians(&work);
+        let (hard, easy) = (times[0], times[1]);
         println!(
             "| {name} | {} | {} | {hard:.2} | {easy:.2} | {:.1} |",
             match frame.verdict {
@@ -68,28 +73,6 @@ fn told(proof: &Proof) -> String {
             _ => format!("power {power:.0e}, no balance at all"),
         },
     }
-}
-
-/// Median times of two scenes in milliseconds.
-fn medians(scenes: &[Scene; 2]) -> [f64; 2] {
-    let start = Instant::now();
-    let mut times = [Vec::new(), Vec::new()];
-    while times[0].len() < TURNS && (times[0].len() < 3 || start.elapsed().as_secs_f64() < LONGEST)
-    {
-        for (scene, times) in scenes.iter().zip(&mut times) {
-            let start = Instant::now();
-            let options = Options {
-                accuracy: Accuracy::Standard,
-                ..Options::default()
-            };
-            std::hint::black_box(Analysis::with(std::hint::black_box(scene), &options));
-            times.push(1e3 * start.elapsed().as_secs_f64());
-        }
-    }
-    times.map(|mut times| {
-        times.sort_by(f64::total_cmp);
-        times[times.len() / 2]
-    })
 }
 
 /// A scene whose weights act by a share across gravity as well.

@@ -11,7 +11,7 @@ use drystone::internals::interface::Interfaces;
 use drystone::internals::program::{Program, Scale};
 use drystone::internals::proof::{self, Forces, Held, Pressed};
 use drystone::internals::solve::{Conditioning, balance};
-use drystone::scene::format::{BlockEntry, GroundEntry, Pair, SceneFile};
+use drystone::scene::format::{Pair, SceneFile};
 use drystone::{Analysis, Scene, figure, output};
 
 #[global_allocator]
@@ -42,7 +42,7 @@ fn cases() -> Vec<Case> {
 #[divan::bench(args = cases(), sample_count = 5, sample_size = 1)]
 fn a_read(bencher: Bencher, case: Case) {
     let text = file(case).to_json();
-    bencher.bench_local(|| Scene::from_json(black_box(&text)).map(|scene| scene.blocks.len()));
+    bencher.bench_local(|| Scene::from_json(black_box(&text)).map(|scene| scene.blocks().len()));
 }
 
 #[divan::bench(args = cases(), sample_count = 5, sample_size = 1)]
@@ -95,7 +95,7 @@ fn g_draw_as_svg(bencher: Bencher, case: Case) {
 }
 
 fn components(scene: &Scene, found: &Interfaces) -> (Assembly, Vec<Assembly>) {
-    let frame = &scene.frames[0];
+    let frame = &scene.frames()[0];
     let interfaces = found.in_frame(scene, frame);
     let (assembly, _) = assemble(&Situation {
         scene,
@@ -138,19 +138,10 @@ fn file(case: Case) -> SceneFile {
         Case("arch", blocks) => arch(blocks),
         Case(_, blocks) => towers(blocks),
     };
-    let block = |polygon: Vec<Pair>| BlockEntry {
-        polygon: Some(polygon),
-        ..BlockEntry::default()
-    };
-    SceneFile {
-        ground: vec![GroundEntry {
-            polygon: Some(rectangle(-1e5, -1.0, 2e5, 1.0)),
-            ..GroundEntry::default()
-        }],
-        blocks: polygons.into_iter().map(block).collect(),
-        contact_tolerance: Some(1e-6),
-        ..SceneFile::default()
-    }
+    let floor = Scene::builder()
+        .ground(rectangle(-1e5, -1.0, 2e5, 1.0))
+        .contact_tolerance(1e-6);
+    polygons.into_iter().fold(floor, SceneFile::block)
 }
 
 fn wall(blocks: usize) -> Vec<Vec<Pair>> {

@@ -12,7 +12,7 @@ use std::time::Instant;
 
 use drystone::analysis::{Options, Source, Verdict, verdicts};
 use drystone::scene::format::{
-    BlockEntry, CellEntry, GridEntry, GridKind, GroundEntry, RobotEntry, SceneFile,
+    BlockEntry, CellEntry, GridKind, GroundEntry, RobotEntry, SceneFile,
 };
 use drystone::session::Session;
 use drystone::{Analysis, Scene};
@@ -39,10 +39,7 @@ fn main() {
             println!("| {blocks} | {name} | {:.1} | {share} % |", median(times));
         }
         println!("| {blocks} | all of these | {:.0} | |", median(wholes));
-        let file = SceneFile {
-            blocks: (0..blocks).map(|k| brick(k, blocks)).collect(),
-            ..empty(blocks)
-        };
+        let file = (0..blocks).fold(empty(blocks), |file, k| file.block(brick(k, blocks)));
         let scratch = |examine: &dyn Fn(&Scene) -> Verdict| {
             let one = |_| {
                 let start = Instant::now();
@@ -126,18 +123,10 @@ fn lay(blocks: usize, steps: &mut Steps) {
 
 fn empty(blocks: usize) -> SceneFile {
     let floor = (-50..4 * blocks as i64).map(|x| CellEntry::Square(x as f64, -1.0));
-    SceneFile {
-        grid: Some(GridEntry {
-            kind: GridKind::Square,
-            side: Some(0.5),
-        }),
-        ground: vec![GroundEntry {
-            cells: Some(floor.collect()),
-            ..GroundEntry::default()
-        }],
-        robots: vec![RobotEntry::default()],
-        ..SceneFile::default()
-    }
+    Scene::builder()
+        .grid(GridKind::Square, 0.5)
+        .ground(GroundEntry::default().cells(floor.collect::<Vec<_>>()))
+        .robot(RobotEntry::default())
 }
 
 /// The bricks of a pyramid in running bond, row by row.
@@ -156,11 +145,7 @@ fn brick(number: usize, blocks: usize) -> BlockEntry {
 
 fn cells(x: i64, y: i64) -> BlockEntry {
     let cell = |k: i64| CellEntry::Square((x + k) as f64, y as f64);
-    BlockEntry {
-        cells: Some(vec![cell(0), cell(1)]),
-        weight: Some(2.0),
-        ..BlockEntry::default()
-    }
+    BlockEntry::default().cells([cell(0), cell(1)]).weight(2.0)
 }
 
 fn median(mut times: Vec<f64>) -> f64 {

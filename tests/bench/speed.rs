@@ -55,7 +55,7 @@ fn the_sources_soft_program(bencher: Bencher, blocks: usize) {
 #[divan::bench(args = [10, 100, 1000, 10_050])]
 fn read_and_check_a_file(bencher: Bencher, blocks: usize) {
     let text = serde_json::to_string(&wall_file(blocks)).expect("a scene is plain data");
-    bencher.bench_local(|| Scene::from_json(black_box(&text)).map(|scene| scene.blocks.len()));
+    bencher.bench_local(|| Scene::from_json(black_box(&text)).map(|scene| scene.blocks().len()));
 }
 
 #[divan::bench]
@@ -100,7 +100,7 @@ fn figure_4_as_a_process(bencher: Bencher) {
 /// The whole wall hangs together, so it is one component and one program.
 fn program(scene: &Scene) -> Program {
     let found = Interfaces::of(scene);
-    let frame = &scene.frames[0];
+    let frame = &scene.frames()[0];
     let interfaces = found.in_frame(scene, frame);
     let (assembly, _) = assemble(&Situation {
         scene,
@@ -114,7 +114,7 @@ fn program(scene: &Scene) -> Program {
 
 fn wall(blocks: usize) -> Scene {
     let scene = Scene::new(wall_file(blocks)).expect("sound");
-    assert_eq!(scene.blocks.len(), blocks);
+    assert_eq!(scene.blocks().len(), blocks);
     scene
 }
 

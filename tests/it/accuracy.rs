@@ -88,8 +88,8 @@ fn the_scenes_of_the_study_are_as_they_are_made() {
         }
         let text = fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
         let (kept, made) = (Scene::from_json(&text).expect("sound"), scene(&file));
-        assert_eq!(kept.blocks.len(), made.blocks.len(), "{name}");
-        for (a, b) in kept.blocks.iter().zip(&made.blocks) {
+        assert_eq!(kept.blocks().len(), made.blocks().len(), "{name}");
+        for (a, b) in kept.blocks().iter().zip(made.blocks()) {
             assert_eq!(a.body.polygon.outline(), b.body.polygon.outline(), "{name}");
             assert_eq!(a.weight, b.weight, "{name}");
         }
@@ -218,12 +218,9 @@ fn the_same_study_is_the_same_picture() {
 
 fn at(file: &Value, accuracy: Accuracy) -> (Verdict, Proof, String) {
     let scene = scene(file);
-    let options = Options {
-        accuracy,
-        ..Options::default()
-    };
+    let options = Options::default().accuracy(accuracy);
     let frame = Analysis::with(&scene, &options).frames.remove(0);
-    (frame.verdict, frame.proof, frame.doubt)
+    (frame.verdict, frame.proof, frame.doubt())
 }
 
 #[test]

@@ -8,7 +8,7 @@
 use std::fs;
 use std::path::Path;
 
-use drystone::analysis::Verdict;
+use drystone::analysis::{EffectName, Verdict};
 use drystone::internals::assembly::Assembly;
 use drystone::internals::effect::{Situation, assemble};
 use drystone::internals::geometry::{Point, Vector};
@@ -94,11 +94,11 @@ fn contains(scene: &Scene, body: BodyId, p: Point) -> bool {
 fn centroids_and_load_vectors_are_those_of_the_outlines() {
     for (name, file) in scenes() {
         let scene = crate::structure::scene(&file);
-        for frame in &scene.frames {
+        for frame in scene.frames() {
             let (assembly, _) = assembly_of(&scene, frame);
             assert_eq!(assembly.bodies.len(), frame.placed.len(), "{name}");
             for body in &assembly.bodies {
-                let block = &scene.blocks[body.block.0];
+                let block = &scene.blocks()[body.block.0];
                 let polygon = &block.body.polygon;
                 let (mut area, mut moment) = by_triangles(polygon.outline());
                 let sense = area.signum();
@@ -113,11 +113,11 @@ fn centroids_and_load_vectors_are_those_of_the_outlines() {
                     "{name}: {centroid}"
                 );
                 // The loads once more, about the origin, in plain components.
-                let g = scene.gravity;
+                let g = scene.gravity();
                 let pull = if g.norm() > 0.0 { g / g.norm() } else { g };
                 let (mut fx, mut fy) = (pull.x * block.weight, pull.y * block.weight);
                 let mut m = centroid.x * fy - centroid.y * fx;
-                for load in scene.loads.iter().filter(|l| l.block == body.block) {
+                for load in scene.loads().iter().filter(|l| l.block == body.block) {
                     fx += load.force.x;
                     fy += load.force.y;
                     m += load.at.x * load.force.y - load.at.y * load.force.x + load.torque;
@@ -140,11 +140,11 @@ fn contacts_lie_where_sampled_points_say_that_two_bodies_touch() {
     let mut sampled = 0;
     for (name, file) in scenes() {
         let scene = crate::structure::scene(&file);
-        let Some(frame) = scene.frames.last() else {
+        let Some(frame) = scene.frames().last() else {
             continue;
         };
         let (assembly, kinds) = assembly_of(&scene, frame);
-        let mut bodies: Vec<BodyId> = (0..scene.ground.len()).map(BodyId::Ground).collect();
+        let mut bodies: Vec<BodyId> = (0..scene.ground().len()).map(BodyId::Ground).collect();
         bodies.extend(frame.placed.iter().map(|b| BodyId::Block(*b)));
         for body in &assembly.bodies {
             let me = BodyId::Block(body.block);
@@ -201,7 +201,7 @@ fn contacts_lie_where_sampled_points_say_that_two_bodies_touch() {
             let inward = (contact.points[0] - contact.ends[0]).norm();
             let length = (contact.ends[1] - contact.ends[0]).norm();
             assert!(
-                (inward - scene.kernel / 2.0 * length).abs() < 1e-12,
+                (inward - scene.kernel() / 2.0 * length).abs() < 1e-12,
                 "{name}"
             );
         }
@@ -215,7 +215,7 @@ fn components_hold_every_body_contact_and_grip_once_and_effects_count_what_is_po
     for (name, file) in scenes() {
         let scene = crate::structure::scene(&file);
         let analysis = Analysis::of(&scene);
-        for (frame, result) in scene.frames.iter().zip(&analysis.frames) {
+        for (frame, result) in scene.frames().iter().zip(&analysis.frames) {
             let (assembly, _) = assembly_of(&scene, frame);
             let parts = assembly.split();
             let count = |of: fn(&Assembly) -> usize| parts.iter().map(of).sum::<usize>();
@@ -244,7 +244,7 @@ fn components_hold_every_body_contact_and_grip_once_and_effects_count_what_is_po
             let reported: usize = result
                 .effects
                 .iter()
-                .filter(|e| e.simulated && e.effect != "sticking")
+                .filter(|e| e.simulated && e.effect != EffectName::Sticking)
                 .map(|e| e.unknowns)
                 .sum();
             assert_eq!(reported, posed, "{name}: {:?}", result.effects);
@@ -257,7 +257,7 @@ fn an_effect_that_is_not_called_for_leaves_no_trace_in_the_assembly() {
     let mut smooth = wall(2, 3);
     smooth["friction"] = json!(0.0);
     let smooth = crate::structure::scene(&smooth);
-    let (assembly, _) = assembly_of(&smooth, &smooth.frames[0]);
+    let (assembly, _) = assembly_of(&smooth, &smooth.frames()[0]);
     assert!(assembly.contacts.iter().all(|c| c.friction == 0.0));
     assert!(assembly.contacts.iter().all(|c| c.points == c.ends));
     assert!(assembly.grips.is_empty());
@@ -311,21 +311,21 @@ fn a_frame_is_answered_as_the_scene_of_what_stands_then() {
         let file = sequence(seed);
         let scene = crate::structure::scene(&file);
         let whole = Analysis::of(&scene);
-        for (frame, result) in scene.frames.iter().zip(&whole.frames) {
+        for (frame, result) in scene.frames().iter().zip(&whole.frames) {
             // The same as a file of its own: only what stands, held as it is held then.
             let mut alone = file.clone();
             alone.as_object_mut().expect("an object").remove("steps");
             let placed: Vec<&str> = frame
                 .placed
                 .iter()
-                .map(|b| scene.blocks[b.0].id.as_str())
+                .map(|b| scene.blocks()[b.0].id.as_str())
                 .collect();
             alone["blocks"]
                 .as_array_mut()
                 .expect("blocks")
                 .retain(|b| placed.contains(&b["id"].as_str().expect("an id")));
             for hold in &frame.holds {
-                alone["robots"][hold.robot.0]["holds"] = json!(scene.blocks[hold.block.0].id);
+                alone["robots"][hold.robot.0]["holds"] = json!(scene.blocks()[hold.block.0].id);
                 alone["robots"][hold.robot.0]["at"] = json!([hold.at.x, hold.at.y]);
             }
             let alone = crate::structure::first(&alone);

@@ -280,7 +280,7 @@ fn a_mechanism_presses_nothing_and_its_fastest_point_has_speed_one() {
         }
         seen += 1;
         let scene = scene(&told.file);
-        let find = |id: &str| scene.blocks.iter().find(|b| b.id == id).expect("a block");
+        let find = |id: &str| scene.blocks().iter().find(|b| b.id == id).expect("a block");
         let centroid = |id: &str| {
             let at = find(id).centroid;
             [at.x, at.y]
@@ -334,10 +334,7 @@ fn margins_are_borne_out_by_verdicts_on_either_side() {
         pushed,
         held,
     ] {
-        let options = Options {
-            margins: Ask::Yes,
-            ..Options::default()
-        };
+        let options = Options::default().margins(Ask::Yes);
         let json = told_with(&file, &options).json;
         let margins = &json["frames"][0]["margins"];
         let mut agrees = |margin: &Value, more_is_worse: bool, change: &dyn Fn(f64) -> Value| {
@@ -393,7 +390,7 @@ fn margins_are_borne_out_by_verdicts_on_either_side() {
                 let mut changed = file.clone();
                 let scene = scene(&file);
                 let mut loads = list(&file["loads"]).to_vec();
-                for block in &scene.blocks {
+                for block in scene.blocks() {
                     let at = [block.centroid.x, block.centroid.y];
                     loads.push(json!({ "block": block.id, "force": [way * share * block.weight, 0.0], "at": at }));
                 }
@@ -476,10 +473,7 @@ fn every_test_named_in_the_list_exists() {
 /// `only_by_wedging` is absent where nobody asked and where the frame falls, and says in its effect what shows it.
 #[test]
 fn wedging_is_told_with_what_shows_it() {
-    let asked = Options {
-        wedging: Ask::Yes,
-        ..Options::default()
-    };
+    let asked = Options::default().wedging(Ask::Yes);
     let between = json!({ "drystone": 1, "friction": 0.7,
         "ground": [{ "polygon": rectangle(-2.0, -2.0, 2.0, 4.0) }, { "polygon": rectangle(3.0, -2.0, 2.0, 4.0) }],
         "blocks": [block("bar", rectangle(0.0, 0.0, 3.0, 0.5), 7.0)] });
@@ -512,10 +506,7 @@ fn wedging_is_told_with_what_shows_it() {
 /// What shows that a frame stands only by wedging is checked from the result alone: its interfaces, their forces, two motions.
 #[test]
 fn the_certificate_of_wedging_is_checked_from_the_result_alone() {
-    let asked = Options {
-        wedging: Ask::Yes,
-        ..Options::default()
-    };
+    let asked = Options::default().wedging(Ask::Yes);
     let walls = json!([{ "polygon": rectangle(-2.0, -2.0, 2.0, 4.0) }, { "polygon": rectangle(3.0, -2.0, 2.0, 4.0) }]);
     // Friction of μ must carry the weight, so both faces together press with weight/μ at least.
     for (mu, weight) in [(0.7, 7.0), (0.25, 3.0)] {

@@ -21,7 +21,7 @@ fn pushed(mut file: Value, share: f64) -> Value {
 }
 
 fn rules_out(frame: &FrameAnalysis) -> f64 {
-    assert_eq!(frame.verdict, FALLS, "{}", frame.doubt);
+    assert_eq!(frame.verdict, FALLS, "{}", frame.doubt());
     frame.proof.rules_out()
 }
 
@@ -39,7 +39,7 @@ fn a_large_wall_is_decided_on_either_side_of_its_edge() {
             rules_out(&frame) > 1e12,
             "{share}: {:?} {}",
             frame.proof,
-            frame.doubt
+            frame.doubt()
         );
     }
 }
@@ -108,7 +108,7 @@ fn a_row_of_blocks_locked_between_walls() {
     };
     for friction in [0.02, 0.5] {
         let frame = first(&row(friction));
-        assert_eq!(frame.verdict, STANDS, "{friction}: {}", frame.doubt);
+        assert_eq!(frame.verdict, STANDS, "{friction}: {}", frame.doubt());
         // Each wall's friction carries half of the weight, 15 N.
         let ends = frame
             .contacts

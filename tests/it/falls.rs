@@ -1,7 +1,7 @@
 //! What falls: its failures are named, whatever the turn of gravity, and with them every block is in balance.
 
 use drystone::Analysis;
-use drystone::analysis::{Ask, Failure, FrameAnalysis, Options, Verdict};
+use drystone::analysis::{Ask, EffectName, Failure, FrameAnalysis, Options, Verdict};
 use drystone::internals::geometry::{Point, Vector, cross};
 use drystone::scene::{BodyId, Scene};
 use serde_json::{Value, json};
@@ -18,14 +18,14 @@ fn turned(mut file: Value, degrees: f64) -> Value {
 /// The worst force and moment over the length 1 m that weights, contacts and what sticks leave on a block, in newtons.
 fn left(scene: &Scene, frame: &FrameAnalysis) -> f64 {
     let mut sums: Vec<(Vector, f64)> = Vec::new();
-    for block in &scene.blocks {
+    for block in scene.blocks() {
         sums.push((scene.down() * block.weight, 0.0));
     }
     let mut act = |bodies: [BodyId; 2], at: Point, force: Vector| {
         for (body, sign) in bodies.into_iter().zip([1.0, -1.0]) {
             if let BodyId::Block(id) = body {
                 sums[id.0].0 += force * sign;
-                sums[id.0].1 += cross(at - scene.blocks[id.0].centroid, force * sign);
+                sums[id.0].1 += cross(at - scene.blocks()[id.0].centroid, force * sign);
             }
         }
     };
@@ -115,10 +115,7 @@ fn an_arch_of_a_thousand_is_carried_the_same_way_from_either_end() {
 /// With the verdict alone the verdict and its proof are there, no soft program was posed, and the result says so.
 #[test]
 fn the_verdict_alone_is_proved_and_says_what_it_leaves_out() {
-    let asked = Options {
-        verdict_only: Ask::Yes,
-        ..Options::default()
-    };
+    let asked = Options::default().verdict_only(Ask::Yes);
     let files = [
         (wall(10, 10), 0.0, Verdict::Stable),
         (wall(10, 10), 28.0, Verdict::Stable),
@@ -140,7 +137,10 @@ fn the_verdict_alone_is_proved_and_says_what_it_leaves_out() {
         let programs = |frame: &FrameAnalysis| frame.solve.programs;
         assert!(programs(&frame) <= programs(&whole), "{degrees}°");
         let sticking = |frame: &FrameAnalysis| {
-            let effect = frame.effects.iter().find(|e| e.effect == "sticking");
+            let effect = frame
+                .effects
+                .iter()
+                .find(|e| e.effect == EffectName::Sticking);
             let effect = effect.expect("every effect is told");
             (effect.simulated, effect.why.contains("only the verdict"))
         };

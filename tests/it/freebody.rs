@@ -50,17 +50,14 @@ fn balances(name: &str, analysis: &Analysis, frame: usize, id: BlockId) -> usize
     let (scene, found) = (&analysis.scene, &analysis.frames[frame]);
     let mut listed = 0;
     for corners in [Corners::Few, Corners::All] {
-        let options = Options {
-            corners,
-            ..Options::default()
-        };
+        let options = Options::default().corners(corners);
         let drawing = figure::freebody(analysis, frame, id, &options).expect("it is placed");
-        let what = format!("{name}, frame {frame}, block {}", scene.blocks[id.0].id);
+        let what = format!("{name}, frame {frame}, block {}", scene.blocks()[id.0].id);
         let rows = rows(&drawing.description);
         let (sum, forces) = rows.split_last().expect("a list");
         assert_eq!(sum.name, "sum", "{what}: {}", drawing.description);
         assert!(
-            !forces.is_empty() || scene.blocks[id.0].weight == 0.0,
+            !forces.is_empty() || scene.blocks()[id.0].weight == 0.0,
             "{what}"
         );
         for k in 0..3 {
@@ -88,7 +85,7 @@ fn the_forces_and_moments_of_every_block_add_up_to_nothing_as_printed() {
         let analysis = Analysis::of(&scene);
         for frame in 0..analysis.frames.len() {
             // A wall has many blocks like each other.
-            for id in scene.frames[frame].placed.iter().take(24) {
+            for id in scene.frames()[frame].placed.iter().take(24) {
                 listed += balances(&name, &analysis, frame, *id);
             }
         }

@@ -294,7 +294,7 @@ fn what_is_not_called_for_is_not_simulated() {
         analysis.frames[1]
             .effects
             .iter()
-            .find(|e| e.effect == name)
+            .find(|e| e.effect.word() == name)
             .unwrap_or_else(|| panic!("no effect {name}"))
     };
     for (name, simulated) in [
@@ -408,7 +408,7 @@ fn a_light_push_on_very_rough_bricks() {
     );
     file["loads"] = json!([{ "block": "3", "force": [7e-7, 0] }]);
     let frame = first(&file);
-    assert_eq!(frame.verdict, STANDS, "{}", frame.doubt);
+    assert_eq!(frame.verdict, STANDS, "{}", frame.doubt());
 }
 
 /// A robot's limit that binds is part of every optimum; the least squares may not give it back for other forces.

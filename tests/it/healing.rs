@@ -163,7 +163,7 @@ impl Built {
 /// The verdict and the total force of a scene's only frame.
 fn judged(file: &Value) -> (Verdict, f64, String) {
     let frame = first(file);
-    (frame.verdict, frame.total_force, frame.doubt)
+    (frame.verdict, frame.total_force, frame.doubt())
 }
 
 fn same(name: &str, meant: (Verdict, f64), file: &Value, written: Written) {
@@ -308,14 +308,14 @@ fn frozen(scene: &Scene, frame: &Frame, degrees: f64, written: Written) -> Value
     let blocks: Vec<Value> = (frame.placed.iter())
         .map(|id| {
             let mut value = body(BodyId::Block(*id));
-            value["id"] = json!(scene.blocks[id.0].id);
-            value["weight"] = json!(scene.blocks[id.0].weight);
+            value["id"] = json!(scene.blocks()[id.0].id);
+            value["weight"] = json!(scene.blocks()[id.0].weight);
             value
         })
         .collect();
     let robots: Vec<Value> = (frame.holds.iter())
         .map(|hold| {
-            let robot = &scene.robots[hold.robot.0];
+            let robot = &scene.robots()[hold.robot.0];
             let mut limits = json!({ "torque": robot.limits.torque });
             for (key, limit) in [("fx", robot.limits.fx), ("fy", robot.limits.fy)] {
                 if limit.is_finite() {
@@ -323,15 +323,15 @@ fn frozen(scene: &Scene, frame: &Frame, degrees: f64, written: Written) -> Value
                 }
             }
             json!({
-                "id": robot.id, "holds": scene.blocks[hold.block.0].id,
+                "id": robot.id, "holds": scene.blocks()[hold.block.0].id,
                 "at": place(hold.at.x, hold.at.y), "limits": limits
             })
         })
         .collect();
     json!({
-        "drystone": 1, "gravity": turned(scene.gravity.x, scene.gravity.y), "kernel": scene.kernel,
-        "corner_contacts": scene.corner_contacts,
-        "ground": (0..scene.ground.len()).map(|i| body(BodyId::Ground(i))).collect::<Vec<_>>(),
+        "drystone": 1, "gravity": turned(scene.gravity().x, scene.gravity().y), "kernel": scene.kernel(),
+        "corner_contacts": scene.corner_contacts(),
+        "ground": (0..scene.ground().len()).map(|i| body(BodyId::Ground(i))).collect::<Vec<_>>(),
         "blocks": blocks, "robots": robots
     })
 }
@@ -348,7 +348,7 @@ fn every_frame_of_the_thesis_keeps_its_verdict() {
     for path in paths {
         let scene = Scene::from_json(&std::fs::read_to_string(&path).unwrap()).unwrap();
         let meant = Analysis::of(&scene);
-        for (number, (frame, meant)) in scene.frames.iter().zip(&meant.frames).enumerate() {
+        for (number, (frame, meant)) in scene.frames().iter().zip(&meant.frames).enumerate() {
             // Its centre of gravity lies exactly above a corner: rounding moves it to either side.
             if path.ends_with("figure-6-kernel-0.json") && number == 0 {
                 continue;
@@ -377,7 +377,11 @@ fn where_coordinates_come_from_is_told() {
     let wall = bond(3, 3, 0.5);
     let source = |written| {
         let scene = Scene::from_json(&wall.file(17.3, written, None).to_string()).unwrap();
-        (scene.healed.source, scene.tolerance.gap, scene.healed)
+        (
+            scene.healed().source,
+            scene.tolerance().gap,
+            *scene.healed(),
+        )
     };
     let (from, gap, healed) = source(Written::Decimals(4));
     assert_eq!(from, ToleranceSource::Decimals(4));
@@ -396,7 +400,7 @@ fn where_coordinates_come_from_is_told() {
     assert_eq!((from, healed.corners), (ToleranceSource::Size, 0));
     // Upright, everything fits already.
     let scene = Scene::from_json(&wall.file(0.0, Written::Decimals(3), None).to_string()).unwrap();
-    assert_eq!(scene.healed.corners, 0);
+    assert_eq!(scene.healed().corners, 0);
 }
 
 /// A lintel on two posts, its right end `gap` above its post.
@@ -452,7 +456,7 @@ fn a_small_stone_keeps_its_own_tolerance() {
     };
     for (x, gap) in [(2e-5, true), (0.0, false)] {
         let file = pebble(x);
-        let own = checked(&file).blocks[1].body.gap;
+        let own = checked(&file).blocks()[1].body.gap;
         assert!(own < 2.1e-6, "{own}");
         let is_pebble = |c: &&Contact| c.interface.bodies[0] == BodyId::Block(BlockId(1));
         let touching = first(&file).contacts.iter().filter(is_pebble).count();
@@ -507,7 +511,7 @@ fn a_slight_overlap_on_which_nothing_hinges_is_told_beside_the_verdict() {
     };
     for (push, expected) in [(1.0, Verdict::Stable), (10.0, Verdict::Unstable)] {
         let frame = first(&file(push));
-        assert_eq!(frame.verdict, expected, "{}", frame.doubt);
+        assert_eq!(frame.verdict, expected, "{}", frame.doubt());
         let told = |n: &String| n.contains("4.00e-3 m of overlap between a and b");
         assert!(frame.notices.iter().any(told), "{:?}", frame.notices);
     }

@@ -96,10 +96,7 @@ fn a_doorway_from_inkscape_stands_at_its_real_size() {
     // In each pier 2 with the ground, 4 in courses and 8 between them; the lintel on both, and two that stand alone.
     assert_eq!(touching(&imported.scene), 2 * (2 + 4 + 8) + 2 + 2);
     assert_eq!(verdict(&imported.scene), Verdict::Stable);
-    let unsnapped = Options {
-        gap: Some(0.0),
-        ..Options::default()
-    };
+    let unsnapped = Options::default().gap(0.0);
     let text = fs::read_to_string(asset("import/doorway.svg")).expect("an asset");
     assert!(
         import(&text, Format::Svg, &unsnapped).is_err(),
@@ -153,10 +150,7 @@ fn geojson_and_wkt_become_scenes_with_their_values() {
     assert_eq!(steps.scene.robots[0].holds.as_deref(), Some("tread-3"));
     assert_eq!(steps.snapped[0].body, "tread-2");
     assert_eq!(verdict(&steps.scene), Verdict::Stable);
-    let options = Options {
-        scale: Some(2.0),
-        ..Options::default()
-    };
+    let options = Options::default().scale(2.0);
     let post = read("post.wkt", Format::Wkt, &options);
     assert_eq!(ids(&post), ["footing", "post"]);
     assert_eq!(
@@ -182,19 +176,15 @@ fn our_own_figures_read_back_give_the_same_verdicts() {
             .flatten()
             .map(|r| serde_json::from_value(r["limits"].clone()).ok())
             .collect();
-        for (number, (frame, found)) in scene.frames.iter().zip(&analysis.frames).enumerate() {
-            let first = &scene.blocks[frame.placed[0].0];
-            let options = Options {
-                frame: Some(number),
-                scene: SceneFile {
-                    friction: Some(json["friction"].as_f64().expect("given")),
-                    kernel: Some(json["kernel"].as_f64().unwrap_or(0.0)),
-                    gravity: Some([0.0, -1.0]),
-                    density: Some(first.weight / first.body.polygon.area()),
-                    ..SceneFile::default()
-                },
-                ..Options::default()
-            };
+        for (number, (frame, found)) in scene.frames().iter().zip(&analysis.frames).enumerate() {
+            let first = &scene.blocks()[frame.placed[0].0];
+            let options = Options::default().frame(number).scene(
+                Scene::builder()
+                    .friction(json["friction"].as_f64().expect("given"))
+                    .kernel(json["kernel"].as_f64().unwrap_or(0.0))
+                    .gravity([0.0, -1.0])
+                    .density(first.weight / first.body.polygon.area()),
+            );
             let told = format!("{} frame {number}", path.display());
             let mut imported =
                 import(&svg, Format::Svg, &options).unwrap_or_else(|r| panic!("{told}: {r:?}"));
@@ -202,29 +192,29 @@ fn our_own_figures_read_back_give_the_same_verdicts() {
             let names: Vec<&str> = frame
                 .placed
                 .iter()
-                .map(|id| scene.blocks[id.0].id.as_str())
+                .map(|id| scene.blocks()[id.0].id.as_str())
                 .collect();
             assert_eq!(ids(&imported), names, "{told}");
-            assert_eq!(imported.scene.ground.len(), scene.ground.len(), "{told}");
+            assert_eq!(imported.scene.ground.len(), scene.ground().len(), "{told}");
             assert_eq!(imported.scene.robots.len(), frame.holds.len(), "{told}");
             // A drawing holds no limits and no weights: the scene's own are put in.
             for (robot, hold) in imported.scene.robots.iter_mut().zip(&frame.holds) {
-                let own = &scene.robots[hold.robot.0];
+                let own = &scene.robots()[hold.robot.0];
                 assert_eq!(robot.id.as_deref(), Some(own.id.as_str()), "{told}");
                 assert_eq!(
                     robot.holds.as_deref(),
-                    Some(scene.blocks[hold.block.0].id.as_str()),
+                    Some(scene.blocks()[hold.block.0].id.as_str()),
                     "{told}"
                 );
                 robot.limits = limits[hold.robot.0].clone();
             }
             for (block, id) in imported.scene.blocks.iter_mut().zip(&frame.placed) {
-                block.weight = Some(scene.blocks[id.0].weight);
+                block.weight = Some(scene.blocks()[id.0].weight);
             }
-            imported.scene.corner_contacts = Some(scene.corner_contacts);
+            imported.scene.corner_contacts = Some(scene.corner_contacts());
             let read = Scene::from_json(&imported.scene.to_json()).expect("sound");
-            for (block, id) in read.blocks.iter().zip(&frame.placed) {
-                let drawn = &scene.blocks[id.0].body.polygon;
+            for (block, id) in read.blocks().iter().zip(&frame.placed) {
+                let drawn = &scene.blocks()[id.0].body.polygon;
                 let off = (block.body.polygon.centroid() - drawn.centroid()).norm();
                 assert!(off < 1e-3, "{told}: {} is off by {off} m", block.id);
             }

@@ -16,7 +16,7 @@ fn a_load_tells_its_amount_and_a_key_what_it_is() {
         .flat_map(texts)
         .map(|t| t.words)
         .collect();
-    assert_eq!(amounts.len(), scene.loads.len(), "{amounts:?}");
+    assert_eq!(amounts.len(), scene.loads().len(), "{amounts:?}");
     let key: Vec<Text> = classes(&drawing.items, &["key"])
         .into_iter()
         .flat_map(texts)
@@ -37,7 +37,7 @@ fn robots_beyond_the_key_are_counted_in_it() {
         .into_iter()
         .flat_map(texts)
         .collect();
-    for robot in &scene.robots {
+    for robot in scene.robots() {
         let words = format!("robot {}", robot.id);
         assert!(key.iter().any(|t| t.words == words), "{words}");
     }
@@ -47,10 +47,8 @@ fn robots_beyond_the_key_are_counted_in_it() {
 fn thirty_steps_fit_on_a_page_and_figure_4_in_a_column() {
     let drawn = |path: &str, width| {
         let scene = scene(path);
-        let options = Options {
-            width,
-            ..Options::default()
-        };
+        let mut options = Options::default();
+        options.width = width;
         figure::forces(&Analysis::of(&scene), &options)
     };
     let steps = drawn("tests/scenes/steps30.json", None);
@@ -85,22 +83,10 @@ fn switches_leave_out_what_they_name_and_nothing_else() {
     let signs = ["A lintel, and", "(b) The crane", "stands", "robot crane"];
     assert!(signs.iter().all(|words| has(&full, words)), "{full:?}");
     let less = [
-        Options {
-            titles: false,
-            ..Options::default()
-        },
-        Options {
-            captions: false,
-            ..Options::default()
-        },
-        Options {
-            verdicts: false,
-            ..Options::default()
-        },
-        Options {
-            keys: false,
-            ..Options::default()
-        },
+        Options::default().titles(false),
+        Options::default().captions(false),
+        Options::default().verdicts(false),
+        Options::default().keys(false),
     ];
     for (number, options) in less.iter().enumerate() {
         let left = said(options);
@@ -108,11 +94,7 @@ fn switches_leave_out_what_they_name_and_nothing_else() {
             assert_eq!(has(&left, words), other != number, "{words}: {left:?}");
         }
     }
-    let more = Options {
-        scale_bar: true,
-        dimensions: true,
-        ..Options::default()
-    };
+    let more = Options::default().scale_bar(true).dimensions(true);
     let more = said(&more);
     let metres = |said: &[String]| said.iter().filter(|s| s.ends_with(" m")).count();
     assert_eq!((metres(&full), metres(&more)), (0, 7), "{more:?}");

@@ -161,10 +161,7 @@ fn panels(drawing: &Drawing) -> Vec<&[Item]> {
 fn names_and_amounts_lie_on_nothing_in_the_whole_gallery() {
     let mut count = 0;
     for amounts in [false, true] {
-        let options = Options {
-            amounts,
-            ..Options::default()
-        };
+        let options = Options::default().amounts(amounts);
         for (name, scene) in gallery() {
             let drawing = figure::forces(&Analysis::of(&scene), &options);
             for items in panels(&drawing) {
@@ -192,17 +189,11 @@ fn no_label_lies_on_another_on_a_title_or_verdict_or_beyond_the_page_in_any_kind
     let mut count = 0;
     let mut complaints = Vec::new();
     for (name, scene) in gallery().into_iter().chain(brought()) {
-        let options = drystone::analysis::Options {
-            margins: drystone::analysis::Ask::Yes,
-            ..drystone::analysis::Options::default()
-        };
+        let options = drystone::analysis::Options::default().margins(drystone::analysis::Ask::Yes);
         let analysis = Analysis::with(&scene, &options);
         for width in [COLUMN, TWO_COLUMNS] {
             for kind in figure::Kind::ALL {
-                let options = Options {
-                    width: Some(width),
-                    ..Options::default()
-                };
+                let options = Options::default().width(width);
                 let drawing = figure::draw(&analysis, kind, &options);
                 let what = format!("{name} {} {width:.0}", kind.name());
                 let page = Group {
@@ -242,10 +233,7 @@ fn no_label_lies_on_another_on_a_title_or_verdict_or_beyond_the_page_in_any_kind
 
 #[test]
 fn on_a_page_as_wide_as_a_column_words_stay_large_and_nothing_is_cut() {
-    let options = Options {
-        width: Some(COLUMN),
-        ..Options::default()
-    };
+    let options = Options::default().width(COLUMN);
     let mut drawings = Vec::new();
     for (name, scene) in gallery() {
         let analysis = Analysis::of(&scene);
@@ -255,7 +243,7 @@ fn on_a_page_as_wide_as_a_column_words_stay_large_and_nothing_is_cut() {
                 figure::draw(&analysis, kind, &options),
             ));
         }
-        let block = scene.frames[0].placed[0];
+        let block = scene.frames()[0].placed[0];
         let free = figure::freebody(&analysis, 0, block, &options).expect("placed");
         drawings.push((format!("{name} freebody"), free));
     }
@@ -340,16 +328,14 @@ fn what_the_words_below_a_frame_name_is_labelled_and_what_is_not_is_counted() {
     for (name, scene) in gallery().into_iter().chain(brought()) {
         let analysis = Analysis::of(&scene);
         for width in [None, Some(COLUMN), Some(TWO_COLUMNS)] {
-            let options = Options {
-                width,
-                ..Options::default()
-            };
+            let mut options = Options::default();
+            options.width = width;
             for kind in figure::Kind::ALL {
                 let drawing = figure::draw(&analysis, kind, &options);
                 let what = format!("{name} {} {width:?}", kind.name());
                 let frames = classes(&drawing.items, &["frame"]);
-                assert_eq!(frames.len(), scene.frames.len(), "{what}");
-                for (frame, group) in scene.frames.iter().zip(frames) {
+                assert_eq!(frames.len(), scene.frames().len(), "{what}");
+                for (frame, group) in scene.frames().iter().zip(frames) {
                     let own: Vec<Text> = group
                         .items
                         .iter()
@@ -365,7 +351,7 @@ fn what_the_words_below_a_frame_name_is_labelled_and_what_is_not_is_counted() {
                         .flat_map(texts)
                         .map(|t| t.words)
                         .collect();
-                    let blocks = frame.placed.iter().map(|id| &scene.blocks[id.0].id);
+                    let blocks = frame.placed.iter().map(|id| &scene.blocks()[id.0].id);
                     for id in blocks.filter(|id| names(&said, id)) {
                         named += 1;
                         assert!(labels.contains(id), "{what}: {id} of {said:?} has no label");
@@ -396,14 +382,11 @@ fn what_the_words_below_a_frame_name_is_labelled_and_what_is_not_is_counted() {
 fn around_a_block_its_neighbours_are_drawn_and_named() {
     let scene = scene("tests/scenes/tinyhuge.json");
     let pebble = scene
-        .blocks
+        .blocks()
         .iter()
         .position(|b| b.id == "pebble")
         .expect("there is one");
-    let options = Options {
-        zoom: Some(BlockId(pebble)),
-        ..Options::default()
-    };
+    let options = Options::default().zoom(BlockId(pebble));
     let drawing = figure::forces(&Analysis::of(&scene), &options);
     let picture = classes(&drawing.items, &["picture"])[0];
     assert!(picture.clip.is_some());
@@ -452,17 +435,11 @@ fn a_hidden_label_is_found() {
 #[test]
 fn every_name_of_a_free_body_is_legible() {
     let mut count = 0;
-    let column = Options {
-        width: Some(COLUMN),
-        ..Options::default()
-    };
-    let corners = Options {
-        corners: figure::Corners::All,
-        ..Options::default()
-    };
+    let column = Options::default().width(COLUMN);
+    let corners = Options::default().corners(figure::Corners::All);
     for (name, scene) in gallery().into_iter().chain(crate::lines::brought()) {
         let analysis = Analysis::of(&scene);
-        for (frame, found) in scene.frames.iter().enumerate().take(3) {
+        for (frame, found) in scene.frames().iter().enumerate().take(3) {
             for block in &found.placed {
                 for options in [&Options::default(), &column, &corners] {
                     let drawing = figure::freebody(&analysis, frame, *block, options)
@@ -500,10 +477,7 @@ fn every_name_of_a_free_body_is_legible() {
 fn the_free_body_of_the_slope_names_and_tells_every_force() {
     let scene = scene("assets/thesis/figure-1.json");
     let analysis = Analysis::of(&scene);
-    let all = Options {
-        corners: figure::Corners::All,
-        ..Options::default()
-    };
+    let all = Options::default().corners(figure::Corners::All);
     let drawing = figure::freebody(&analysis, 0, BlockId(0), &all).expect("placed");
     for name in ["F_s1", "F_fl1", "F_fr1", "F_s2", "F_fl2", "F_fr2"] {
         assert!(

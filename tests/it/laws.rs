@@ -83,7 +83,7 @@ impl Change {
 fn weighed(mut file: Value) -> Value {
     let scene = crate::structure::scene(&file);
     let bodies: Vec<(Vec<[f64; 2]>, f64)> = scene
-        .blocks
+        .blocks()
         .iter()
         .map(|b| {
             (
@@ -106,7 +106,7 @@ fn weighed(mut file: Value) -> Value {
         *block = json!({ "id": block["id"], "polygon": outline, "weight": weight });
     }
     let ground: Vec<Value> = scene
-        .ground
+        .ground()
         .iter()
         .map(|g| json!({ "polygon": g.body.polygon.outline().iter().map(|p| [p.x, p.y]).collect::<Vec<_>>() }))
         .collect();
@@ -178,16 +178,19 @@ fn same(
     use drystone::scene::{BlockId, BodyId};
     let what = format!("{name} under {change:?}");
     assert_eq!(
-        before.verdict, after.verdict,
+        before.verdict,
+        after.verdict,
         "{what}: {:?} {:?} {}",
-        before.proof, after.proof, after.doubt
+        before.proof,
+        after.proof,
+        after.doubt()
     );
     // A random pile may have a gap on which the verdict hinges; then it has it however it lies.
-    if before.doubt.contains("narrow gaps") {
+    if before.doubt().contains("narrow gaps") {
         assert!(
-            after.doubt.contains("narrow gaps"),
+            after.doubt().contains("narrow gaps"),
             "{what}: {}",
-            after.doubt
+            after.doubt()
         );
         return;
     }
@@ -195,7 +198,7 @@ fn same(
         before.verdict,
         Verdict::Undecided,
         "{what}: {}",
-        before.doubt
+        before.doubt()
     );
     let force = change.force;
     let heaviest = before.weight.max(before.total_force) * force;
@@ -367,9 +370,12 @@ fn with_the_noise_of_32_bit_floats() {
         }
         let (before, after) = (first(&file), first(&other));
         assert_eq!(
-            before.verdict, after.verdict,
+            before.verdict,
+            after.verdict,
             "{name}: {:?} {:?} {}",
-            before.proof, after.proof, after.doubt
+            before.proof,
+            after.proof,
+            after.doubt()
         );
         assert_eq!(before.contacts.len(), after.contacts.len(), "{name}");
         assert!(

@@ -57,7 +57,7 @@ struct Acting {
 
 /// What bodies and robots give to a block, and its weight and loads.
 fn acting(scene: &Scene, found: &FrameAnalysis, id: BlockId) -> [Vec<Acting>; 2] {
-    let block = &scene.blocks[id.0];
+    let block = &scene.blocks()[id.0];
     let at = |p: Point, force: Vector, torque: f64| Acting {
         force,
         moment: cross(p - block.centroid, force) + torque,
@@ -91,7 +91,7 @@ fn acting(scene: &Scene, found: &FrameAnalysis, id: BlockId) -> [Vec<Acting>; 2]
         pressing.push(at(robot.at, robot.force, robot.torque));
     }
     loads.push(at(block.centroid, scene.down() * block.weight, 0.0));
-    for load in scene.loads.iter().filter(|l| l.block == id) {
+    for load in scene.loads().iter().filter(|l| l.block == id) {
         loads.push(at(load.at, load.force, load.torque));
     }
     [pressing, loads]
@@ -148,11 +148,11 @@ fn on_a_line(name: &str, scene: &Scene, found: &FrameAnalysis, drawn: &Group, ca
     let on = title.strip_prefix("Force on block ").expect("it is titled");
     let on = on.split(" from ").next().expect("the block");
     let number = scene
-        .blocks
+        .blocks()
         .iter()
         .position(|b| b.id == on)
         .expect("a block");
-    let block = &scene.blocks[number];
+    let block = &scene.blocks()[number];
     let ends: Vec<Point> = outline(drawn).points().map(|p| camera.back(p)).collect();
     let size = block.body.polygon.bounds().diagonal();
     let off = |line: &Acting| {
@@ -244,18 +244,9 @@ fn from_tail_to_tip_every_arrow_is_as_long_as_its_force_and_so_is_the_scale() {
     let (mut checked, mut shortest, mut left_out) = (0, f64::INFINITY, 0);
     let options = [
         Options::default(),
-        Options {
-            style: ForceStyle::Components,
-            ..Options::default()
-        },
-        Options {
-            normalisation: Normalisation::Source,
-            ..Options::default()
-        },
-        Options {
-            width: Some(396.0),
-            ..Options::default()
-        },
+        Options::default().style(ForceStyle::Components),
+        Options::default().normalisation(Normalisation::Source),
+        Options::default().width(396.0),
     ];
     for (name, scene) in gallery().into_iter().chain(brought()) {
         let analysis = Analysis::of(&scene);
@@ -325,7 +316,7 @@ fn what_is_too_small_to_be_drawn_is_counted() {
         // Where arrows would be dust none is drawn: then the key counts them for all frames together.
         let key = all_text(&page).join(" ");
         if let Some((before, _)) = key.split_once(" too small to read, left out") {
-            let frames = 0..scene.frames.len();
+            let frames = 0..scene.frames().len();
             let all = frames.flat_map(|frame| figure::arrows(&analysis, frame, &options));
             let count = all.filter(|arrow| !arrow.kind.is_failure()).count();
             let said = before.rsplit(' ').nth(1).and_then(|n| n.parse().ok());

@@ -10,6 +10,7 @@ mod accuracy;
 mod assembly;
 mod book;
 mod bound;
+mod built;
 mod circle;
 mod claims;
 mod edge;

@@ -1,7 +1,7 @@
 //! Margins: values known by hand or from the literature, and what every margin must obey.
 
 use drystone::analysis::{
-    Ask, FrameAnalysis, Margin, MarginKind, MarginKinds, Margins, Options, Verdict,
+    Ask, EffectName, FrameAnalysis, Margin, MarginKind, MarginKinds, Margins, Options, Verdict,
 };
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
@@ -9,10 +9,7 @@ use serde_json::{Value, json};
 use crate::structure::{arch, block, on_floor, on_slope, rectangle, scene, verdict, wall};
 
 fn frames(scene: &Scene) -> Vec<FrameAnalysis> {
-    let asked = Options {
-        margins: Ask::Yes,
-        ..Options::default()
-    };
+    let asked = Options::default().margins(Ask::Yes);
     Analysis::with(scene, &asked).frames
 }
 
@@ -226,7 +223,10 @@ fn margins_are_an_effect_on_request() {
     let file = on_floor(0.5, vec![block("a", rectangle(0.0, 0.0, 1.0, 1.0), 6.0)]);
     let scene = scene(&file);
     let told = |frame: &FrameAnalysis| {
-        let effect = frame.effects.iter().find(|e| e.effect == "margins");
+        let effect = frame
+            .effects
+            .iter()
+            .find(|e| e.effect == EffectName::Margins);
         let effect = effect.expect("every effect is told");
         (effect.simulated, effect.why.clone())
     };
@@ -252,7 +252,10 @@ fn an_equal_frame_has_the_margins_of_the_earlier_one() {
     assert_ne!(frames[0].margins, frames[1].margins);
     assert_eq!(frames[0].margins, frames[2].margins);
     let why = |k: usize| {
-        let effect = frames[k].effects.iter().find(|e| e.effect == "margins");
+        let effect = frames[k]
+            .effects
+            .iter()
+            .find(|e| e.effect == EffectName::Margins);
         effect.expect("every effect is told").why.clone()
     };
     assert!(!why(0).contains(" 0 changed"), "{}", why(0));
@@ -332,7 +335,10 @@ fn just_inside_it_stands_and_just_beyond_it_falls() {
 
 /// How many changed frames were judged.
 fn judged(frame: &FrameAnalysis) -> usize {
-    let effect = frame.effects.iter().find(|e| e.effect == "margins");
+    let effect = frame
+        .effects
+        .iter()
+        .find(|e| e.effect == EffectName::Margins);
     let why = &effect.expect("every effect is told").why;
     let mut words = why.split_whitespace();
     let number = words.find_map(|word| word.parse().ok());
@@ -357,11 +363,9 @@ fn few_changed_frames_are_judged_for_a_margin() {
 fn a_margin_alone_is_what_it_is_among_all() {
     let file = scene(&arch(15, 0.3, 0.7));
     let all = frames(&file).remove(0);
-    let asked = Options {
-        margins: Ask::Yes,
-        margin_kinds: MarginKinds::of(&[MarginKind::Friction]),
-        ..Options::default()
-    };
+    let asked = Options::default()
+        .margins(Ask::Yes)
+        .margin_kinds(MarginKinds::of(&[MarginKind::Friction]));
     let alone = Analysis::with(&file, &asked).frames.remove(0);
     assert!(judged(&alone) < judged(&all));
     let (all, alone) = (

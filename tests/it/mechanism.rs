@@ -16,7 +16,7 @@ fn speed(scene: &Scene, motions: &[Motion], body: BodyId, at: Point) -> Vector {
     };
     let motion = motions.iter().find(|m| m.block == id);
     motion.map_or(Vector::zeros(), |m| {
-        let arm = at - scene.blocks[id.0].centroid;
+        let arm = at - scene.blocks()[id.0].centroid;
         m.velocity + Vector::new(-arm.y, arm.x) * m.spin
     })
 }
@@ -24,8 +24,8 @@ fn speed(scene: &Scene, motions: &[Motion], body: BodyId, at: Point) -> Vector {
 /// The power of the loads along a motion, and the fastest closing of a contact.
 fn power_and_closing(scene: &Scene, found: &FrameAnalysis, motions: &[Motion]) -> (f64, f64) {
     let power = motions.iter().map(|m| {
-        let block = &scene.blocks[m.block.0];
-        let loads = scene.loads.iter().filter(|l| l.block == m.block);
+        let block = &scene.blocks()[m.block.0];
+        let loads = scene.loads().iter().filter(|l| l.block == m.block);
         let loads = loads.map(|l| {
             let arm = l.at - block.centroid;
             l.force.dot(&m.velocity) + (cross(arm, l.force) + l.torque) * m.spin
@@ -92,7 +92,7 @@ fn nobody_passes_through_another_at_the_amplitude_drawn() {
     let mut compared = 0;
     for (name, scene) in brought() {
         let analysis = Analysis::of(&scene);
-        if analysis.frames[0].verdict != Verdict::Unstable || scene.kernel > 0.0 {
+        if analysis.frames[0].verdict != Verdict::Unstable || scene.kernel() > 0.0 {
             continue;
         }
         let drawing = figure::draw(&analysis, Kind::Mechanism, &Options::default());
@@ -103,7 +103,7 @@ fn nobody_passes_through_another_at_the_amplitude_drawn() {
             .chain(all(&picture.items, "block"))
             .map(|group| polygon(group, &camera))
             .collect();
-        bodies.extend(scene.ground.iter().map(|g| g.body.polygon.clone()));
+        bodies.extend(scene.ground().iter().map(|g| g.body.polygon.clone()));
         for (i, a) in bodies.iter().enumerate() {
             for b in &bodies[..i] {
                 let shared = overlap(&Pieces::of(a), &Pieces::of(b), 0.0).map_or(0.0, |o| o.area);
@@ -161,10 +161,7 @@ fn a_margin_shows_the_structure_and_the_ghost_of_its_fall() {
     let text = r#"{ "drystone": 1, "friction": 0.9, "ground": [ { "polygon": [[-5,-1],[6,-1],[6,0],[-5,0]] } ],
         "blocks": [ { "id": "a", "polygon": [[0,0],[1,0],[1,4],[0,4]], "weight": 8 } ] }"#;
     let scene = Scene::from_json(text).unwrap_or_else(|problems| panic!("{problems}"));
-    let asked = drystone::analysis::Options {
-        margins: drystone::analysis::Ask::Yes,
-        ..Default::default()
-    };
+    let asked = drystone::analysis::Options::default().margins(drystone::analysis::Ask::Yes);
     let analysis = Analysis::with(&scene, &asked);
     let (turn, motions) = analysis.tilted(0).expect("it topples");
     assert!((turn.abs() - 14.036).abs() < 1e-2, "{turn}");
@@ -173,7 +170,7 @@ fn a_margin_shows_the_structure_and_the_ghost_of_its_fall() {
     };
     // About the lower corner on the side to which gravity turns.
     let corner = Point::new(if turn > 0.0 { 1.0 } else { 0.0 }, 0.0);
-    let arm = corner - scene.blocks[0].centroid;
+    let arm = corner - scene.blocks()[0].centroid;
     let there = motion.velocity + Vector::new(-arm.y, arm.x) * motion.spin;
     assert!(there.norm() < 1e-5, "{there}");
     let drawing = figure::draw(&analysis, Kind::Margin, &Options::default());

@@ -216,7 +216,7 @@ fn examine(text: &str) -> Result<bool, String> {
     };
     let analysis = Analysis::of(&scene);
     for frame in &analysis.frames {
-        if frame.verdict == Verdict::Undecided && frame.doubt.is_empty() {
+        if frame.verdict == Verdict::Undecided && frame.doubt().is_empty() {
             return Err("undecided without a reason".into());
         }
     }
@@ -311,7 +311,7 @@ fn numbers_that_products_of_them_cannot_hold_are_refused() {
         "blocks": [{ "id": "a", "polygon": [[1e-30, 0], [2e-30, 0], [2e-30, 1e-30], [1e-30, 1e-30]] },
                    { "id": "b", "polygon": [[1.5e-30, 1e-30], [3e-30, 1e-30], [3e-30, 2e-30], [1.5e-30, 2e-30]] }] });
     let scene = Scene::from_json(&least.to_string()).expect("just large enough");
-    assert!(scene.blocks.iter().all(|block| block.weight > 0.0));
+    assert!(scene.blocks().iter().all(|block| block.weight > 0.0));
     assert_eq!(
         Analysis::of(&scene).frames[0].verdict,
         Verdict::Unstable,

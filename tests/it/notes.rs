@@ -99,6 +99,14 @@ fn cases() -> Vec<(String, NoteCode, &'static str, usize)> {
             "blocks[1]",
             3,
         ),
+        (
+            scene(&format!(
+                "\"blocks\": [{{ \"id\": \"a\", {square}, \"weight\": 5, \"at\": [2, 0],\n\"angle\": 1.5708 }}]"
+            )),
+            NoteCode::AngleRadians,
+            "blocks[0].angle",
+            3,
+        ),
     ]
 }
 

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use drystone::analysis::{Analysis, Ask, Options};
-use drystone::report::result::key::{KEYS, Key, Kind, REFUSAL_KEYS};
+use drystone::report::result::key::{KEYS, Key, REFUSAL_KEYS, Type};
 use drystone::report::result::{Layout, Timing, refusal, schema, to_json_of};
 use drystone::scene::{Code, NoteCode, Scene};
 use serde_json::Value;
@@ -238,30 +238,30 @@ fn the_result_page_tells_every_key_and_code() {
 }
 
 /// Whether a value is what a key says.
-fn fits(kind: Kind, value: &Value) -> bool {
+fn fits(kind: Type, value: &Value) -> bool {
     let number = |v: &Value| v.is_number() || v.is_null();
     let list =
         |v: &Value, each: &dyn Fn(&Value) -> bool| v.as_array().is_some_and(|l| l.iter().all(each));
     let two = |v: &Value| v.as_array().is_some_and(|l| l.len() == 2);
     let pair = |v: &Value| two(v) && list(v, &number);
     match kind {
-        Kind::Text => value.is_string(),
-        Kind::Word(words) => value.as_str().is_some_and(|w| words.contains(&w)),
-        Kind::Flag => value.is_boolean(),
-        Kind::FlagOrOpen => value.is_boolean() || value.is_null(),
-        Kind::Count => value.is_u64(),
-        Kind::Place => value.is_null() || value.as_u64().is_some_and(|n| n > 0),
-        Kind::Number => number(value),
-        Kind::Bound | Kind::Margin => number(value) || value == "unbounded",
-        Kind::Pair => pair(value),
-        Kind::Pairs => two(value) && list(value, &pair),
-        Kind::Names => two(value) && list(value, &Value::is_string),
-        Kind::NameList => list(value, &Value::is_string),
-        Kind::Motions => list(value, &|m: &Value| {
+        Type::Text => value.is_string(),
+        Type::Word(words) => value.as_str().is_some_and(|w| words.contains(&w)),
+        Type::Flag => value.is_boolean(),
+        Type::FlagOrOpen => value.is_boolean() || value.is_null(),
+        Type::Count => value.is_u64(),
+        Type::Place => value.is_null() || value.as_u64().is_some_and(|n| n > 0),
+        Type::Number => number(value),
+        Type::Bound | Type::Margin => number(value) || value == "unbounded",
+        Type::Pair => pair(value),
+        Type::Pairs => two(value) && list(value, &pair),
+        Type::Names => two(value) && list(value, &Value::is_string),
+        Type::NameList => list(value, &Value::is_string),
+        Type::Motions => list(value, &|m: &Value| {
             m["block"].is_string() && pair(&m["velocity"]) && number(&m["spin"])
         }),
-        Kind::Object | Kind::ByRobot => value.is_object(),
-        Kind::Objects => list(value, &Value::is_object),
+        Type::Object | Type::ByRobot => value.is_object(),
+        Type::Objects => list(value, &Value::is_object),
     }
 }
 
@@ -279,13 +279,13 @@ fn walk(object: &Value, path: &str, keys: &[Key], seen: &mut BTreeSet<&'static s
         );
         seen.insert(key.path);
         match key.kind {
-            Kind::Object => walk(value, &format!("{here}."), keys, seen),
-            Kind::Objects => {
+            Type::Object => walk(value, &format!("{here}."), keys, seen),
+            Type::Objects => {
                 for entry in value.as_array().into_iter().flatten() {
                     walk(entry, &format!("{here}[]."), keys, seen);
                 }
             }
-            Kind::ByRobot => {
+            Type::ByRobot => {
                 for robot in value.as_object().into_iter().flatten() {
                     walk(robot.1, &format!("{here}.*."), keys, seen);
                 }
@@ -346,11 +346,7 @@ fn every_key_of_real_results_is_told_and_every_told_key_occurs() {
                 .map(|p| std::fs::read_to_string(p).expect("readable")),
         );
     }
-    let options = Options {
-        margins: Ask::Yes,
-        wedging: Ask::Yes,
-        ..Options::default()
-    };
+    let options = Options::default().margins(Ask::Yes).wedging(Ask::Yes);
     for text in &texts {
         let scene = Scene::from_json(text).expect("sound");
         let analysis = Analysis::with(&scene, &options);

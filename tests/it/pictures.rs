@@ -34,11 +34,9 @@ pub(crate) fn gallery() -> Vec<(String, Scene)> {
 }
 
 fn source() -> Options {
-    Options {
-        style: ForceStyle::Components,
-        normalisation: Normalisation::Source,
-        ..Options::default()
-    }
+    Options::default()
+        .style(ForceStyle::Components)
+        .normalisation(Normalisation::Source)
 }
 
 fn pair(value: &Value) -> (f64, f64) {
@@ -114,10 +112,7 @@ fn fills_are_the_sources() {
         serde_json::from_str(include_str!("../reference/panels.json")).expect("JSON");
     for (name, panel) in panels.as_object().expect("panels") {
         let scene = scene(panel["scene"].as_str().expect("a scene"));
-        let options = Options {
-            fill: Fill::Source,
-            ..Options::default()
-        };
+        let options = Options::default().fill(Fill::Source);
         let drawing = figure::forces(&Analysis::of(&scene), &options);
         let fills = fills(&drawing, panel["frame"].as_u64().expect("a frame") as usize);
         let blocks = panel["blocks"].as_array().expect("blocks");
@@ -210,7 +205,7 @@ fn a_figure_says_its_verdicts_and_numbers_to_those_who_do_not_see_it() {
 fn the_largest_arrow_is_one_edge_long_in_each_panel() {
     let scene = scene("assets/thesis/figure-4.json");
     let analysis = Analysis::of(&scene);
-    for frame in 0..scene.frames.len() {
+    for frame in 0..scene.frames().len() {
         let arrows = figure::arrows(&analysis, frame, &Options::default());
         let longest = arrows.iter().map(|a| a.vector.norm()).fold(0.0, f64::max);
         assert!((longest - 1.0).abs() < 1e-9, "frame {frame}: {longest}");
@@ -326,10 +321,7 @@ fn one_scale_for_a_strip_makes_equal_weights_equal() {
     let scene = scene("assets/thesis/figure-5.json");
     let analysis = Analysis::of(&scene);
     let weights = |scale| {
-        let options = Options {
-            scale,
-            ..Options::default()
-        };
+        let options = Options::default().scale(scale);
         heights(&figure::forces(&analysis, &options), "Weight of block 1")
     };
     let own = weights(figure::ArrowScale::Panel);
@@ -363,10 +355,7 @@ fn without_a_limit_the_key_says_what_the_colours_stand_for() {
     let with_robot = drawn(&from_json(&limited));
     assert!(!with_robot.contains("limit of"));
     assert_eq!(of_blocks(&with_robot, &full), of_blocks(&text, &full));
-    let options = Options {
-        fill: Fill::Source,
-        ..Options::default()
-    };
+    let options = Options::default().fill(Fill::Source);
     let scene = from_json(&limited);
     let source = svg::write(&figure::forces(&Analysis::of(&scene), &options));
     assert!(source.contains("of the robots&#39; limit of 20 N"));
@@ -418,7 +407,7 @@ fn odd_scenes_are_drawn_too() {
         assert!(
             picture.len() > 500 && picture.len() < 1_000_000,
             "{}",
-            scene.title
+            scene.title()
         );
     }
 }

@@ -70,14 +70,8 @@ fn a_force_polygon_closes_only_with_missing_forces_where_it_falls_and_says_so() 
 
 #[test]
 fn a_margin_of_loads_is_drawn_where_the_verdict_changes() {
-    let asked = Asked {
-        margins: Ask::Yes,
-        ..Asked::default()
-    };
-    let options = Options {
-        toward: Toward::LoadFactor,
-        ..Options::default()
-    };
+    let asked = Asked::default().margins(Ask::Yes);
+    let options = Options::default().toward(Toward::LoadFactor);
     let pushed = block(1.0, 2.0);
     let analysis = Analysis::with(&pushed, &asked);
     let drawing = figure::draw(&analysis, Kind::Margin, &options);

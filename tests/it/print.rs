@@ -37,10 +37,7 @@ fn hostile() -> Drawing {
 }
 
 fn written(drawing: &Drawing, words: Words) -> String {
-    let options = Options {
-        words,
-        ..Options::default()
-    };
+    let options = Options::default().words(words);
     svg::write_with(drawing, &options).expect("written")
 }
 

@@ -3,7 +3,6 @@
 //! `tests/reference/problems.txt` holds the cases: a title, a scene, and all that is said of it. `UPDATE_SNAPSHOTS=1`
 //! writes what is said now in place of what was.
 
-use drystone::scene::format::{BlockEntry, SceneFile};
 use drystone::scene::{Code, Problems, Scene, starter};
 use serde_json::{Value, json};
 
@@ -104,12 +103,9 @@ fn every_code_of_a_problem_occurs() {
         only(Scene::from_slice(b"\xE9").expect_err("refused")),
         Code::NotUtf8
     );
-    let infinite = SceneFile {
-        kernel: Some(f64::INFINITY),
-        ..SceneFile::default()
-    };
+    let infinite = Scene::builder().kernel(f64::INFINITY);
     assert_eq!(
-        only(Scene::new(infinite).expect_err("refused")),
+        only(infinite.build().expect_err("refused")),
         Code::NotFinite
     );
     let block = r#"{ "polygon": [[0, 0], [1, 0], [0, 1]] }"#;
@@ -278,16 +274,11 @@ fn a_byte_order_mark_is_no_part_of_the_text() {
 
 #[test]
 fn a_scene_made_in_code_has_paths_but_no_lines() {
-    let block = BlockEntry {
-        polygon: Some(vec![[0.0, 0.0], [f64::NAN, 0.0], [0.0, 1.0]]),
-        ..BlockEntry::default()
-    };
-    let file = SceneFile {
-        blocks: vec![block],
-        kernel: Some(f64::INFINITY),
-        ..SceneFile::default()
-    };
-    let problems = Scene::new(file).expect_err("refused");
+    let problems = Scene::builder()
+        .block([[0.0, 0.0], [f64::NAN, 0.0], [0.0, 1.0]])
+        .kernel(f64::INFINITY)
+        .build()
+        .expect_err("refused");
     assert_eq!(
         problems.to_string(),
         "kernel: the number is inf\n  help: give a finite number\n\

@@ -24,27 +24,27 @@ fn everything_but_version_and_blocks_has_a_default() {
     let scene = scene(
         r#"{ "drystone": 1, "blocks": [{ "polygon": [[0, 0], [0, 2], [3, 0]] }, { "polygon": [[5, 0], [7, 0], [7, 1]] }] }"#,
     );
-    assert_eq!(scene.title, "");
-    assert_eq!(scene.gravity, Vector::new(0.0, -9.81));
+    assert_eq!(scene.title(), "");
+    assert_eq!(scene.gravity(), Vector::new(0.0, -9.81));
     assert_eq!(
-        (scene.kernel, scene.corner_contacts, scene.exact),
+        (scene.kernel(), scene.corner_contacts(), scene.exact()),
         (0.0, false, false)
     );
-    assert!(scene.lattice.is_none() && scene.robots.is_empty() && scene.loads.is_empty());
-    let block = &scene.blocks[0];
+    assert!(scene.lattice().is_none() && scene.robots().is_empty() && scene.loads().is_empty());
+    let block = &scene.blocks()[0];
     assert_eq!(
         (block.id.as_str(), block.body.friction, block.body.fill),
         ("1", 0.7, None)
     );
     assert!((block.weight - 3.0 * 9.81).abs() < 1e-12);
     near(block.centroid, 1.0, 2.0 / 3.0);
-    assert_eq!(scene.frames.len(), 1);
-    assert_eq!(placed(&scene.frames[0]), [0, 1]);
+    assert_eq!(scene.frames().len(), 1);
+    assert_eq!(placed(&scene.frames()[0]), [0, 1]);
     let empty = Scene::from_json(
         r#"{ "drystone": 1, "blocks": [], "$schema": "scene.schema.json", "title": null }"#,
     );
     assert!(
-        empty.expect("no blocks are legal").frames[0]
+        empty.expect("no blocks are legal").frames()[0]
             .placed
             .is_empty()
     );
@@ -70,9 +70,9 @@ fn the_nearest_weight_wins() {
             "materials": {{ "oak": {{ "density": 11 }}, "plain": {{}} }}, "blocks": [{{ {square}, {given} }}] }}"#
         ));
         assert!(
-            (scene.blocks[0].weight - weight).abs() < 1e-12,
+            (scene.blocks()[0].weight - weight).abs() < 1e-12,
             "{given}: {}",
-            scene.blocks[0].weight
+            scene.blocks()[0].weight
         );
     }
 }
@@ -101,8 +101,8 @@ fn friction_comes_from_the_pair_else_from_the_smoother_body() {
     assert_eq!(scene.friction_between(block(3), ground), 0.1);
     assert_eq!(scene.friction_between(block(0), block(1)), 0.5);
     assert_eq!(scene.friction_between(block(1), block(3)), 0.8);
-    assert_eq!(scene.blocks[0].body.fill, Some(Rgb([0x88, 0x66, 0x33])));
-    assert_eq!(scene.blocks[1].body.fill, Some(Rgb([0x8b, 0x6b, 0x3d])));
+    assert_eq!(scene.blocks()[0].body.fill, Some(Rgb([0x88, 0x66, 0x33])));
+    assert_eq!(scene.blocks()[1].body.fill, Some(Rgb([0x8b, 0x6b, 0x3d])));
     assert_eq!(scene.name(ground), "ground");
 }
 
@@ -112,7 +112,7 @@ fn a_shape_is_turned_about_its_own_origin_and_then_moved() {
         r#"{ "drystone": 1, "shapes": { "bar": { "polygon": [[0, 0], [4, 0], [4, 1], [0, 1]], "holes": [[[1, 0.25], [2, 0.25], [1, 0.5]]] } },
         "blocks": [{ "shape": "bar", "at": [10, 20], "angle": 90 }] }"#,
     );
-    let polygon = &scene.blocks[0].body.polygon;
+    let polygon = &scene.blocks()[0].body.polygon;
     for (x, y) in [(10.0, 20.0), (10.0, 24.0), (9.0, 24.0), (9.0, 20.0)] {
         assert!(polygon.outline().contains(&Point::new(x, y)), "({x}, {y})");
     }
@@ -128,14 +128,14 @@ fn on_a_lattice_bodies_lie_at_lattice_points_and_grips_in_metres() {
         "blocks": [{ "id": "a", "shape": "dart", "at": [3, 1], "angle": -60 }, { "id": "b", "cells": [[7, 2, "down"]] }],
         "robots": [{ "id": "r", "holds": "a", "at": [3, 1] }], "loads": [{ "block": "b", "at": [3, 1] }] }"#,
     );
-    assert!(scene.exact);
-    assert_eq!(scene.tolerance.gap, 0.0);
-    near(scene.robots[0].holds.expect("holds").at, 3.0, 1.0);
-    near(scene.loads[0].at, 3.0, 1.0);
+    assert!(scene.exact());
+    assert_eq!(scene.tolerance().gap, 0.0);
+    near(scene.robots()[0].holds.expect("holds").at, 3.0, 1.0);
+    near(scene.loads()[0].at, 3.0, 1.0);
     // Turned by −60° the dart's cells lie about the edge from (0, 0) to (1, −1); its centroid is that edge's middle.
     let h = 3f64.sqrt();
-    near(scene.blocks[0].centroid, 7.0 + 0.5, h - h / 2.0);
-    assert!((scene.blocks[0].body.polygon.area() - 2.0 * h).abs() < 1e-12);
+    near(scene.blocks()[0].centroid, 7.0 + 0.5, h - h / 2.0);
+    assert!((scene.blocks()[0].body.polygon.area() - 2.0 * h).abs() < 1e-12);
 }
 
 #[test]
@@ -144,10 +144,10 @@ fn a_polygon_in_a_lattice_scene_makes_it_inexact_and_may_lie_between_lattice_poi
         r#"{ "drystone": 1, "grid": { "kind": "triangular", "side": 2 }, "ground": [{ "shape": "down" }],
         "blocks": [{ "polygon": [[0, 0], [1, 0], [0, 0.5]], "at": [1.5, 2], "angle": 180 }] }"#,
     );
-    assert!(!scene.exact && scene.tolerance.gap > 0.0);
+    assert!(!scene.exact() && scene.tolerance().gap > 0.0);
     let h = 3f64.sqrt();
     near(
-        scene.blocks[0].centroid,
+        scene.blocks()[0].centroid,
         5.0 - 1.0 / 3.0,
         2.0 * h - 0.5 / 3.0,
     );
@@ -159,8 +159,8 @@ fn a_square_lattice_turns_by_quarters() {
         r#"{ "drystone": 1, "grid": { "kind": "square", "side": 0.5 }, "blocks": [
         { "cells": [[0, 0], [1, 0], [2, 0]], "at": [4, 2], "angle": 450 }] }"#,
     );
-    assert!(scene.exact);
-    let bounds = scene.blocks[0].body.polygon.bounds();
+    assert!(scene.exact());
+    let bounds = scene.blocks()[0].body.polygon.bounds();
     near(bounds.min, 1.5, 1.0);
     near(bounds.max, 2.0, 2.5);
 }
@@ -170,7 +170,7 @@ fn limits_are_filled_in() {
     let limits = |text: &str| {
         let text =
             format!(r#"{{ "drystone": 1, "blocks": [], "robots": [{{ "id": "r"{text} }}] }}"#);
-        scene(&text).robots[0].limits
+        scene(&text).robots()[0].limits
     };
     let free = f64::INFINITY;
     assert_eq!(
@@ -228,8 +228,8 @@ fn steps_play_in_order() {
             { "title": "moved", "release": ["s", "r"], "remove": ["b"], "place": ["c", "b"], "hold": { "r": "a", "s": { "block": "c", "at": [4.5, 1.5] } } },
             { "release": ["s", "s"], "hold": { "r": { "block": "a", "at": [0.5, 1] } } } ] }"#,
     );
-    assert_eq!(scene.frames.len(), 3);
-    let frame = &scene.frames[0];
+    assert_eq!(scene.frames().len(), 3);
+    let frame = &scene.frames()[0];
     assert_eq!((frame.title.as_str(), placed(frame)), ("", vec![1, 0]));
     assert_eq!(
         frame
@@ -249,7 +249,7 @@ fn steps_play_in_order() {
             .collect::<Vec<_>>(),
         [(0, 2), (1, 2)]
     );
-    let frame = &scene.frames[1];
+    let frame = &scene.frames()[1];
     assert_eq!(
         (frame.title.as_str(), placed(frame)),
         ("moved", vec![0, 2, 1]),
@@ -258,7 +258,7 @@ fn steps_play_in_order() {
     near(frame.holds[0].at, 1.0, 1.0);
     near(frame.holds[1].at, 4.5, 1.5);
     assert!(frame.plans.is_empty());
-    let frame = &scene.frames[2];
+    let frame = &scene.frames()[2];
     assert_eq!(frame.holds.len(), 1);
     near(frame.holds[0].at, 0.5, 1.0);
 }
@@ -271,13 +271,13 @@ fn without_steps_every_robot_holds_its_own() {
     );
     assert_eq!(
         scene
-            .robots
+            .robots()
             .iter()
             .map(|r| r.id.as_str())
             .collect::<Vec<_>>(),
         ["r0", "r1", "x"]
     );
-    let holds = &scene.frames[0].holds;
+    let holds = &scene.frames()[0].holds;
     assert_eq!(holds.iter().map(|h| h.robot.0).collect::<Vec<_>>(), [1, 2]);
     near(holds[0].at, 0.25, 3.0);
     near(holds[1].at, 1.0, 2.0);
@@ -289,13 +289,13 @@ fn bodies_may_touch_and_ground_may_overlap_itself() {
         r#"{ "drystone": 1, "ground": [{ "polygon": [[0, -1], [9, -1], [9, 0], [0, 0]] }, { "polygon": [[1, -1], [5, -1], [5, 0], [1, 0]] }],
         "blocks": [{ "polygon": [[0, -0.0000001], [1, 0], [1, 1], [0, 1]] }, { "polygon": [[0.9999999, 0], [2, 0], [2, 1], [0.9999999, 1]] }] }"#,
     );
-    assert_eq!(noisy.blocks.len(), 2);
+    assert_eq!(noisy.blocks().len(), 2);
     let exchanged = scene(
         r#"{ "drystone": 1, "grid": { "kind": "square" }, "blocks": [{ "cells": [[0, 0]] }, { "cells": [[0, 0], [0, 1]] }, { "cells": [[0, 0]] }],
         "steps": [{ "place": ["1"], "plan": {} }, { "remove": ["1"], "place": ["2"] }] }"#,
     );
     assert_eq!(
-        placed(&exchanged.frames[1]),
+        placed(&exchanged.frames()[1]),
         [1],
         "what never stands together may share its place"
     );
@@ -305,9 +305,11 @@ fn bodies_may_touch_and_ground_may_overlap_itself() {
 fn the_starter_scene_uses_what_a_newcomer_needs() {
     let scene = scene(starter());
     assert!(starter().lines().count() <= 60);
-    assert!(!scene.robots.is_empty() && !scene.materials.is_empty() && !scene.loads.is_empty());
-    assert!(scene.frames.len() >= 3 && scene.frames.iter().all(|f| !f.title.is_empty()));
-    assert!(scene.lattice.is_none());
+    assert!(
+        !scene.robots().is_empty() && !scene.materials().is_empty() && !scene.loads().is_empty()
+    );
+    assert!(scene.frames().len() >= 3 && scene.frames().iter().all(|f| !f.title.is_empty()));
+    assert!(scene.lattice().is_none());
     let verdicts: Vec<Verdict> = Analysis::of(&scene)
         .frames
         .iter()
@@ -336,7 +338,7 @@ fn a_wall_of_ten_thousand_blocks_is_read_in_the_time_of_a_breath() {
         blocks.join(",")
     );
     let began = std::time::Instant::now();
-    assert_eq!(scene(&text).blocks.len(), 10_000);
+    assert_eq!(scene(&text).blocks().len(), 10_000);
     let seconds = began.elapsed().as_secs_f64();
     assert!(
         seconds < 5.0,

@@ -224,7 +224,7 @@ fn a_block_that_is_wrong_is_refused_and_changes_nothing() {
         let refused = refused.expect_err(says).to_string();
         assert!(refused.contains(says), "{refused}");
         assert_eq!(
-            (session.verdict(), session.scene().blocks.len()),
+            (session.verdict(), session.scene().blocks().len()),
             (Verdict::Stable, 1)
         );
     }
@@ -236,7 +236,7 @@ fn a_block_that_is_wrong_is_refused_and_changes_nothing() {
     session
         .place(serde_json::from_value(json!({ "cells": [[0, 1]] })).unwrap())
         .unwrap();
-    assert_eq!(session.scene().blocks[1].id, "1");
+    assert_eq!(session.scene().blocks()[1].id, "1");
     assert_eq!(session.analysis().verdict(), Verdict::Stable);
 }
 
@@ -262,10 +262,7 @@ fn verdicts_alone_are_those_of_a_whole_analysis() {
         stands += whole.iter().filter(|v| **v == Verdict::Stable).count();
     }
     assert!(falls > 100 && stands > 100, "{falls} fall, {stands} stand");
-    let strict = Options {
-        accuracy: Accuracy::Proved,
-        ..options
-    };
+    let strict = options.accuracy(Accuracy::Proved);
     for (text, scene) in scenes.iter().step_by(10) {
         let whole = Analysis::with(scene, &strict);
         let whole: Vec<Verdict> = whole.frames.iter().map(|f| f.verdict).collect();

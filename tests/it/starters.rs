@@ -8,7 +8,7 @@ use drystone::starter::{Arch, Doorway, Lattice, Tower, Wall};
 fn verdict(file: &SceneFile) -> Verdict {
     let text = file.to_json();
     let scene = Scene::from_json(&text).unwrap_or_else(|problems| panic!("{problems}\n{text}"));
-    assert!(!scene.title.is_empty());
+    assert!(!scene.title().is_empty());
     let analysis = Analysis::of(&scene);
     assert_eq!(analysis.notes, [], "{text}");
     analysis.verdict()

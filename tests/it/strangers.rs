@@ -160,7 +160,11 @@ fn what_is_missing_and_what_loads_are_shown_however_small_they_are() {
             assert!(missing >= found.failures.len(), "{name}: {missing}");
             assert_eq!(found.verdict == Verdict::Unstable, missing > 0, "{name}");
             let loads = drawn.iter().filter(|t| t.starts_with("Load on")).count();
-            let pushes = scene.loads.iter().filter(|l| l.force.norm() > 0.0).count();
+            let pushes = scene
+                .loads()
+                .iter()
+                .filter(|l| l.force.norm() > 0.0)
+                .count();
             assert_eq!(loads, pushes, "{name}");
         }
     }

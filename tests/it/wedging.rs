@@ -1,16 +1,13 @@
 //! Wedging: which structures stand only by a self-stress that nobody built up.
 
 use drystone::Analysis;
-use drystone::analysis::{Ask, FrameAnalysis, Options, Verdict};
+use drystone::analysis::{Ask, EffectName, FrameAnalysis, Options, Verdict};
 use serde_json::{Value, json};
 
 use crate::structure::{arch, block, harmonic, on_floor, on_slope, rectangle, scene, wall};
 
 fn asked(file: &Value) -> FrameAnalysis {
-    let options = Options {
-        wedging: Ask::Yes,
-        ..Options::default()
-    };
+    let options = Options::default().wedging(Ask::Yes);
     Analysis::with(scene(file), &options).frames.remove(0)
 }
 
@@ -106,7 +103,10 @@ fn the_answer_does_not_depend_on_size() {
 #[test]
 fn it_is_an_effect_on_request() {
     let told = |frame: &FrameAnalysis| {
-        let effect = frame.effects.iter().find(|e| e.effect == "wedging");
+        let effect = frame
+            .effects
+            .iter()
+            .find(|e| e.effect == EffectName::Wedging);
         let effect = effect.expect("every effect is told");
         (effect.simulated, effect.why.clone())
     };
@@ -128,10 +128,7 @@ fn it_is_an_effect_on_request() {
 #[test]
 fn the_figure_says_so() {
     let scene = scene(&bar_between_walls(0.0, 0.7));
-    let options = Options {
-        wedging: Ask::Yes,
-        ..Options::default()
-    };
+    let options = Options::default().wedging(Ask::Yes);
     let drawn = |options: &Options| {
         let analysis = Analysis::with(&scene, options);
         let drawing = drystone::figure::forces(&analysis, &drystone::figure::Options::default());
@@ -279,7 +276,7 @@ fn whatever_is_said_to_be_wedged_has_no_rest() {
                 if frame.verdict != Verdict::Stable {
                     continue;
                 }
-                let bar = scene(&file).blocks[0].centroid;
+                let bar = scene(&file).blocks()[0].centroid;
                 let rests = Between::of(&frame, [bar.x, bar.y], 6.0).rests();
                 match frame.only_by_wedging {
                     Some(only) => assert_eq!(only, !rests, "lean {lean}, friction {friction}"),
@@ -367,7 +364,7 @@ fn without_friction_a_balance_is_reached_from_rest() {
         let Ok(scene) = drystone::Scene::from_json(&file.to_string()) else {
             continue;
         };
-        let smooth = scene.frames.len() == 1;
+        let smooth = scene.frames().len() == 1;
         let frame = asked(&file);
         if smooth && frame.verdict == Verdict::Stable {
             standing += 1;
@@ -450,7 +447,10 @@ fn few_random_scenes_stay_open() {
         if frame.verdict == Verdict::Stable {
             standing += 1;
             if frame.only_by_wedging.is_none() {
-                let effect = frame.effects.iter().find(|e| e.effect == "wedging");
+                let effect = frame
+                    .effects
+                    .iter()
+                    .find(|e| e.effect == EffectName::Wedging);
                 assert!(effect.expect("every effect is told").why.contains("open"));
                 open.push(number);
             }

@@ -7,7 +7,7 @@ use super::local::Outcome;
 use super::rung::{Attempt, Rung};
 use super::straight::Least;
 use super::{Case, Method};
-use crate::analysis::Verdict;
+use crate::analysis::{Doubt, Verdict};
 use crate::program::Program;
 use crate::proof::{Motion, Proof};
 use crate::solve::{Amounts, Effort, Stuck};
@@ -16,7 +16,7 @@ use crate::solve::{Amounts, Effort, Stuck};
 pub(super) struct Decision {
     pub verdict: Verdict,
     /// Why it is undecided, in words; empty otherwise.
-    pub doubt: String,
+    pub doubt: Option<Doubt>,
     /// Forces that balance, or that balance together with the sticking.
     pub amounts: Amounts,
     /// The sum that admissible forces must have at least to balance, N, where it was shown, and whether these have it.
@@ -154,7 +154,10 @@ impl Case<'_> {
         let raw = motion.map(|y| self.mechanism(&self.moved(y).1));
         Decision {
             verdict: Verdict::Undecided,
-            doubt: doubt(&proof, raw.as_ref()),
+            doubt: Some(Doubt::Unproved {
+                forces: proof,
+                motion: raw,
+            }),
             amounts,
             proof,
             ..decision
@@ -167,7 +170,7 @@ impl Decision {
     pub fn of(program: &Program, method: Method) -> Decision {
         Decision {
             verdict: Verdict::Stable,
-            doubt: String::new(),
+            doubt: None,
             amounts: Amounts::none(program),
             force_bound: None,
             least_force: false,
@@ -184,25 +187,5 @@ impl Decision {
             in_part: false,
             effort: Effort::default(),
         }
-    }
-}
-
-fn doubt(forces: &Proof, motion: Option<&Proof>) -> String {
-    let forces = match forces {
-        Proof::Forces {
-            worst_imbalance, ..
-        } => format!("forces are off by {worst_imbalance:.1e} of what acts on a block"),
-        Proof::Mechanism { .. } => String::new(),
-    };
-    match motion {
-        Some(Proof::Mechanism {
-            power,
-            worst_violation,
-        }) => {
-            format!(
-                "{forces}; a motion has power {power:.1e} but violates a contact by {worst_violation:.1e}"
-            )
-        }
-        _ => format!("{forces}; no motion was found"),
     }
 }

@@ -19,7 +19,7 @@ pub(super) use candidate::Candidate;
 pub(super) use guess::Guesses;
 pub(super) use question::{Ends, guessed, judged, learn, only_by_wedging};
 
-use super::{Ask, Failure, Options, Verdict};
+use super::{Ask, Doubt, Failure, Options, Verdict};
 use crate::assembly::Assembly;
 use crate::program::{Count, Program, Scale, columns, sticking_columns};
 use crate::proof::{Demand, Forces, Motion, Proof, fastest};
@@ -32,7 +32,7 @@ pub(super) use rung::Place;
 #[derive(Clone, Debug)]
 pub(super) struct Findings {
     pub verdict: Verdict,
-    pub doubt: String,
+    pub doubt: Option<Doubt>,
     pub forces: Forces,
     /// The sum that admissible forces must have at least to balance, N, where it was shown.
     pub force_bound: Option<f64>,
@@ -130,7 +130,7 @@ impl<'a> Case<'a> {
     fn stands(&self, carried: forces::Carried) -> Findings {
         Findings {
             verdict: Verdict::Stable,
-            doubt: String::new(),
+            doubt: None,
             force_bound: Some(carried.forces.sum(self.assembly.length)),
             forces: carried.forces,
             least_force: true,

@@ -1,4 +1,4 @@
-//! [`Edge`]: between a value at which a component stands and one at which it falls.
+//! [`Threshold`]: between a value at which a component stands and one at which it falls.
 //!
 //! A value from elsewhere is confirmed by judging just inside and just beyond it; without one, the edge is searched for:
 //! by Newton's steps where only the contacts change with the value, else by halving, to nine digits. A value that no verdict
@@ -35,9 +35,9 @@ pub(super) fn worse(part: &Margin, whole: &Margin, way: Way) -> bool {
     }
 }
 
-/// What is known beforehand about an edge at values ≥ 0.
+/// What is known beforehand about the value, at least 0, at which a component begins or ceases to stand.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Edge {
+pub(super) struct Threshold {
     /// Which side stands.
     pub way: Way,
     /// How the loads depend on the value.
@@ -59,12 +59,12 @@ pub(super) enum Loads {
     Other,
 }
 
-impl Edge {
+impl Threshold {
     /// How far inside an edge it must stand, and from how far beyond it may be shown to fall; relative.
     const NEAR: f64 = 1e-6;
     /// A motion found so far beyond an edge at most is near enough to confirm it.
     const SURE: f64 = 256e-6;
-    /// Steps away from an edge grow by this factor up to [`Edge::FAR`], as long as no proof convinces so close to it.
+    /// Steps away from an edge grow by this factor up to [`Threshold::FAR`], as long as no proof convinces so close to it.
     const WIDER: f64 = 16.0;
     /// The largest step away from an edge within which it may stay undecided.
     const FAR: f64 = 5e-3;

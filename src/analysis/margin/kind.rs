@@ -2,6 +2,7 @@
 
 /// One margin of a frame, or a pair of them, by its name in results.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum MarginKind {
     /// [`Margins::friction`](super::Margins::friction).
     Friction,

@@ -26,13 +26,14 @@ use crate::assembly::Assembly;
 use crate::proof::Motion;
 use crate::scene::RobotId;
 use crate::solve::{Limit, least, most};
-use edge::{Edge, Loads, Way};
+use edge::{Loads, Threshold, Way};
 pub use kind::{MarginKind, MarginKinds};
 pub use trial::trials;
 use trial::{Limited, Setting, Trial};
 
 /// The end of what a frame bears in one direction.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Margin {
     /// It stands up to here (of what must not be too small: from here on).
     Value {
@@ -84,7 +85,7 @@ pub struct Sides {
 /// let scene = Scene::from_json(r#"{ "drystone": 1, "friction": 0.5,
 ///     "ground": [{ "polygon": [[0, 0], [9, 0], [9, -1], [0, -1]] }],
 ///     "blocks": [{ "id": "a", "polygon": [[1, 0], [4, 0], [4, 2], [1, 2]], "weight": 6 }] }"#)?;
-/// let analysis = Analysis::with(&scene, &Options { margins: Ask::Yes, ..Options::default() });
+/// let analysis = Analysis::with(&scene, &Options::default().margins(Ask::Yes));
 /// let margins = analysis.frames[0].margins.as_ref().expect("asked for");
 /// let slides = margins.horizontal_load.right.at().expect("a block slides");
 /// assert!((slides - 0.5).abs() < 1e-6);
@@ -92,6 +93,7 @@ pub struct Sides {
 /// # Ok::<(), drystone::scene::Problems>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Margins {
     /// The smallest friction coefficient, the same at every interface, with which it stands; 0 where it needs none.
     /// [`Margin::None`] where it falls at [`Margins::MOST_FRICTION`].
@@ -117,6 +119,7 @@ impl Margins {
 
 /// A robot's least sufficient limits: of one component alone, its others and the other robots' as the scene has them.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct RobotMargins {
     /// The robot.
     pub robot: RobotId,
@@ -308,7 +311,7 @@ fn friction(trial: &mut Trial) -> Margin {
         friction: Some(mu),
         ..Setting::default()
     };
-    Edge {
+    Threshold {
         way: Way::Least,
         loads: Loads::Constant,
         natural: 1.0,
@@ -322,7 +325,7 @@ fn kernel(trial: &mut Trial) -> Margin {
         kernel: Some(kernel),
         ..Setting::default()
     };
-    Edge {
+    Threshold {
         way: Way::Most,
         loads: Loads::Constant,
         natural: 1.0,
@@ -373,7 +376,7 @@ fn linear(
     alone: Setting,
     base: Option<f64>,
 ) -> Margin {
-    let edge = Edge {
+    let edge = Threshold {
         way: Way::Most,
         loads: Loads::Linear,
         natural: 1.0,
@@ -412,7 +415,7 @@ fn limit(trial: &mut Trial, grip: usize, component: usize) -> Margin {
     if component == 2 {
         unit *= program.scale.length;
     }
-    let edge = Edge {
+    let edge = Threshold {
         way: Way::Least,
         loads: Loads::Linear,
         natural: unit * crate::program::Scale::HEAVIEST,

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use super::edge::{Edge, Loads, Way};
+use super::edge::{Loads, Threshold, Way};
 use super::trial::{Setting, Trial};
 use super::{Margin, linear};
 use crate::analysis::Verdict;
@@ -21,7 +21,7 @@ pub(super) fn tilt(trial: &mut Trial, side: f64, stands: bool, horizontal: &Marg
         .into_iter()
         .find_map(|(from, to)| first_exit(trial, side, from, to));
     let setting = |degrees: f64| turned(degrees.to_radians(), 1.0, side);
-    let edge = Edge {
+    let edge = Threshold {
         way: Way::Most,
         loads: Loads::Other,
         natural: 1f64.to_degrees(),

@@ -6,7 +6,7 @@ use crate::analysis::Toward;
 use crate::figure;
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
-pub(super) enum Kind {
+pub(super) enum KindChoice {
     /// Every force as an arrow on the block it acts on, and what is missing
     Forces,
     /// Where it falls, how: blocks displaced along the collapse, hinges and slips
@@ -71,20 +71,20 @@ pub(super) enum Margin {
     LoadFactor,
 }
 
-impl Kind {
+impl KindChoice {
     /// What the panels of the figure show; `None` for a free-body diagram, which has none.
     pub(super) fn panels(self) -> Option<figure::Kind> {
         match self {
-            Kind::Forces => Some(figure::Kind::Forces),
-            Kind::Mechanism => Some(figure::Kind::Mechanism),
-            Kind::Thrust => Some(figure::Kind::Thrust),
-            Kind::Kernel => Some(figure::Kind::Kernel),
-            Kind::Utilisation => Some(figure::Kind::Utilisation),
-            Kind::Build => Some(figure::Kind::Build),
-            Kind::Polygon => Some(figure::Kind::Polygon),
-            Kind::Margin => Some(figure::Kind::Margin),
-            Kind::Compare => Some(figure::Kind::Compare),
-            Kind::Freebody => None,
+            KindChoice::Forces => Some(figure::Kind::Forces),
+            KindChoice::Mechanism => Some(figure::Kind::Mechanism),
+            KindChoice::Thrust => Some(figure::Kind::Thrust),
+            KindChoice::Kernel => Some(figure::Kind::Kernel),
+            KindChoice::Utilisation => Some(figure::Kind::Utilisation),
+            KindChoice::Build => Some(figure::Kind::Build),
+            KindChoice::Polygon => Some(figure::Kind::Polygon),
+            KindChoice::Margin => Some(figure::Kind::Margin),
+            KindChoice::Compare => Some(figure::Kind::Compare),
+            KindChoice::Freebody => None,
         }
     }
 }

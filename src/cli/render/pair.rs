@@ -1,6 +1,6 @@
 //! Two scenes in one figure that compares them.
 
-use super::choice::Kind;
+use super::choice::KindChoice;
 use super::{Render, Rendered, summary};
 use crate::analysis::{self, Analysis};
 use crate::cli::complaint::Complaint;
@@ -16,7 +16,7 @@ use std::sync::Arc;
 impl Render {
     /// Whether two scenes become one figure that compares them.
     pub(super) fn joins(&self, scenes: usize, destination: &Destination) -> bool {
-        matches!(self.kind, Kind::Compare)
+        matches!(self.kind, KindChoice::Compare)
             && scenes == 2
             && !matches!(destination, Destination::Folder(_))
     }

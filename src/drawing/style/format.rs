@@ -26,7 +26,8 @@ pub enum Notation {
 
 /// One thing that is wrong with a style file.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Problem {
+#[non_exhaustive]
+pub struct StyleProblem {
     /// Where, such as `widths.force` or `arrows[2]`; empty for the file as a whole.
     pub path: String,
     /// What was found.
@@ -37,7 +38,7 @@ pub struct Problem {
 
 /// All that is wrong with a style file, in the file's order; never empty.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Problems(pub Vec<Problem>);
+pub struct StyleProblems(pub Vec<StyleProblem>);
 
 impl Theme {
     /// The theme that a style file describes: `base` where it is given, else the theme that the file names, else the
@@ -55,16 +56,20 @@ impl Theme {
     ///
     /// let problems = Theme::read(r#"{ "failur": "red" }"#, Notation::Json, None).unwrap_err();
     /// assert!(problems.to_string().contains("the nearest known key is `failure`"));
-    /// # Ok::<(), drystone::drawing::style::format::Problems>(())
+    /// # Ok::<(), drystone::drawing::style::format::StyleProblems>(())
     /// ```
-    pub fn read(text: &str, notation: Notation, base: Option<&Theme>) -> Result<Theme, Problems> {
+    pub fn read(
+        text: &str,
+        notation: Notation,
+        base: Option<&Theme>,
+    ) -> Result<Theme, StyleProblems> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let value = match notation {
             Notation::Json => value::json(text),
             #[cfg(feature = "toml")]
             Notation::Toml => value::toml(text),
         };
-        let value = value.map_err(|problem| Problems(vec![problem]))?;
+        let value = value.map_err(|problem| StyleProblems(vec![problem]))?;
         let mut reading = Reading::default();
         let Value::Table(entries) = value else {
             reading.note(
@@ -72,7 +77,7 @@ impl Theme {
                 format!("{} is no style", value.stated()),
                 "give a table of keys and values".into(),
             );
-            return Err(Problems(reading.problems));
+            return Err(StyleProblems(reading.problems));
         };
         let named = reading.base(&entries);
         let mut theme = base.cloned().or(named).unwrap_or_default();
@@ -80,7 +85,7 @@ impl Theme {
         if reading.problems.is_empty() {
             Ok(theme)
         } else {
-            Err(Problems(reading.problems))
+            Err(StyleProblems(reading.problems))
         }
     }
 
@@ -206,12 +211,12 @@ fn stops(ramp: &[Colour]) -> Vec<Colour> {
 /// Goes through a file and notes all that is wrong.
 #[derive(Default)]
 struct Reading {
-    problems: Vec<Problem>,
+    problems: Vec<StyleProblem>,
 }
 
 impl Reading {
     fn note(&mut self, path: &str, message: String, help: String) {
-        self.problems.push(Problem {
+        self.problems.push(StyleProblem {
             path: path.to_owned(),
             message,
             help,
@@ -388,7 +393,7 @@ impl Reading {
     }
 }
 
-impl fmt::Display for Problem {
+impl fmt::Display for StyleProblem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if !self.path.is_empty() {
             write!(f, "{}: ", self.path)?;
@@ -401,7 +406,7 @@ impl fmt::Display for Problem {
     }
 }
 
-impl fmt::Display for Problems {
+impl fmt::Display for StyleProblems {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (number, problem) in self.0.iter().enumerate() {
             if number > 0 {
@@ -413,4 +418,4 @@ impl fmt::Display for Problems {
     }
 }
 
-impl std::error::Error for Problems {}
+impl std::error::Error for StyleProblems {}

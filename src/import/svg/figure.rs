@@ -6,7 +6,7 @@ use super::style::Style;
 use super::viewport::Viewport;
 use super::{Around, Walk, element, is, words};
 use crate::import::affine::Affine;
-use crate::import::draft::{Form, Kind, Part, Rule, Values};
+use crate::import::draft::{Form, Part, Role, Rule, Values};
 
 const SCALE: &str = "data-drystone-scale";
 const ORIGIN: &str = "data-drystone-origin";
@@ -105,20 +105,20 @@ impl<'a, 'd> Walk<'a, 'd> {
             match child.attribute("class").unwrap_or("") {
                 "ground" => {
                     for path in child.children().filter(|n| is(*n, "path")) {
-                        self.body(path, &around, Kind::Ground, "");
+                        self.body(path, &around, Role::Ground, "");
                     }
                 }
                 "blocks" => {
                     // Very many blocks come in one path for each colour, without names.
                     for path in child.children().filter(|n| is(*n, "path")) {
-                        self.body(path, &around, Kind::Block, "");
+                        self.body(path, &around, Role::Block, "");
                     }
                     self.within(child, &around);
                 }
                 "block" => {
                     let name = title.strip_prefix("Block ").unwrap_or(&title);
                     if let Some(path) = child.children().find(|n| is(*n, "path")) {
-                        self.body(path, &around, Kind::Block, name);
+                        self.body(path, &around, Role::Block, name);
                     }
                 }
                 "robots" => self.within(child, &around),
@@ -126,7 +126,7 @@ impl<'a, 'd> Walk<'a, 'd> {
                     let name = title.strip_prefix("Robot ").unwrap_or(&title);
                     let name = name.split_once(" holds block ").map_or(name, |n| n.0);
                     if let Some(path) = child.children().find(|n| is(*n, "path")) {
-                        self.body(path, &around, Kind::Robot, name);
+                        self.body(path, &around, Role::Robot, name);
                     }
                 }
                 "plans" => {
@@ -139,11 +139,11 @@ impl<'a, 'd> Walk<'a, 'd> {
         }
     }
 
-    fn body(&mut self, path: Node<'a, 'd>, around: &Around, kind: Kind, name: &str) {
+    fn body(&mut self, path: Node<'a, 'd>, around: &Around, kind: Role, name: &str) {
         let map = around.map.after(&self.transform(path, around));
         let element = match (kind, name) {
-            (Kind::Block, name) if !name.is_empty() => format!("block \"{name}\""),
-            (Kind::Robot, name) => format!("robot \"{name}\""),
+            (Role::Block, name) if !name.is_empty() => format!("block \"{name}\""),
+            (Role::Robot, name) => format!("robot \"{name}\""),
             _ => self.lines.element(path),
         };
         match element::tracks(path, around.viewport) {

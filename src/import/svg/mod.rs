@@ -21,7 +21,7 @@ use self::style::{Fill, Style};
 use self::viewport::Viewport;
 use super::affine::Affine;
 use super::crowd::{MOST_BODIES, too_many};
-use super::draft::{Draft, Form, Kind, Part, Values};
+use super::draft::{Draft, Form, Part, Role, Values};
 use super::entry;
 
 const SVG: &str = "http://www.w3.org/2000/svg";
@@ -104,7 +104,7 @@ struct Around {
     map: Affine,
     style: Style,
     viewport: Viewport,
-    kind: Option<Kind>,
+    kind: Option<Role>,
     /// The name of the innermost named group, for what has none of its own.
     group: Option<String>,
     /// The copy that draws it, where it is one.
@@ -208,12 +208,12 @@ impl<'a, 'd> Walk<'a, 'd> {
             return;
         }
         let style = around.style.of(node, &self.sheet);
-        let kind = name::all(node).find_map(|n| Kind::of(&n)).or(around.kind);
+        let kind = name::all(node).find_map(|n| Role::of(&n)).or(around.kind);
         if !style.displayed {
             self.skip(node, around, "is hidden");
             return;
         }
-        if kind == Some(Kind::Ignored) {
+        if kind == Some(Role::Ignored) {
             self.skip(node, around, "asks for it by its name");
             return;
         }
@@ -359,7 +359,7 @@ impl<'a, 'd> Walk<'a, 'd> {
         }
         let mapped = tracks.iter().map(|t| t.mapped(&around.map)).collect();
         let part = Part {
-            kind: around.kind.unwrap_or(Kind::Block),
+            kind: around.kind.unwrap_or(Role::Block),
             name,
             element: self.element_label(node, around),
             form: Form::Tracks(mapped, around.style.rule),

@@ -12,7 +12,7 @@ use crate::import::track::{Arc, Piece, Track};
 /// # Errors
 /// The reader's words where the text is no path data.
 pub(super) fn tracks(text: &str) -> Result<Vec<Track>, String> {
-    let mut pen = Pen {
+    let mut pen = TrackBuilder {
         tracks: Vec::new(),
         at: Point::origin(),
         open: None,
@@ -26,7 +26,7 @@ pub(super) fn tracks(text: &str) -> Result<Vec<Track>, String> {
     Ok(pen.tracks)
 }
 
-struct Pen {
+struct TrackBuilder {
     tracks: Vec<Track>,
     at: Point,
     open: Option<Track>,
@@ -36,7 +36,7 @@ struct Pen {
     quadratic: Option<Point>,
 }
 
-impl Pen {
+impl TrackBuilder {
     fn lift(&mut self) {
         self.tracks
             .extend(self.open.take().filter(|track| !track.pieces.is_empty()));

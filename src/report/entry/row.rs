@@ -73,7 +73,7 @@ impl Row {
             let uncarried = failure::uncarried(scene, found);
             let largest = failure::by_amount(found).into_iter().next();
             let largest = largest.map(|f| failure::missing(scene, f));
-            uncarried.or(largest).unwrap_or_else(|| found.doubt.clone())
+            uncarried.or(largest).unwrap_or_else(|| found.doubt())
         });
         let title = match scene.title.trim() {
             "" => file_name(name),

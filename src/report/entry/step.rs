@@ -3,7 +3,7 @@
 use super::bullet::{self, Bullet};
 use super::chosen::chosen;
 use super::{Chart, Grid, Plate, Touch, Wanted};
-use crate::analysis::{Analysis, Contact, Failure, FrameAnalysis, Verdict};
+use crate::analysis::{Analysis, Contact, EffectName, Failure, FrameAnalysis, Verdict};
 use crate::chart::{self, Bars};
 use crate::figure::{self, Kind, Options};
 use crate::geometry::Point;
@@ -168,7 +168,7 @@ fn remarks(found: &FrameAnalysis) -> Vec<String> {
     let wedging = found
         .effects
         .iter()
-        .find(|e| e.effect == "wedging" && e.simulated);
+        .find(|e| e.effect == EffectName::Wedging && e.simulated);
     if let Some(wedging) = wedging.filter(|_| found.only_by_wedging != Some(false)) {
         remarks.push(format!("Wedging: {}.", line(&wedging.why)));
     }
@@ -322,12 +322,11 @@ fn cost(found: &FrameAnalysis, timing: Timing) -> Grid {
         &["effect", "simulated", "why", "#unknowns"],
     );
     for described in &found.effects {
-        let meaning = effect::meaning(described.effect);
-        let name = if meaning.is_empty() {
-            described.effect.to_owned()
-        } else {
-            format!("{}: {meaning}", described.effect)
-        };
+        let name = format!(
+            "{}: {}",
+            described.effect,
+            effect::meaning(described.effect)
+        );
         let simulated = if described.simulated {
             "yes"
         } else {

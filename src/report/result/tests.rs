@@ -1,7 +1,9 @@
 //! The contract, letter by letter.
 
 use super::*;
-use crate::analysis::{EffectReport, Proof, Resultant as Sum, SolveReport, Verdict};
+use crate::analysis::{
+    Doubt, EffectName, EffectReport, Proof, Resultant as Sum, SolveReport, Verdict,
+};
 use crate::geometry::{Polygon, Tolerance as Closeness};
 use crate::scene::{Block, Body, Frame as Step, Healed, Limits, Robot as Arm};
 
@@ -69,7 +71,7 @@ fn frame() -> FrameAnalysis {
     let force = Vector::new(3.0, -4.0);
     FrameAnalysis {
         verdict: Verdict::Unstable,
-        doubt: String::new(),
+        doubts: vec![],
         length: 1.5,
         total_force: 43.372,
         force_bound: None,
@@ -136,7 +138,7 @@ fn frame() -> FrameAnalysis {
         only_by_wedging: None,
         wedged: None,
         effects: vec![EffectReport {
-            effect: "friction",
+            effect: EffectName::Friction,
             simulated: true,
             why: "two".into(),
             unknowns: 8,
@@ -222,7 +224,7 @@ fn the_names_are_the_contract_and_stay() {
 fn what_is_worth_saying_is_said() {
     let scene = scene();
     let mut frame = frame();
-    frame.doubt = "both proofs fail".into();
+    frame.doubts = vec![Doubt::Late];
     frame.least_force = false;
     frame.unsupported = vec![BlockId(1)];
     frame.notices = vec!["a contact of 1e-9 m is left out".into()];
@@ -241,7 +243,10 @@ fn what_is_worth_saying_is_said() {
         Timing::LeftOut,
         Layout::Lines,
     );
-    assert!(json.contains(r#""doubt": "both proofs fail""#), "{json}");
+    assert!(
+        json.contains(r#""doubt": "the time limit was reached before it was decided""#),
+        "{json}"
+    );
     assert!(json.contains(r#""unsupported": ["b"]"#), "{json}");
     assert!(json.contains(r#""total_force_least": false"#), "{json}");
     assert!(

@@ -1,6 +1,7 @@
 //! [`Map`]: an object of the file whose keys are names the author chose.
 //!
-//! Invariant of one that was read: no key stands twice, and the entries keep the file's order.
+//! Entries keep the file's order. No key stands twice in one that was read; of one that was made in code it is checked
+//! with all else.
 
 #[cfg(feature = "schema")]
 use std::borrow::Cow;
@@ -14,7 +15,7 @@ use serde::de::{Error as _, MapAccess, Visitor};
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// Entries by name, in the file's order; a name stands once.
+/// Entries by name, in the file's order; a name may stand once.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Map<T>(pub Vec<(String, T)>);
 

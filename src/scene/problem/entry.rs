@@ -7,8 +7,29 @@ pub(in crate::scene) fn wrong_type(expected: &str, found: &str) -> Wording {
     say(
         Code::WrongType,
         format!("expected {expected}, found {found}"),
-        format!("write {expected} here"),
+        help(expected, found),
     )
+}
+
+/// What to write in place of something of another sort: as it stands in a file, where that shows more than words.
+fn help(expected: &str, found: &str) -> String {
+    let (is_number, is_text) = (
+        found.starts_with("the number "),
+        found.starts_with("the string "),
+    );
+    match expected {
+        "a point [x, y]" if is_number => {
+            "write points in brackets: an outline is [[x, y], [x, y], …], and a list of holes one level deeper".into()
+        }
+        "a vector [x, y]" if is_number => "write [x, y]; downwards is [0, -9.81]".into(),
+        "a number" if is_text => "write a bare number in SI units: metres, newtons, kilograms, degrees".into(),
+        "a whole number" if is_text => "write a whole number without quotes".into(),
+        "a string" if is_number => {
+            format!("write \"{}\", in quotes", found.trim_start_matches("the number "))
+        }
+        "a list" if found == "an object" => "write it in brackets, [{…}]".into(),
+        _ => format!("write {expected} here"),
+    }
 }
 
 pub(in crate::scene) fn quoted_number(expected: &str, found: &str) -> Wording {
@@ -71,7 +92,9 @@ pub(in crate::scene) fn unknown_key<'k>(
     key: &str,
     known: impl Iterator<Item = &'k str> + Clone,
 ) -> Wording {
-    let help = match nearest(key, known.clone()) {
+    let meant = synonym(key).filter(|meant| known.clone().any(|k| k == *meant));
+    let help = match meant.or_else(|| nearest(key, known.clone())) {
+        Some(near) if meant.is_some() => format!("it is called `{near}` here"),
         Some(near) => format!("the nearest known key is `{near}`"),
         None => format!("known keys are {}", known.collect::<Vec<_>>().join(", ")),
     };
@@ -82,6 +105,26 @@ pub(in crate::scene) fn unknown_key<'k>(
     )
 }
 
+/// What a key of other programs and formats is called here.
+fn synonym(key: &str) -> Option<&'static str> {
+    Some(match key.to_lowercase().as_str() {
+        "mu" | "μ" | "friction_coefficient" => "friction",
+        "floor" | "base" | "foundation" | "supports" => "ground",
+        "bodies" | "bricks" | "stones" | "elements" | "voussoirs" => "blocks",
+        "name" | "label" => "id",
+        "vertices" | "points" | "corners" | "coordinates" | "outline" => "polygon",
+        "color" | "colour" => "fill",
+        "rotation" | "rotate" | "theta" => "angle",
+        "position" | "pos" | "origin" | "offset" => "at",
+        "version" => "drystone",
+        "lattice" => "grid",
+        "forces" => "loads",
+        "torque_limit" | "moment" => "torque",
+        "tolerance" => "contact_tolerance",
+        _ => return None,
+    })
+}
+
 pub(in crate::scene) fn duplicate_key(key: &str, line: usize, column: usize) -> Wording {
     say(
         Code::DuplicateKey,
@@ -89,6 +132,15 @@ pub(in crate::scene) fn duplicate_key(key: &str, line: usize, column: usize) -> 
             "the key `{}` stands here twice; first in line {line}, column {column}",
             shortened(key)
         ),
+        "take one of the two out",
+    )
+}
+
+/// The same of an object that was made in code.
+pub(in crate::scene) fn key_twice(key: &str) -> Wording {
+    say(
+        Code::DuplicateKey,
+        format!("the key `{}` stands here twice", shortened(key)),
         "take one of the two out",
     )
 }

@@ -74,3 +74,14 @@ pub(in crate::scene) fn no_ground() -> Wording {
         "add a `ground` of one polygon or more",
     )
 }
+
+pub(in crate::scene) fn angle_radians(angle: f64, degrees: f64) -> Wording {
+    note(
+        format!(
+            "the angle {} looks like {}° written in radians",
+            digits(angle),
+            digits(degrees)
+        ),
+        format!("angles are in degrees: give {}", digits(degrees)),
+    )
+}

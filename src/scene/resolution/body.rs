@@ -10,33 +10,41 @@ use crate::scene::problem;
 use crate::scene::{Block, Body, Ground, Rgb};
 
 /// The keys that blocks and ground share.
-struct BodyEntry<'f> {
-    polygon: Option<&'f [Pair]>,
-    holes: &'f [Vec<Pair>],
-    cells: Option<&'f [format::CellEntry]>,
-    shape: Option<&'f str>,
-    at: Option<Pair>,
-    angle: Option<f64>,
+pub(super) struct BodyEntry<'f> {
+    pub(super) polygon: Option<&'f [Pair]>,
+    pub(super) holes: &'f [Vec<Pair>],
+    pub(super) cells: Option<&'f [format::CellEntry]>,
+    pub(super) shape: Option<&'f str>,
+    pub(super) at: Option<Pair>,
+    pub(super) angle: Option<f64>,
     material: Option<&'f str>,
     friction: Option<f64>,
     fill: Option<&'f str>,
 }
 
-macro_rules! body_entry {
-    ($entry:expr) => {
-        BodyEntry {
-            polygon: $entry.polygon.as_deref(),
-            holes: &$entry.holes,
-            cells: $entry.cells.as_deref(),
-            shape: $entry.shape.as_deref(),
-            at: $entry.at,
-            angle: $entry.angle,
-            material: $entry.material.as_deref(),
-            friction: $entry.friction,
-            fill: $entry.fill.as_deref(),
-        }
+macro_rules! from_entries {
+    ($($entry:ident)*) => {
+        $(
+            impl<'f> From<&'f format::$entry> for BodyEntry<'f> {
+                fn from(entry: &'f format::$entry) -> BodyEntry<'f> {
+                    BodyEntry {
+                        polygon: entry.polygon.as_deref(),
+                        holes: &entry.holes,
+                        cells: entry.cells.as_deref(),
+                        shape: entry.shape.as_deref(),
+                        at: entry.at,
+                        angle: entry.angle,
+                        material: entry.material.as_deref(),
+                        friction: entry.friction,
+                        fill: entry.fill.as_deref(),
+                    }
+                }
+            }
+        )*
     };
 }
+
+from_entries! { BlockEntry GroundEntry }
 
 impl Resolution<'_> {
     pub(super) fn outline(
@@ -135,7 +143,7 @@ impl Resolution<'_> {
         (self.file.ground.iter().enumerate())
             .map(|(i, entry)| {
                 Some(Ground {
-                    body: self.body(findings, &list.index(i), &body_entry!(entry))?,
+                    body: self.body(findings, &list.index(i), &entry.into())?,
                 })
             })
             .collect()
@@ -159,7 +167,7 @@ impl Resolution<'_> {
         let weight = at_least_zero(findings, at, "weight", entry.weight);
         let mass = at_least_zero(findings, at, "mass", entry.mass);
         let density = at_least_zero(findings, at, "density", entry.density);
-        let body = self.body(findings, at, &body_entry!(entry))?;
+        let body = self.body(findings, at, &entry.into())?;
         let area = match (&body.cells, self.lattice) {
             (Some(cells), Some(lattice)) => cells.len() as f64 * lattice.cell_area(),
             _ => body.polygon.area(),

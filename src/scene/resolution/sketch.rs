@@ -1,9 +1,10 @@
 //! The outlines of a scene file's bodies as far as they can be drawn, sound or not.
 
 use super::Resolution;
+use super::body::BodyEntry;
 use crate::geometry::{Cell, Half, Point, Vector, sin_cos_degrees};
 use crate::scene::finding::{Doubt, Findings};
-use crate::scene::format::{CellEntry, CellHalf, Pair, SceneFile};
+use crate::scene::format::{CellEntry, CellHalf, SceneFile};
 use crate::scene::number::LARGEST;
 use crate::scene::sketch::{Placement, SketchedBody};
 use crate::scene::{BlockId, BodyId, Scene};
@@ -19,29 +20,6 @@ pub(in crate::scene) fn sketch(
     (resolution.sketch(&mut findings), scene)
 }
 
-/// What a body's outline is written as.
-struct Written<'f> {
-    polygon: Option<&'f [Pair]>,
-    holes: &'f [Vec<Pair>],
-    cells: Option<&'f [CellEntry]>,
-    shape: Option<&'f str>,
-    at: Option<Pair>,
-    angle: Option<f64>,
-}
-
-macro_rules! written {
-    ($entry:expr) => {
-        Written {
-            polygon: $entry.polygon.as_deref(),
-            holes: &$entry.holes,
-            cells: $entry.cells.as_deref(),
-            shape: $entry.shape.as_deref(),
-            at: $entry.at,
-            angle: $entry.angle,
-        }
-    };
-}
-
 impl Resolution<'_> {
     fn sketch(&self, findings: &mut Findings) -> Vec<SketchedBody> {
         let (ground, blocks) = (self.ground(findings), self.blocks(findings));
@@ -49,13 +27,13 @@ impl Resolution<'_> {
         let grounds = grounds.map(|(i, (entry, sound))| {
             let rings = sound.as_ref().map(|g| g.body.polygon.rings().to_vec());
             let name = format!("ground[{i}]");
-            self.sketched(BodyId::Ground(i), name, rings, &written!(entry))
+            self.sketched(BodyId::Ground(i), name, rings, &entry.into())
         });
         let blocks = self.file.blocks.iter().zip(&blocks).enumerate();
         let blocks = blocks.map(|(i, (entry, sound))| {
             let rings = sound.as_ref().map(|b| b.body.polygon.rings().to_vec());
             let id = BodyId::Block(BlockId(i));
-            self.sketched(id, self.ids[i].clone(), rings, &written!(entry))
+            self.sketched(id, self.ids[i].clone(), rings, &entry.into())
         });
         grounds
             .chain(blocks)
@@ -68,7 +46,7 @@ impl Resolution<'_> {
         id: BodyId,
         name: String,
         sound: Option<Vec<Vec<Point>>>,
-        written: &Written<'_>,
+        written: &BodyEntry<'_>,
     ) -> SketchedBody {
         let at = written.at.unwrap_or([0.0, 0.0]);
         let by = match self.lattice {
@@ -86,7 +64,7 @@ impl Resolution<'_> {
     }
 
     /// The corners as they are written, where they can be drawn at all.
-    fn raw(&self, written: &Written<'_>, placement: Placement) -> Vec<Vec<Point>> {
+    fn raw(&self, written: &BodyEntry<'_>, placement: Placement) -> Vec<Vec<Point>> {
         let shape = written.shape.and_then(|name| {
             let shapes = &self.file.shapes.0;
             shapes.iter().find(|s| s.0 == name).map(|s| &s.1)

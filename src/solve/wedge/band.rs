@@ -105,7 +105,7 @@ impl Band {
 pub(super) fn order(program: &Program) -> (Vec<usize>, usize) {
     let mut beside = vec![Vec::new(); program.blocks];
     let pairs = || {
-        let pair = |c: &crate::program::Contact| Some((c.on.0, c.from.as_ref()?.0));
+        let pair = |c: &crate::program::ContactTerm| Some((c.on.0, c.from.as_ref()?.0));
         program.contacts.iter().filter_map(pair)
     };
     for (a, b) in pairs() {

@@ -57,7 +57,7 @@ pub(super) struct Rest {
 /// One component of what a robot gives. It yields about what it is asked to give, as far as its limits allow, so that
 /// forces known to some digits require no more of them to balance.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Grip {
+pub(super) struct SpringGrip {
     /// The component.
     pub(super) column: Column,
     /// Its limit.
@@ -81,7 +81,7 @@ pub(super) struct Springs<'a> {
     pub(super) points: Vec<Point>,
     /// Per contact, friction along (−n_y, n_x).
     pub(super) tangents: Vec<Column>,
-    pub(super) grips: Vec<Grip>,
+    pub(super) grips: Vec<SpringGrip>,
     /// Stiffness along a face in parts of a point's.
     pub(super) along: f64,
     place: Vec<usize>,
@@ -104,7 +104,7 @@ impl<'a> Springs<'a> {
             contacts: program
                 .contacts
                 .iter()
-                .map(|c| crate::program::Contact {
+                .map(|c| crate::program::ContactTerm {
                     friction: 0.0,
                     ..c.clone()
                 })
@@ -126,7 +126,7 @@ impl<'a> Springs<'a> {
         let grips = columns(program)
             .into_iter()
             .filter(|c| matches!(c.force, Force::Grip { sign, .. } if sign > 0.0))
-            .map(|column| Grip {
+            .map(|column| SpringGrip {
                 column,
                 limit: column.limit,
                 given: 0.0,

@@ -4,9 +4,7 @@
 
 use arbitrary::Arbitrary;
 use drystone::analysis::Verdict;
-use drystone::scene::format::{
-    BlockEntry, GroundEntry, LimitsEntry, LoadEntry, RobotEntry, SceneFile,
-};
+use drystone::scene::format::{BlockEntry, LimitsEntry, LoadEntry, Pair, RobotEntry, SceneFile};
 use drystone::{Analysis, Scene, figure, output};
 use libfuzzer_sys::fuzz_target;
 
@@ -31,30 +29,25 @@ struct Brick {
     weight: u16,
 }
 
-fn corners(x: f64, y: f64, width: f64, height: f64, lean: f64) -> Option<Vec<[f64; 2]>> {
-    Some(vec![
+fn corners(x: f64, y: f64, width: f64, height: f64, lean: f64) -> [Pair; 4] {
+    [
         [x, y],
         [x + width, y],
         [x + width + lean, y + height],
         [x + lean, y + height],
-    ])
+    ]
 }
 
 fn made(heap: &Heap) -> SceneFile {
-    let mut file = SceneFile {
-        friction: Some(f64::from(heap.friction) / 64.0),
-        kernel: Some(f64::from(heap.kernel) / 255.0),
-        gravity: Some([
+    let mut file = Scene::builder()
+        .friction(f64::from(heap.friction) / 64.0)
+        .kernel(f64::from(heap.kernel) / 255.0)
+        .gravity([
             f64::from(heap.gravity.0) / 16.0,
             f64::from(heap.gravity.1) / 16.0,
-        ]),
-        corner_contacts: Some(heap.corner_contacts),
-        ground: vec![GroundEntry {
-            polygon: corners(-1.0, -1.0, 12.0, 1.0, 0.0),
-            ..GroundEntry::default()
-        }],
-        ..SceneFile::default()
-    };
+        ])
+        .corner_contacts(heap.corner_contacts)
+        .ground(corners(-1.0, -1.0, 12.0, 1.0, 0.0));
     let mut tops: Vec<(f64, f64, f64)> = Vec::new();
     for (number, brick) in heap.bricks.iter().take(12).enumerate() {
         let (x, width) = (
@@ -72,34 +65,26 @@ fn made(heap: &Heap) -> SceneFile {
             .map(|t| t.2)
             .fold(0.0, f64::max);
         tops.push((from, to, below + height));
-        file.blocks.push(BlockEntry {
-            id: Some(format!("{number}")),
-            polygon: corners(x, below, width, height, lean),
-            weight: Some(f64::from(brick.weight)),
-            ..BlockEntry::default()
-        });
+        file.blocks.push(
+            BlockEntry::new(number.to_string())
+                .polygon(corners(x, below, width, height, lean))
+                .weight(f64::from(brick.weight)),
+        );
     }
     let name = |k: u8| file.blocks.get(usize::from(k)).and_then(|b| b.id.clone());
     if let Some((block, limit)) = heap.held {
-        let limits = LimitsEntry {
-            force: Some(f64::from(limit)),
-            torque: Some(f64::from(limit % 7)),
-            ..LimitsEntry::default()
-        };
-        file.robots.push(RobotEntry {
-            holds: name(block),
-            limits: Some(limits),
-            ..RobotEntry::default()
-        });
+        let limits = LimitsEntry::default()
+            .force(f64::from(limit))
+            .torque(f64::from(limit % 7));
+        let mut robot = RobotEntry::default().limits(limits);
+        robot.holds = name(block);
+        file.robots.push(robot);
     }
     if let Some((block, x, y)) = heap.load
         && let Some(block) = name(block)
     {
-        file.loads.push(LoadEntry {
-            block,
-            force: Some([f64::from(x), f64::from(y)]),
-            ..LoadEntry::default()
-        });
+        let load = LoadEntry::on(block).force([f64::from(x), f64::from(y)]);
+        file.loads.push(load);
     }
     file
 }
@@ -112,7 +97,7 @@ fuzz_target!(|heap: Heap| {
     for frame in &analysis.frames {
         assert!(frame.total_force.is_finite() && frame.total_sticking.is_finite());
         match frame.verdict {
-            Verdict::Undecided => assert!(!frame.doubt.is_empty()),
+            Verdict::Undecided => assert!(!frame.doubt().is_empty()),
             _ => assert!(frame.proof.holds(), "{:?}", frame.proof),
         }
         for contact in &frame.contacts {

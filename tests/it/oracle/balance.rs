@@ -29,8 +29,8 @@ type First = usize;
 impl<'a> Balance<'a> {
     /// The groups of a scene's only frame.
     pub fn groups(scene: &'a Scene, touches: &'a [Touch]) -> Vec<Balance<'a>> {
-        let mut mark: Vec<usize> = (0..scene.blocks.len()).collect();
-        for _ in 0..scene.blocks.len() {
+        let mut mark: Vec<usize> = (0..scene.blocks().len()).collect();
+        for _ in 0..scene.blocks().len() {
             for touch in touches {
                 if let Some(from) = touch.from {
                     let least = mark[touch.on].min(mark[from]);
@@ -47,7 +47,7 @@ impl<'a> Balance<'a> {
         .or_else(|| {
             median(
                 scene
-                    .blocks
+                    .blocks()
                     .iter()
                     .map(|b| b.body.polygon.area().sqrt())
                     .collect(),
@@ -55,17 +55,17 @@ impl<'a> Balance<'a> {
         })
         .unwrap_or(1.0);
         let centroids: Vec<Pair> = scene
-            .blocks
+            .blocks()
             .iter()
             .map(|b| centroid(&corners(&b.body)))
             .collect();
-        (0..scene.blocks.len())
+        (0..scene.blocks().len())
             .filter(|first| mark[*first] == *first)
             .map(|first| Balance {
                 scene,
                 blocks: (0..mark.len()).filter(|k| mark[*k] == first).collect(),
                 touches: touches.iter().filter(|t| mark[t.on] == first).collect(),
-                holds: scene.frames[0]
+                holds: scene.frames()[0]
                     .holds
                     .iter()
                     .filter(|h| mark[h.block.0] == first)
@@ -242,7 +242,7 @@ impl<'a> Balance<'a> {
 
     /// Distance of a block's farthest corner from its centroid.
     fn radius(&self, block: usize) -> f64 {
-        let corners = corners(&self.scene.blocks[block].body);
+        let corners = corners(&self.scene.blocks()[block].body);
         let reach = corners
             .iter()
             .map(|c| norm(&minus(c, &self.centroids[block])));
@@ -251,13 +251,13 @@ impl<'a> Balance<'a> {
 
     /// Sum of the sizes of all loads on a block, a moment over its radius.
     fn gross_load(&self, block: usize) -> f64 {
-        let listed = self.scene.loads.iter().filter(|l| l.block.0 == block);
+        let listed = self.scene.loads().iter().filter(|l| l.block.0 == block);
         let listed = listed.map(|l| {
             let at = minus(&pair(l.at.x, l.at.y), &self.centroids[block]);
             let moment = cross(&at, &pair(l.force.x, l.force.y)).to_f64_fast() + l.torque;
             libm::hypot(l.force.x, l.force.y) + moment.abs() / self.radius(block)
         });
-        self.scene.blocks[block].weight + listed.sum::<f64>()
+        self.scene.blocks()[block].weight + listed.sum::<f64>()
     }
 
     /// What an imbalance in a row is measured by: the heaviest load, times L for moments.
@@ -266,7 +266,7 @@ impl<'a> Balance<'a> {
             let [x, y, m] = self.load(*k).map(|v| v.to_f64_fast());
             libm::hypot(x, y)
                 .max(m.abs() / self.length)
-                .max(self.scene.blocks[*k].weight)
+                .max(self.scene.blocks()[*k].weight)
         };
         let heaviest = self.blocks.iter().map(load).fold(0.0, f64::max);
         let heaviest = if heaviest > 0.0 { heaviest } else { 1.0 };
@@ -312,7 +312,7 @@ impl<'a> Balance<'a> {
             }
         }
         for hold in &self.holds {
-            let limits = self.scene.robots[hold.robot.0].limits;
+            let limits = self.scene.robots()[hold.robot.0].limits;
             for (component, limit) in [limits.fx, limits.fy, limits.torque]
                 .into_iter()
                 .enumerate()
@@ -336,12 +336,12 @@ impl<'a> Balance<'a> {
 
     /// Load on a block about its centroid: force x, force y, moment.
     fn load(&self, block: usize) -> [RBig; 3] {
-        let gravity = self.scene.gravity;
+        let gravity = self.scene.gravity();
         let size = libm::hypot(gravity.x, gravity.y);
         let down = if size > 0.0 { gravity / size } else { gravity };
-        let weight = exact(self.scene.blocks[block].weight);
+        let weight = exact(self.scene.blocks()[block].weight);
         let mut load = [&weight * exact(down.x), &weight * exact(down.y), RBig::ZERO];
-        for listed in self.scene.loads.iter().filter(|l| l.block.0 == block) {
+        for listed in self.scene.loads().iter().filter(|l| l.block.0 == block) {
             let force = pair(listed.force.x, listed.force.y);
             let at = pair(listed.at.x, listed.at.y);
             load[2] += cross(&minus(&at, &self.centroids[block]), &force) + exact(listed.torque);
@@ -354,7 +354,7 @@ impl<'a> Balance<'a> {
 
     /// Both ends of the stretch, each moved inward by half the kernel's share.
     fn application_points(&self, touch: &Touch) -> [Pair; 2] {
-        let share = exact(self.scene.kernel) / RBig::from(2);
+        let share = exact(self.scene.kernel()) / RBig::from(2);
         let along = minus(&touch.ends[1], &touch.ends[0]);
         let inward = along.map(|v| v * &share);
         let [a, b] = &touch.ends;

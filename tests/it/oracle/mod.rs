@@ -56,7 +56,7 @@ fn looked_at(number: u64) -> Finding {
     let exact = random::KINDS[kind].1;
     let (standing, error, ruled_out) = match Scene::from_json(&file.to_string()) {
         // What overlaps is judged both ways, which is another question.
-        Ok(scene) if !scene.penetrations.is_empty() => (Standing::Refused, None, None),
+        Ok(scene) if !scene.penetrations().is_empty() => (Standing::Refused, None, None),
         Ok(scene) => compared(&scene, exact, number % 4 < 2),
         Err(_) => (Standing::Refused, None, None),
     };
@@ -270,7 +270,7 @@ fn the_smallest_stone_is_judged_as_an_exact_program_does() {
         .map(|number| {
             let file = small::scene(number);
             let (standing, doubt) = match Scene::from_json(&file.to_string()) {
-                Ok(scene) if !scene.penetrations.is_empty() => (Standing::Refused, String::new()),
+                Ok(scene) if !scene.penetrations().is_empty() => (Standing::Refused, String::new()),
                 Ok(scene) => {
                     let touches = touch::touches(&scene);
                     let analysis = Analysis::of(&scene);
@@ -279,7 +279,7 @@ fn the_smallest_stone_is_judged_as_an_exact_program_does() {
                         true => judged(&scene, &touches, frame, false).0,
                         false => Standing::TouchesElsewhere,
                     };
-                    (standing, format!("{:?} {}", frame.proof, frame.doubt))
+                    (standing, format!("{:?} {}", frame.proof, frame.doubt()))
                 }
                 Err(_) => (Standing::Refused, String::new()),
             };

@@ -58,15 +58,15 @@ pub fn corners(body: &Body) -> Vec<Pair> {
 
 /// Everything that touches exactly.
 pub fn touches(scene: &Scene) -> Vec<Touch> {
-    let blocks: Vec<Vec<Pair>> = scene.blocks.iter().map(|b| corners(&b.body)).collect();
-    let ground: Vec<Vec<Pair>> = scene.ground.iter().map(|g| corners(&g.body)).collect();
+    let blocks: Vec<Vec<Pair>> = scene.blocks().iter().map(|b| corners(&b.body)).collect();
+    let ground: Vec<Vec<Pair>> = scene.ground().iter().map(|g| corners(&g.body)).collect();
     let mut found = Vec::new();
     for (i, one) in blocks.iter().enumerate() {
         for (j, other) in blocks[..i].iter().enumerate() {
-            let friction = scene.blocks[i]
+            let friction = scene.blocks()[i]
                 .body
                 .friction
-                .min(scene.blocks[j].body.friction);
+                .min(scene.blocks()[j].body.friction);
             let stretches = joined(stretches(one, other));
             found.extend(stretches.into_iter().map(|ends| Touch {
                 on: i,
@@ -76,10 +76,10 @@ pub fn touches(scene: &Scene) -> Vec<Touch> {
             }));
         }
         for (j, other) in ground.iter().enumerate() {
-            let friction = scene.blocks[i]
+            let friction = scene.blocks()[i]
                 .body
                 .friction
-                .min(scene.ground[j].body.friction);
+                .min(scene.ground()[j].body.friction);
             let stretches = joined(stretches(one, other));
             found.extend(stretches.into_iter().map(|ends| Touch {
                 on: i,

@@ -29,7 +29,7 @@ struct Springs<'a> {
 
 impl<'a> Springs<'a> {
     fn of(scene: &'a Scene, frame: &'a FrameAnalysis) -> Springs<'a> {
-        let unknowns = 6 * scene.blocks.len() + 4 * frame.contacts.len();
+        let unknowns = 6 * scene.blocks().len() + 4 * frame.contacts.len();
         let program = LinearProgram {
             costs: vec![RBig::ZERO; unknowns],
             rows: Vec::new(),
@@ -42,12 +42,12 @@ impl<'a> Springs<'a> {
     }
 
     fn normal(&self, contact: usize, point: usize) -> usize {
-        6 * self.scene.blocks.len() + 2 * contact + point
+        6 * self.scene.blocks().len() + 2 * contact + point
     }
 
     /// The friction of a contact, or minus it, times a factor.
     fn friction(&self, contact: usize, by: &RBig) -> Entries {
-        let first = 6 * self.scene.blocks.len() + 2 * self.frame.contacts.len() + 2 * contact;
+        let first = 6 * self.scene.blocks().len() + 2 * self.frame.contacts.len() + 2 * contact;
         vec![(first, by.clone()), (first + 1, -by.clone())]
     }
 
@@ -66,7 +66,7 @@ impl<'a> Springs<'a> {
             let BodyId::Block(number) = body else {
                 continue;
             };
-            let centroid = self.scene.blocks[number.0].centroid;
+            let centroid = self.scene.blocks()[number.0].centroid;
             let arm = [
                 exact(at.x) - exact(centroid.x),
                 exact(at.y) - exact(centroid.y),
@@ -100,7 +100,7 @@ impl<'a> Springs<'a> {
 
     /// The balance, the work of the loads, and forces of any size that matters.
     fn common(&mut self) {
-        let mut balance: Vec<Entries> = vec![Vec::new(); 3 * self.scene.blocks.len()];
+        let mut balance: Vec<Entries> = vec![Vec::new(); 3 * self.scene.blocks().len()];
         for contact in 0..self.frame.contacts.len() {
             for point in 0..2 {
                 let unknown = self.normal(contact, point);
@@ -112,7 +112,12 @@ impl<'a> Springs<'a> {
                 balance[row].extend(self.friction(contact, &v));
             }
         }
-        let weights: Vec<RBig> = self.scene.blocks.iter().map(|b| exact(b.weight)).collect();
+        let weights: Vec<RBig> = self
+            .scene
+            .blocks()
+            .iter()
+            .map(|b| exact(b.weight))
+            .collect();
         let mut work = Vec::new();
         for (row, entries) in balance.into_iter().enumerate() {
             let held = match row % 3 {
@@ -246,10 +251,7 @@ fn every_case_of_a_wedge_is_ruled_out_in_fractions_too() {
         h_model,
     ] {
         let scene = scene(&file);
-        let options = Options {
-            wedging: Ask::Yes,
-            ..Options::default()
-        };
+        let options = Options::default().wedging(Ask::Yes);
         let analysis = Analysis::with(scene.clone(), &options);
         let frame = &analysis.frames[0];
         let wedged = frame.wedged.as_ref().expect("what shows that it is wedged");

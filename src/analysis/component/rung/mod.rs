@@ -5,6 +5,8 @@ mod least_force;
 mod least_residual;
 mod least_sticking;
 
+use std::fmt;
+
 pub(super) use closed_form::single;
 
 use crate::program::Program;
@@ -15,6 +17,7 @@ pub(super) const MANY_BLOCKS: usize = 200;
 
 /// How a component was decided, in the order of trust.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
 pub enum Method {
     /// Without a solver.
     ClosedForm,
@@ -38,6 +41,12 @@ impl Method {
             Method::LeastResidual => "least residual",
             Method::LeastSticking => "least sticking",
         }
+    }
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
     }
 }
 

@@ -4,7 +4,7 @@ use core::fmt;
 
 use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 
-use super::Problem;
+use super::StyleProblem;
 
 /// What a style file holds, before it is known what it means.
 #[derive(Debug)]
@@ -32,8 +32,8 @@ impl Value {
 }
 
 /// Reads a text as JSON.
-pub(super) fn json(text: &str) -> Result<Value, Problem> {
-    serde_json::from_str(text).map_err(|error| Problem {
+pub(super) fn json(text: &str) -> Result<Value, StyleProblem> {
+    serde_json::from_str(text).map_err(|error| StyleProblem {
         path: String::new(),
         message: format!("no JSON: {error}"),
         help: "a style in TOML goes into a file that ends in .toml".into(),
@@ -42,11 +42,11 @@ pub(super) fn json(text: &str) -> Result<Value, Problem> {
 
 /// Reads a text as TOML.
 #[cfg(feature = "toml")]
-pub(super) fn toml(text: &str) -> Result<Value, Problem> {
+pub(super) fn toml(text: &str) -> Result<Value, StyleProblem> {
     toml::from_str(text).map_err(|error| {
         let before = error.span().and_then(|span| text.get(..span.start));
         let line = before.map_or(1, |before| before.matches('\n').count() + 1);
-        Problem {
+        StyleProblem {
             path: String::new(),
             message: format!("no TOML: {} at line {line}", error.message()),
             help: "a style in JSON goes into a file that ends in .json".into(),

@@ -3,7 +3,7 @@
 
 use std::sync::LazyLock;
 
-use crate::report::result::key::{KEYS, Kind};
+use crate::report::result::key::{KEYS, Type};
 use crate::text;
 
 /// A name and those of its parts, or of the parts of each of its entries.
@@ -31,7 +31,7 @@ pub(super) static NAMES: LazyLock<Vec<Name>> = LazyLock::new(|| {
             });
             list = &mut list[place].parts;
         }
-        if key.kind == Kind::Motions {
+        if key.kind == Type::Motions {
             list.extend(["block", "velocity", "spin"].map(leaf));
         }
     }

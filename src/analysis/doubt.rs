@@ -1,0 +1,121 @@
+//! [`Doubt`]: why a frame is undecided.
+
+use std::fmt;
+
+use super::{FrameAnalysis, Verdict};
+use crate::proof::Proof;
+
+/// One reason why a frame is undecided; its `Display` is the sentence for people.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Doubt {
+    /// [`Options::deadline`](super::Options::deadline) came before it was decided.
+    Late,
+    /// For some of its blocks neither forces nor a motion are proved.
+    Unproved {
+        /// The best forces that were found, and how far off they are.
+        forces: Proof,
+        /// The best motion that was found, where there was one.
+        motion: Option<Proof>,
+    },
+    /// The verdict hinges on narrow gaps or overlaps.
+    Gaps {
+        /// The verdict with the gaps open, as they are written.
+        open: Verdict,
+        /// The verdict with them closed.
+        closed: Verdict,
+        /// The contact tolerance that closes them, metres.
+        closing: f64,
+        /// Where they are, and what to do, in words.
+        words: String,
+    },
+    /// It stands where contacts of next to no length carry force, and falls where they do not.
+    Slivers {
+        /// The contact tolerance that counts all of them, metres.
+        counting: f64,
+        /// The contact tolerance that counts none of them, metres.
+        ignoring: f64,
+        /// Where they are, and what to do, in words.
+        words: String,
+    },
+}
+
+impl fmt::Display for Doubt {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Doubt::Late => f.write_str("the time limit was reached before it was decided"),
+            Doubt::Unproved { forces, motion } => {
+                if let Proof::Forces {
+                    worst_imbalance, ..
+                } = forces
+                {
+                    write!(
+                        f,
+                        "forces are off by {worst_imbalance:.1e} of what acts on a block"
+                    )?;
+                }
+                match motion {
+                    Some(Proof::Mechanism {
+                        power,
+                        worst_violation,
+                    }) => write!(
+                        f,
+                        "; a motion has power {power:.1e} but violates a contact by {worst_violation:.1e}"
+                    ),
+                    _ => f.write_str("; no motion was found"),
+                }
+            }
+            Doubt::Gaps { words, .. } | Doubt::Slivers { words, .. } => f.write_str(words),
+        }
+    }
+}
+
+impl FrameAnalysis {
+    /// Why it is undecided, in a sentence with the numbers of both proofs; empty otherwise.
+    pub fn doubt(&self) -> String {
+        let said: Vec<String> = self.doubts.iter().map(Doubt::to_string).collect();
+        match self.doubts.as_slice() {
+            // What was found until then belongs to it.
+            [Doubt::Late, _, ..] => format!("{}: {}", said[0], said[1..].join("; ")),
+            _ => said.join("; "),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::Analysis;
+    use crate::scene::Scene;
+
+    #[test]
+    fn reasons_make_one_sentence() {
+        let text = r#"{ "drystone": 1, "blocks": [{ "polygon": [[0, 0], [1, 0], [0, 1]] }] }"#;
+        let scene = Scene::from_json(text).expect("sound");
+        let mut frame = Analysis::of(&scene).frames.remove(0);
+        assert_eq!(frame.doubt(), "");
+        let unproved = |power: Option<f64>| Doubt::Unproved {
+            forces: Proof::Forces {
+                worst_imbalance: 1e-3,
+                worst_share: 0.0,
+                worst_pull: 0.0,
+                worst_slip: 0.0,
+            },
+            motion: power.map(|power| Proof::Mechanism {
+                power,
+                worst_violation: 1e-4,
+            }),
+        };
+        frame.doubts = vec![Doubt::Late];
+        let late = "the time limit was reached before it was decided";
+        assert_eq!(frame.doubt(), late);
+        frame.doubts.extend([unproved(None), unproved(Some(0.5))]);
+        let off = "forces are off by 1.0e-3 of what acts on a block";
+        assert_eq!(
+            frame.doubt(),
+            format!(
+                "{late}: {off}; no motion was found; {off}; a motion has power 5.0e-1 but violates a contact by 1.0e-4"
+            )
+        );
+    }
+}

@@ -1,0 +1,297 @@
+//! A scene file built in code: a method for every key, with the key's name, that gives back what it was called on.
+//!
+//! Nothing is checked before [`SceneFile::build`], which is the way of every scene: what a file may not say may not be said
+//! here either, and all that is wrong is told at once.
+
+use super::{
+    BlockEntry, CellEntry, FrictionPairEntry, GridEntry, GridKind, GripEntry, GroundEntry,
+    HoldEntry, LimitsEntry, LoadEntry, MaterialEntry, Pair, RobotEntry, SceneFile, ShapeEntry,
+    StepEntry,
+};
+use crate::scene::{NoteCode, Problems, Scene};
+
+/// Methods that set a key whose value is words.
+macro_rules! words {
+    ($($key:ident, $doc:literal;)*) => {
+        $(
+            #[doc = $doc]
+            pub fn $key(mut self, $key: impl Into<String>) -> Self {
+                self.$key = Some($key.into());
+                self
+            }
+        )*
+    };
+}
+
+/// Methods that say what an outline is.
+macro_rules! outline {
+    () => {
+        /// Corners [x, y] of the outline in metres, either way round.
+        pub fn polygon(mut self, corners: impl Into<Vec<Pair>>) -> Self {
+            self.polygon = Some(corners.into());
+            self
+        }
+
+        /// Adds a hole in the polygon: its corners [x, y] in metres.
+        pub fn hole(mut self, corners: impl Into<Vec<Pair>>) -> Self {
+            self.holes.push(corners.into());
+            self
+        }
+
+        /// Lattice cells, joined by edges.
+        pub fn cells(mut self, cells: impl Into<Vec<CellEntry>>) -> Self {
+            self.cells = Some(cells.into());
+            self
+        }
+    };
+}
+
+/// Methods that say where a body goes and what its surface is like.
+macro_rules! body {
+    () => {
+        outline!();
+        optional_setters! {
+            at: Pair, "Where its origin goes: metres, or a lattice point where the scene has a grid.";
+            angle: f64, "Turn about its own origin before it is moved, degrees anticlockwise.";
+            friction: f64, "Its own friction coefficient, at least 0.";
+        }
+        words! {
+            shape, "Name of a shape that it has, in place of an outline of its own.";
+            material, "Name of its material.";
+            fill, "Fill colour, `#rrggbb` or `#rgb`.";
+        }
+    };
+}
+
+/// What corners alone make: a body or shape with this outline.
+macro_rules! from_corners {
+    ($($entry:ident)*) => {
+        $(
+            impl<const N: usize> From<[Pair; N]> for $entry {
+                fn from(corners: [Pair; N]) -> $entry {
+                    $entry::default().polygon(corners)
+                }
+            }
+
+            impl From<Vec<Pair>> for $entry {
+                fn from(corners: Vec<Pair>) -> $entry {
+                    $entry::default().polygon(corners)
+                }
+            }
+        )*
+    };
+}
+
+from_corners! { GroundEntry BlockEntry ShapeEntry }
+
+impl SceneFile {
+    optional_setters! {
+        gravity: Pair, "Gravity [x, y] in m/s²; weights act along it.";
+        friction: f64, "Friction coefficient μ of whatever gives none itself, at least 0.";
+        kernel: f64, "Safety kernel, 0 to 1.";
+        density: f64, "Density in kg/m³ of whatever gives none itself, at least 0.";
+        thickness: f64, "Thickness of all blocks across the plane in metres, at least 0.";
+        contact_tolerance: f64, "Edges within this many metres of each other touch; at least 0.";
+        corner_contacts: bool, "Whether tips that touch edges or tips carry force.";
+    }
+    words! {
+        title, "Title of the scene, for reports and captions.";
+    }
+
+    /// The lattice, and the edge length of its cells in metres.
+    pub fn grid(mut self, kind: GridKind, side: f64) -> Self {
+        let side = Some(side);
+        self.grid = Some(GridEntry { kind, side });
+        self
+    }
+
+    /// Adds a material.
+    pub fn material(mut self, name: impl Into<String>, material: MaterialEntry) -> Self {
+        self.materials.0.push((name.into(), material));
+        self
+    }
+
+    /// Adds the friction coefficient between two materials, at least 0.
+    pub fn friction_pair(mut self, a: &str, b: &str, friction: f64) -> Self {
+        let between = [a.into(), b.into()];
+        self.friction_pairs
+            .push(FrictionPairEntry { between, friction });
+        self
+    }
+
+    /// Adds a shape: its corners in metres, or a [`ShapeEntry`].
+    pub fn shape(mut self, name: impl Into<String>, shape: impl Into<ShapeEntry>) -> Self {
+        self.shapes.0.push((name.into(), shape.into()));
+        self
+    }
+
+    /// Adds a part of the ground: its corners in metres, or a [`GroundEntry`].
+    pub fn ground(mut self, part: impl Into<GroundEntry>) -> Self {
+        self.ground.push(part.into());
+        self
+    }
+
+    /// Adds a block: a [`BlockEntry`], or corners in metres, which are then named by their number from 1.
+    pub fn block(mut self, block: impl Into<BlockEntry>) -> Self {
+        self.blocks.push(block.into());
+        self
+    }
+
+    /// Adds a robot.
+    pub fn robot(mut self, robot: RobotEntry) -> Self {
+        self.robots.push(robot);
+        self
+    }
+
+    /// Adds a load.
+    pub fn load(mut self, load: LoadEntry) -> Self {
+        self.loads.push(load);
+        self
+    }
+
+    /// Adds a step of the assembly, which makes a frame.
+    pub fn step(mut self, step: StepEntry) -> Self {
+        self.steps.push(step);
+        self
+    }
+
+    /// Leaves out notes of a sort.
+    pub fn silence(mut self, code: NoteCode) -> Self {
+        self.silence.push(code.to_string());
+        self
+    }
+
+    /// The scene, checked as one from a file is; the same as [`Scene::new`].
+    ///
+    /// # Errors
+    /// Everything that is wrong with it, each with its path.
+    pub fn build(self) -> Result<Scene, Problems> {
+        Scene::new(self)
+    }
+}
+
+impl MaterialEntry {
+    optional_setters! {
+        density: f64, "Density in kg/m³, at least 0.";
+        friction: f64, "Friction coefficient, at least 0.";
+    }
+    words! {
+        fill, "Fill colour, `#rrggbb` or `#rgb`.";
+    }
+}
+
+impl ShapeEntry {
+    outline!();
+}
+
+impl GroundEntry {
+    body!();
+}
+
+impl BlockEntry {
+    /// A block by name.
+    pub fn new(id: impl Into<String>) -> BlockEntry {
+        BlockEntry::default().id(id)
+    }
+
+    body!();
+    optional_setters! {
+        weight: f64, "Weight in newtons along gravity, at least 0. Wins over mass and density.";
+        mass: f64, "Mass in kg, at least 0. Wins over density.";
+        density: f64, "Its own density in kg/m³, at least 0.";
+    }
+    words! {
+        id, "Its name, used once.";
+    }
+}
+
+impl RobotEntry {
+    /// A robot by name, which gives any force and no torque.
+    pub fn new(id: impl Into<String>) -> RobotEntry {
+        RobotEntry::default().id(id)
+    }
+
+    optional_setters! {
+        at: Pair, "Where it grips the block it `holds`, [x, y] in metres.";
+        limits: LimitsEntry, "What it can give.";
+    }
+    words! {
+        id, "Its name, used once.";
+        holds, "The block it holds in a scene without steps.";
+    }
+}
+
+impl LimitsEntry {
+    optional_setters! {
+        fx: f64, "Largest horizontal force in newtons, at least 0.";
+        fy: f64, "Largest vertical force in newtons, at least 0.";
+        torque: f64, "Largest torque in N·m, at least 0.";
+        force: f64, "Both `fx` and `fy`, where they are not given themselves; newtons, at least 0.";
+    }
+}
+
+impl LoadEntry {
+    /// A load on a block; by itself it is nothing.
+    pub fn on(block: impl Into<String>) -> LoadEntry {
+        LoadEntry {
+            block: block.into(),
+            ..LoadEntry::default()
+        }
+    }
+
+    optional_setters! {
+        force: Pair, "Force [x, y] in newtons.";
+        at: Pair, "Where the force acts, [x, y] in metres; the block's centroid otherwise.";
+        torque: f64, "Torque in N·m, anticlockwise positive.";
+    }
+}
+
+impl StepEntry {
+    /// A step with the title of its frame.
+    pub fn new(title: impl Into<String>) -> StepEntry {
+        StepEntry::default().title(title)
+    }
+
+    words! {
+        title, "Title of the frame this step leads to.";
+    }
+
+    /// Robots that let go of what they hold.
+    pub fn release<S: Into<String>>(mut self, robots: impl IntoIterator<Item = S>) -> Self {
+        self.release.extend(robots.into_iter().map(Into::into));
+        self
+    }
+
+    /// Blocks taken away.
+    pub fn remove<S: Into<String>>(mut self, blocks: impl IntoIterator<Item = S>) -> Self {
+        self.remove.extend(blocks.into_iter().map(Into::into));
+        self
+    }
+
+    /// Blocks placed, in this order.
+    pub fn place<S: Into<String>>(mut self, blocks: impl IntoIterator<Item = S>) -> Self {
+        self.place.extend(blocks.into_iter().map(Into::into));
+        self
+    }
+
+    /// A robot takes hold of a block: at the robot's own `at` for the block it `holds`, else at the centroid.
+    pub fn hold(mut self, robot: impl Into<String>, block: impl Into<String>) -> Self {
+        let hold = HoldEntry::Block(block.into());
+        self.hold.0.push((robot.into(), hold));
+        self
+    }
+
+    /// A robot takes hold of a block at a point [x, y] in metres.
+    pub fn hold_at(mut self, robot: impl Into<String>, block: impl Into<String>, at: Pair) -> Self {
+        let (block, at) = (block.into(), Some(at));
+        let hold = HoldEntry::Grip(GripEntry { block, at });
+        self.hold.0.push((robot.into(), hold));
+        self
+    }
+
+    /// A robot is about to place a block, which is drawn as an outline and carries no force.
+    pub fn plan(mut self, robot: impl Into<String>, block: impl Into<String>) -> Self {
+        self.plan.0.push((robot.into(), block.into()));
+        self
+    }
+}
