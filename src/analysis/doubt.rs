@@ -73,11 +73,11 @@ impl fmt::Display for Doubt {
 impl FrameAnalysis {
     /// Why it is undecided, in a sentence with the numbers of both proofs; empty otherwise.
     pub fn doubt(&self) -> String {
-        let said: Vec<String> = self.doubts.iter().map(Doubt::to_string).collect();
+        let reasons: Vec<String> = self.doubts.iter().map(Doubt::to_string).collect();
         match self.doubts.as_slice() {
             // What was found until then belongs to it.
-            [Doubt::Late, _, ..] => format!("{}: {}", said[0], said[1..].join("; ")),
-            _ => said.join("; "),
+            [Doubt::Late, _, ..] => format!("{}: {}", reasons[0], reasons[1..].join("; ")),
+            _ => reasons.join("; "),
         }
     }
 }

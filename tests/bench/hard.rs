@@ -5,6 +5,7 @@
 
 #![allow(
     clippy::print_stdout,
+    clippy::unwrap_used,
     reason = "the table is the result; what cannot be read is a mistake here"
 )]
 

@@ -23,7 +23,8 @@ fn help(expected: &str, found: &str) -> String {
         }
         "a vector [x, y]" if is_number => "write [x, y]; downwards is [0, -9.81]".into(),
         "a number" if is_text => "write a bare number in SI units: metres, newtons, kilograms, degrees".into(),
-        "a whole number" if is_text => "write a whole number without quotes".into(),
+        // There is one: the version of the format.
+        "a whole number" => "write 1, the version of the scene format".into(),
         "a string" if is_number => {
             format!("write \"{}\", in quotes", found.trim_start_matches("the number "))
         }
