@@ -4,13 +4,14 @@
 //! wider and wider; a label that ends up apart from what it names gets a leader line. Labels are placed in the order
 //! given, the most important first; one for which no place is clear is left out.
 
+mod ink;
 mod untangle;
 
 use core::f64::consts::TAU;
-use std::collections::BTreeMap;
 
-use super::arrow::head_size;
 use super::{PagePoint, PageRect};
+
+pub use self::ink::Ink;
 
 /// Rings tried about an anchor.
 const RINGS: usize = 60;
@@ -31,177 +32,6 @@ const TIE: f64 = 1e-3;
 
 /// A place that is not liked counts as so many pixels of distance.
 const DISLIKED: f64 = 110.0;
-
-/// Ink that labels must keep clear of: convex pieces.
-#[derive(Clone, Debug, Default)]
-pub struct Ink {
-    pieces: Vec<Piece>,
-    /// The numbers of the pieces in each field of a raster, once there is one.
-    raster: Option<BTreeMap<(i64, i64), Vec<usize>>>,
-}
-
-#[derive(Clone, Debug)]
-struct Piece {
-    /// Whether it is a label, which a leader that crosses it would strike out.
-    is_label: bool,
-    corners: Vec<PagePoint>,
-    min: PagePoint,
-    max: PagePoint,
-}
-
-impl Ink {
-    /// A convex piece with these corners in order; two corners are a line without width.
-    pub fn convex(&mut self, corners: impl IntoIterator<Item = PagePoint>) {
-        self.piece(corners.into_iter().collect(), false);
-    }
-
-    fn piece(&mut self, corners: Vec<PagePoint>, is_label: bool) {
-        let least = |a: PagePoint, b: PagePoint| PagePoint::new(a.x.min(b.x), a.y.min(b.y));
-        let most = |a: PagePoint, b: PagePoint| PagePoint::new(a.x.max(b.x), a.y.max(b.y));
-        let ends =
-            |pick: &dyn Fn(PagePoint, PagePoint) -> PagePoint| corners.iter().copied().reduce(pick);
-        if let (Some(min), Some(max)) = (ends(&least), ends(&most)) {
-            let number = self.pieces.len();
-            if let Some(raster) = &mut self.raster {
-                for field in fields(min, max) {
-                    raster.entry(field).or_default().push(number);
-                }
-            }
-            self.pieces.push(Piece {
-                is_label,
-                corners,
-                min,
-                max,
-            });
-        }
-    }
-
-    /// Sorts the pieces into a raster, so that the many questions of [`place`] look at those nearby alone.
-    pub fn index(&mut self) {
-        let mut raster: BTreeMap<(i64, i64), Vec<usize>> = BTreeMap::new();
-        for (number, piece) in self.pieces.iter().enumerate() {
-            for field in fields(piece.min, piece.max) {
-                raster.entry(field).or_default().push(number);
-            }
-        }
-        self.raster = Some(raster);
-    }
-
-    /// The pieces whose boxes meet a box, each once.
-    fn near(&self, min: PagePoint, max: PagePoint) -> impl Iterator<Item = &Piece> {
-        let meets = move |piece: &&Piece| {
-            piece.min.x < max.x && piece.max.x > min.x && piece.min.y < max.y && piece.max.y > min.y
-        };
-        let numbers = self.raster.as_ref().map(|raster| {
-            let lists = fields(min, max).filter_map(|field| raster.get(&field));
-            let mut numbers: Vec<usize> = lists.flatten().copied().collect();
-            numbers.sort_unstable();
-            numbers.dedup();
-            numbers
-        });
-        let all = match numbers {
-            Some(numbers) => numbers,
-            None => (0..self.pieces.len()).collect(),
-        };
-        all.into_iter().map(|n| &self.pieces[n]).filter(meets)
-    }
-
-    /// A line `width` pixels wide.
-    pub fn line(&mut self, from: PagePoint, to: PagePoint, width: f64) {
-        let (dx, dy) = (to.x - from.x, to.y - from.y);
-        let length = libm::hypot(dx, dy);
-        if length.is_nan() || length <= 0.0 {
-            return;
-        }
-        let (x, y) = (-dy / length * width / 2.0, dx / length * width / 2.0);
-        self.convex([
-            from.moved(x, y),
-            to.moved(x, y),
-            to.moved(-x, -y),
-            from.moved(-x, -y),
-        ]);
-    }
-
-    /// A disc, as the octagon around it.
-    pub fn disc(&mut self, centre: PagePoint, radius: f64) {
-        let reach = radius / libm::cos(TAU / 16.0);
-        let corner = |i: u32| {
-            let angle = TAU * (f64::from(i) + 0.5) / 8.0;
-            centre.moved(reach * libm::cos(angle), reach * libm::sin(angle))
-        };
-        self.convex((0..8).map(corner));
-    }
-
-    /// The arrow that [`arrow::straight`](super::arrow::straight) draws.
-    pub fn arrow(&mut self, from: PagePoint, along: (f64, f64), width: f64) {
-        let length = libm::hypot(along.0, along.1);
-        if length.is_nan() || length <= 0.0 {
-            return;
-        }
-        let (ux, uy) = (along.0 / length, along.1 / length);
-        let (long, wide) = head_size(length, width);
-        let (neck, half) = (length - long, wide / 2.0);
-        let end = from.moved(ux * neck, uy * neck);
-        self.line(from, end, width);
-        self.convex([
-            end.moved(-uy * half, ux * half),
-            end.moved(ux * long, uy * long),
-            end.moved(uy * half, -ux * half),
-        ]);
-    }
-
-    /// An upright rectangle.
-    pub fn rect(&mut self, rect: PageRect) {
-        self.convex(corners(rect));
-    }
-
-    /// A label, which no leader should cross.
-    fn label(&mut self, rect: PageRect) {
-        self.piece(corners(rect).to_vec(), true);
-    }
-
-    /// A label and its leader.
-    fn placed(&mut self, placed: Option<&Placed>) {
-        let Some(placed) = placed else { return };
-        self.label(placed.rect);
-        if let Some([from, to]) = placed.leader {
-            self.line(from, to, 1.0);
-        }
-    }
-
-    /// Whether an upright rectangle lies clear of all ink.
-    pub fn clear(&self, rect: PageRect) -> bool {
-        let (min, max) = (rect.at, rect.at.moved(rect.width, rect.height));
-        !self.near(min, max).any(|piece| meets(&piece.corners, rect))
-    }
-
-    /// How many labels and how many other pieces a line touches.
-    fn crossed(&self, from: PagePoint, to: PagePoint) -> (usize, usize) {
-        let (min, max) = (
-            PagePoint::new(from.x.min(to.x), from.y.min(to.y)),
-            PagePoint::new(from.x.max(to.x), from.y.max(to.y)),
-        );
-        let crosses = |piece: &&Piece| {
-            !parted(&piece.corners, &[from, to]) && !parted(&[from, to], &piece.corners)
-        };
-        let crossed = self.near(min, max).filter(crosses);
-        crossed.fold((0, 0), |(labels, others), piece| match piece.is_label {
-            true => (labels + 1, others),
-            false => (labels, others + 1),
-        })
-    }
-}
-
-/// Side of a field of the raster, pixels.
-const FIELD: f64 = 48.0;
-
-/// The fields of the raster that a box touches.
-fn fields(min: PagePoint, max: PagePoint) -> impl Iterator<Item = (i64, i64)> {
-    // A page has some thousand pixels; what lies far beyond it shares the last fields.
-    let field = |v: f64| (v / FIELD).floor().clamp(-20.0, 200.0) as i64;
-    let (left, right, top, bottom) = (field(min.x), field(max.x), field(min.y), field(max.y));
-    (left..=right).flat_map(move |x| (top..=bottom).map(move |y| (x, y)))
-}
 
 /// A label that wants a place.
 #[derive(Clone, Debug, PartialEq)]
@@ -244,6 +74,7 @@ pub fn place_where(
     wishes: &[Wish],
     disliked: &dyn Fn(usize, PageRect) -> bool,
 ) -> Vec<Option<Placed>> {
+    ink.index();
     let bare = ink.clone();
     let each = wishes.iter().enumerate().map(|(number, wish)| {
         let placed = one(ink, page, wish, &|rect| disliked(number, rect));
@@ -357,32 +188,6 @@ fn corners(rect: PageRect) -> [PagePoint; 4] {
         rect.at.moved(rect.width, rect.height),
         rect.at.moved(0.0, rect.height),
     ]
-}
-
-/// Whether a convex piece and an upright rectangle overlap; their boxes do.
-fn meets(piece: &[PagePoint], rect: PageRect) -> bool {
-    // The rectangle's own sides part nothing: the boxes overlap.
-    !parted(piece, &corners(rect))
-}
-
-/// Pieces that reach into each other by less than this, pixels, touch: what rounding decides must not choose a place.
-const TOUCH: f64 = 1e-3;
-
-/// Whether a side of the convex `piece` parts it from the others.
-fn parted(piece: &[PagePoint], others: &[PagePoint]) -> bool {
-    (0..piece.len()).any(|i| {
-        let (a, b) = (piece[i], piece[(i + 1) % piece.len()]);
-        let beside = |p: &PagePoint| (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
-        let sides = |of: &[PagePoint]| {
-            let all = of.iter().map(beside);
-            all.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), side| {
-                (low.min(side), high.max(side))
-            })
-        };
-        let (own, other) = (sides(piece), sides(others));
-        let touch = TOUCH * libm::hypot(b.x - a.x, b.y - a.y);
-        own.1 <= other.0 + touch || other.1 <= own.0 + touch
-    })
 }
 
 #[cfg(test)]

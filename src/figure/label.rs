@@ -55,14 +55,14 @@ struct Label {
 /// The class of a frame's labels; the description of their group counts those without room.
 pub(crate) const CLASS: &str = "labels";
 
-/// The labels of a frame, clear of all `ink`.
-pub(crate) fn labels(pen: &Pen<'_>, view: Bounds, mut ink: Ink) -> Group {
+/// The labels of a frame, clear of all `ink`, which is asked for where there are any.
+pub(crate) fn labels(pen: &Pen<'_>, view: Bounds, ink: impl FnOnce() -> Ink) -> Group {
     let mut group = Group::of_class(CLASS);
     let labels = wanted(pen, view);
     if labels.is_empty() {
         return group;
     }
-    ink.index();
+    let mut ink = ink();
     let page = pen.camera.rect(view);
     let wishes: Vec<Wish> = labels.iter().map(|l| l.wish.clone()).collect();
     let solids = Solids::of(pen);
@@ -340,7 +340,7 @@ fn inside(polygon: &Polygon, middle: Point, view: Option<Bounds>) -> Vec<Point> 
     let whole = polygon.bounds();
     let bounds = view.and_then(|v| view::common(v, whole)).unwrap_or(whole);
     let share = |i: usize| (i as f64 + 0.5) / TRIED as f64;
-    let mut points: Vec<Point> = (0..TRIED * TRIED)
+    let points: Vec<Point> = (0..TRIED * TRIED)
         .map(|i| {
             let x = bounds.min.x + bounds.width() * share(i % TRIED);
             let y = bounds.min.y + bounds.height() * share(i / TRIED);
@@ -352,8 +352,9 @@ fn inside(polygon: &Polygon, middle: Point, view: Option<Bounds>) -> Vec<Point> 
     // noise in a centroid moves no name.
     let step = RANK * whole.diagonal();
     let rank = |p: &Point| ((p - middle).norm() / step).round();
-    points.sort_by(|a, b| rank(a).total_cmp(&rank(b)));
-    points
+    let mut ranked: Vec<(f64, Point)> = points.into_iter().map(|p| (rank(&p), p)).collect();
+    ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
+    ranked.into_iter().map(|(_, p)| p).collect()
 }
 
 /// The ink of ground, blocks, plans, discs and arrows.

@@ -37,7 +37,7 @@ pub(crate) fn picture(stage: &Stage<'_>, number: usize, view: Bounds, camera: &C
     group.items.push(pen.arrows(true).into());
     group
         .items
-        .push(label::labels(&pen, view, label::ink(&pen)).into());
+        .push(label::labels(&pen, view, || label::ink(&pen)).into());
     group.items.retain(
         |item| !matches!(item, Item::Group(g) if g.items.is_empty() && g.description.is_empty()),
     );
@@ -60,7 +60,7 @@ pub(crate) fn composed(
     let parts = [pen.ground(view), blocks, pen.plans(), pen.discs()];
     let parts = parts.into_iter().chain(marks);
     group.items.extend(parts.map(Item::from));
-    group.items.push(label::labels(pen, view, ink).into());
+    group.items.push(label::labels(pen, view, || ink).into());
     group.items.retain(
         |item| !matches!(item, Item::Group(g) if g.items.is_empty() && g.description.is_empty()),
     );

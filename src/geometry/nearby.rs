@@ -2,7 +2,7 @@
 //!
 //! Of few every box is looked at; of many a tree is made first, which is dearer than many such looks.
 
-use rstar::{AABB, Envelope, RTree, RTreeObject};
+use rstar::{AABB, RTree, RTreeObject};
 
 /// The box around a thing, in metres.
 pub(crate) type Around = AABB<[f64; 2]>;
@@ -12,8 +12,53 @@ const FEW: usize = 64;
 
 /// Things that have boxes around them.
 pub(crate) enum Nearby<T: RTreeObject<Envelope = Around>> {
-    Few(Vec<(Around, T)>),
+    Few(Row<T>),
     Many(RTree<T>),
+}
+
+/// Things sorted by the left ends of their boxes.
+pub(crate) struct Row<T> {
+    /// Left, lower, right and upper end of each box.
+    boxes: Vec<[f64; 4]>,
+    /// How far the boxes up to and with each reach to the right.
+    reach: Vec<f64>,
+    things: Vec<T>,
+}
+
+impl<T: RTreeObject<Envelope = Around>> Row<T> {
+    fn of(things: Vec<T>) -> Row<T> {
+        let boxed = |thing: T| (ends(thing.envelope()), thing);
+        let mut all: Vec<([f64; 4], T)> = things.into_iter().map(boxed).collect();
+        all.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]));
+        let (boxes, things): (Vec<[f64; 4]>, Vec<T>) = all.into_iter().unzip();
+        let mut farthest = f64::NEG_INFINITY;
+        let mut reach = Vec::with_capacity(boxes.len());
+        for own in &boxes {
+            farthest = farthest.max(own[2]);
+            reach.push(farthest);
+        }
+        Row {
+            boxes,
+            reach,
+            things,
+        }
+    }
+
+    fn near(&self, [left, low, right, high]: [f64; 4]) -> impl Iterator<Item = &T> {
+        // Before `begin` all boxes end, and from `end` on all begin, beside the one asked about.
+        let begin = self.reach.partition_point(|reach| *reach < left);
+        let end = self.boxes.partition_point(|own| own[0] <= right).max(begin);
+        let some = self.boxes[begin..end].iter().zip(&self.things[begin..end]);
+        some.filter_map(move |(own, thing)| {
+            (own[2] >= left && own[1] <= high && own[3] >= low).then_some(thing)
+        })
+    }
+}
+
+/// Left, lower, right and upper end of a box.
+fn ends(around: Around) -> [f64; 4] {
+    let ([left, low], [right, high]) = (around.lower(), around.upper());
+    [left, low, right, high]
 }
 
 impl<T: RTreeObject<Envelope = Around>> Nearby<T> {
@@ -21,30 +66,28 @@ impl<T: RTreeObject<Envelope = Around>> Nearby<T> {
         if things.len() > FEW {
             return Nearby::Many(RTree::bulk_load(things));
         }
-        let boxed = |thing: T| (thing.envelope(), thing);
-        Nearby::Few(things.into_iter().map(boxed).collect())
+        Nearby::Few(Row::of(things))
     }
 
     /// All of them, in no order that may matter.
     pub(crate) fn all(&self) -> impl Iterator<Item = &T> {
         let (few, many) = self.parts();
-        let many = many.into_iter().flat_map(RTree::iter);
-        few.iter().map(|(_, thing)| thing).chain(many)
+        let few = few.into_iter().flat_map(|row| &row.things);
+        few.chain(many.into_iter().flat_map(RTree::iter))
     }
 
     /// Those whose boxes share a point with a box, in no order that may matter.
     pub(crate) fn near(&self, around: Around) -> impl Iterator<Item = &T> {
         let (few, many) = self.parts();
-        let few = few.iter().filter(move |(own, _)| own.intersects(&around));
+        let few = few.into_iter().flat_map(move |row| row.near(ends(around)));
         let many = many.into_iter();
-        let many = many.flat_map(move |tree| tree.locate_in_envelope_intersecting(around));
-        few.map(|(_, thing)| thing).chain(many)
+        few.chain(many.flat_map(move |tree| tree.locate_in_envelope_intersecting(around)))
     }
 
-    fn parts(&self) -> (&[(Around, T)], Option<&RTree<T>>) {
+    fn parts(&self) -> (Option<&Row<T>>, Option<&RTree<T>>) {
         match self {
-            Nearby::Few(few) => (few, None),
-            Nearby::Many(tree) => (&[], Some(tree)),
+            Nearby::Few(few) => (Some(few), None),
+            Nearby::Many(tree) => (None, Some(tree)),
         }
     }
 }

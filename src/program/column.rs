@@ -85,7 +85,8 @@ pub struct Column {
 impl Column {
     /// The nonzero entries as (row, value).
     pub fn entries(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
-        (0..self.count).map(|i| (self.rows[i], self.values[i]))
+        let rows = self.rows[..self.count].iter();
+        rows.copied().zip(self.values[..self.count].iter().copied())
     }
 
     /// Whether another column has the same values, in whichever rows, and the same limit.
@@ -95,7 +96,11 @@ impl Column {
 
     /// The column's product with virtual velocities `y`: the velocity against which the force works.
     pub fn dot(&self, y: &[f64]) -> f64 {
-        self.entries().map(|(row, value)| value * y[row]).sum()
+        let mut sum = 0.0;
+        for (row, value) in self.entries() {
+            sum += value * y[row];
+        }
+        sum
     }
 
     /// The product of two columns.
@@ -103,11 +108,15 @@ impl Column {
         if !self.shares_block(other) {
             return 0.0;
         }
-        let entries = other.entries().flat_map(|(row, value)| {
-            let own = self.entries().filter(move |(r, _)| *r == row);
-            own.map(move |(_, v)| v * value)
-        });
-        entries.sum()
+        let mut sum = 0.0;
+        for (row, value) in other.entries() {
+            for (own, v) in self.entries() {
+                if own == row {
+                    sum += v * value;
+                }
+            }
+        }
+        sum
     }
 
     /// Whether both act on one block. The entries of a block stand together.

@@ -111,15 +111,19 @@ impl Row {
 
 /// Σ a·b, in four sums side by side.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let (fours, others) = (a.chunks_exact(4), b.chunks_exact(4));
-    let rest = fours.remainder().iter().zip(others.remainder());
+    let ((fours, rest), (others, last)) = (a.as_chunks::<4>(), b.as_chunks::<4>());
     let mut sums = [0.0; 4];
-    for (x, y) in fours.zip(others) {
-        for (sum, (x, y)) in sums.iter_mut().zip(x.iter().zip(y)) {
-            *sum += x * y;
-        }
+    for (x, y) in fours.iter().zip(others) {
+        sums[0] += x[0] * y[0];
+        sums[1] += x[1] * y[1];
+        sums[2] += x[2] * y[2];
+        sums[3] += x[3] * y[3];
     }
-    rest.map(|(x, y)| x * y).sum::<f64>() + (sums[0] + sums[1]) + (sums[2] + sums[3])
+    let mut sum = 0.0;
+    for (x, y) in rest.iter().zip(last) {
+        sum += x * y;
+    }
+    sum + (sums[0] + sums[1]) + (sums[2] + sums[3])
 }
 
 #[cfg(test)]

@@ -1,49 +1,94 @@
 //! [`nearest`]: the known name that was probably meant by an unknown one.
 
+/// So many letters of a name are compared.
+const LETTERS: usize = 80;
+
 /// The known name that looks most like another one, if any is near.
 pub fn nearest<'n>(name: &str, known: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
     // Comparing a long list of unknown names with a long list of known ones must not take minutes.
     const MOST: usize = 2000;
-    let wanted: Vec<char> = name.to_lowercase().chars().take(80).collect();
-    let reach = 1 + wanted.len() / 3;
-    known
-        .into_iter()
-        .take(MOST)
-        .map(|other| {
-            (
-                distance(
-                    &wanted,
-                    &other.to_lowercase().chars().take(80).collect::<Vec<_>>(),
-                    reach,
-                ),
-                other,
-            )
-        })
-        .filter(|(d, other)| *d <= reach && (*d < wanted.len() || other.starts_with(name)))
-        .min_by_key(|(d, _)| *d)
-        .map(|(_, other)| other)
-}
-
-/// How many letters have to be changed, added, left out or swapped; anything beyond `reach` counts as beyond.
-fn distance(a: &[char], b: &[char], reach: usize) -> usize {
-    if a.len().abs_diff(b.len()) > reach {
-        return reach + 1;
-    }
-    let mut before: Vec<usize> = vec![0; b.len() + 1];
-    let mut last: Vec<usize> = (0..=b.len()).collect();
-    for i in 1..=a.len() {
-        let mut row = vec![i; b.len() + 1];
-        for j in 1..=b.len() {
-            let change = usize::from(a[i - 1] != b[j - 1]);
-            row[j] = (last[j] + 1).min(row[j - 1] + 1).min(last[j - 1] + change);
-            if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
-                row[j] = row[j].min(before[j - 2] + 1);
+    let mut wanted = Vec::new();
+    letters(name, &mut wanted);
+    let mut reach = 1 + wanted.len() / 3;
+    let (mut best, mut rows, mut found) = (None, Rows::default(), Vec::new());
+    for other in known.into_iter().take(MOST) {
+        letters(other, &mut found);
+        let Some(distance) = rows.distance(&wanted, &found, reach) else {
+            continue;
+        };
+        if distance < wanted.len() || other.starts_with(name) {
+            best = Some(other);
+            // Of names that are equally near the first is told: from here on only a nearer one counts.
+            match distance.checked_sub(1) {
+                Some(nearer) => reach = nearer,
+                None => break,
             }
         }
-        before = last;
-        last = row;
     }
-    last[b.len()]
+    best
+}
+
+/// The first letters of a name, all small.
+fn letters(name: &str, into: &mut Vec<char>) {
+    into.clear();
+    if name.is_ascii() {
+        let small = |b: u8| char::from(b.to_ascii_lowercase());
+        into.extend(name.bytes().take(LETTERS).map(small));
+    } else {
+        into.extend(name.to_lowercase().chars().take(LETTERS));
+    }
+}
+
+/// Two rows of the table of distances and the one to be filled, kept from one pair of names to the next.
+#[derive(Default)]
+struct Rows {
+    before: Vec<usize>,
+    last: Vec<usize>,
+    row: Vec<usize>,
+}
+
+impl Rows {
+    /// How many letters have to be changed, added, left out or swapped; `None` where that is more than `reach`.
+    fn distance(&mut self, a: &[char], b: &[char], reach: usize) -> Option<usize> {
+        if a.len().abs_diff(b.len()) > reach {
+            return None;
+        }
+        // What both begin and end with costs nothing.
+        let same = a.iter().zip(b).take_while(|(x, y)| x == y).count();
+        let (a, b) = (&a[same..], &b[same..]);
+        let backwards = a.iter().rev().zip(b.iter().rev());
+        let same = backwards.take_while(|(x, y)| x == y).count();
+        let (a, b) = (&a[..a.len() - same], &b[..b.len() - same]);
+        for row in [&mut self.before, &mut self.last, &mut self.row] {
+            row.clear();
+            row.extend(0..=b.len());
+        }
+        let mut least_before = 0;
+        for (i, x) in a.iter().enumerate() {
+            self.row[0] = i + 1;
+            let (mut left, mut least) = (i + 1, i + 1);
+            for (j, y) in b.iter().enumerate() {
+                let change = usize::from(x != y);
+                let mut here = (self.last[j + 1] + 1)
+                    .min(left + 1)
+                    .min(self.last[j] + change);
+                if i > 0 && j > 0 && *x == b[j - 1] && a[i - 1] == *y {
+                    here = here.min(self.before[j - 1] + 1);
+                }
+                self.row[j + 1] = here;
+                left = here;
+                least = least.min(here);
+            }
+            // Each row goes on from the one before it, or by a swap from the one before that.
+            if least > reach && least_before + 1 > reach {
+                return None;
+            }
+            least_before = least;
+            std::mem::swap(&mut self.before, &mut self.last);
+            std::mem::swap(&mut self.last, &mut self.row);
+        }
+        Some(self.last[b.len()]).filter(|distance| *distance <= reach)
+    }
 }
 
 #[cfg(test)]
@@ -67,5 +112,55 @@ mod tests {
             None,
             "one letter is not like another"
         );
+    }
+
+    /// The whole table, as the definition has it.
+    fn plain(a: &[char], b: &[char]) -> usize {
+        let mut table = vec![vec![0; b.len() + 1]; a.len() + 1];
+        for i in 0..=a.len() {
+            for j in 0..=b.len() {
+                let mut least = if i == 0 || j == 0 { i + j } else { usize::MAX };
+                if i > 0 && j > 0 {
+                    let change = usize::from(a[i - 1] != b[j - 1]);
+                    least = (table[i - 1][j] + 1)
+                        .min(table[i][j - 1] + 1)
+                        .min(table[i - 1][j - 1] + change);
+                }
+                if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
+                    least = least.min(table[i - 2][j - 2] + 1);
+                }
+                table[i][j] = least;
+            }
+        }
+        table[a.len()][b.len()]
+    }
+
+    #[test]
+    fn what_is_left_out_of_the_table_changes_no_distance() {
+        // All words of up to four letters of three, and two of five: every way in which two can begin, end, swap and differ.
+        let mut words = vec![String::new()];
+        let mut first = 0;
+        for _ in 0..4 {
+            let end = words.len();
+            for i in first..end {
+                for c in ['a', 'b', 'c'] {
+                    words.push(format!("{}{c}", words[i]));
+                }
+            }
+            first = end;
+        }
+        words.push("acbba".into());
+        words.push("abcab".into());
+        let words: Vec<Vec<char>> = words.iter().map(|w| w.chars().collect()).collect();
+        let mut rows = Rows::default();
+        for a in &words {
+            for b in &words {
+                let all = plain(a, b);
+                for reach in 0..=5 {
+                    let told = rows.distance(a, b, reach);
+                    assert_eq!(told, Some(all).filter(|d| *d <= reach), "{a:?} {b:?}");
+                }
+            }
+        }
     }
 }

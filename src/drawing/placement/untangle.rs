@@ -3,7 +3,8 @@
 //! Labels are placed one after the other, each where it is best then; the last ones of a crowd may end up behind those of
 //! their neighbours.
 
-use super::{Ink, Placed, ROOM, Wish, around, corners, nearest, parted, within};
+use super::ink::parted;
+use super::{Ink, Placed, ROOM, Wish, around, corners, nearest, within};
 use crate::drawing::{PagePoint, PageRect};
 
 /// Rounds over all pairs.
@@ -25,8 +26,11 @@ pub(super) fn untangle(
                 let (Some(a), Some(b)) = (placed[i], placed[j]) else {
                     continue;
                 };
+                if a.leader.is_none() || b.leader.is_none() {
+                    continue;
+                }
                 let before = tangles(placed, i, j);
-                if a.leader.is_none() || b.leader.is_none() || before == 0 {
+                if before == 0 {
                     continue;
                 }
                 let moved = |number: usize, to: PageRect| {

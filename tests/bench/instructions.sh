@@ -1,0 +1,85 @@
+#!/usr/bin/env bash
+# Counts instructions of three paths, in the profile in which tests run, and fails where one takes over a tenth more than
+# tests/bench/instructions.txt says. A count is the same on a busy machine, where a time is not. It does depend on the
+# compiler: under another than the file's it says so, and fails only beyond a fifth.
+#
+#   cargo build --locked && bash tests/bench/instructions.sh            compares
+#   cargo build --locked && bash tests/bench/instructions.sh --accept   writes the counts of now into the file
+#
+# Needs valgrind. Paths: the verdict alone on structures of ten blocks; a wall of a hundred checked in full; figures of
+# those of ten as PNG of 400 pixels, checked and drawn.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+export LC_ALL=C
+
+program=${CARGO_TARGET_DIR:-target}/debug/drystone
+kept=tests/bench/instructions.txt
+[ -x "$program" ] || { echo "no $program: run cargo build first" >&2; exit 2; }
+command -v valgrind >/dev/null || { echo "valgrind is not installed" >&2; exit 2; }
+
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+
+# Ten blocks or so each: what stands, what leans too far, what slides.
+mkdir "$folder/ten" "$folder/drawn"
+for n in 8 9 10 11 12; do
+    "$program" new arch --voussoirs "$n" -q -o "$folder/ten/arch-$n.json"
+    "$program" new arch --voussoirs "$n" --thickness 0.2 -q -o "$folder/ten/thin-$n.json"
+    "$program" new tower --blocks "$n" -q -o "$folder/ten/tower-$n.json"
+    "$program" new tower --blocks "$n" --lean 0.2 -q -o "$folder/ten/leaning-$n.json"
+done
+for bricks in 2 3 4; do
+    "$program" new wall --courses 4 --bricks "$bricks" -q -o "$folder/ten/wall-$bricks.json"
+done
+"$program" new wall --courses 10 --bricks 10 -q -o "$folder/hundred.json"
+
+# A falling structure ends drystone with 1: that is an answer. Anything else but 0 is not.
+count() {
+    local code=0
+    valgrind --tool=cachegrind --cache-sim=no --cachegrind-out-file=/dev/null --log-file="$folder/log" "$@" \
+        >"$folder/said" 2>&1 || code=$?
+    if [ "$code" -gt 1 ]; then
+        cat "$folder/said" "$folder/log" >&2
+        return 1
+    fi
+    sed -n 's/.*I *refs: *//p' "$folder/log" | tr -d ,
+}
+
+ten=$(count "$program" batch "$folder/ten" -o "$folder/ten.ndjson" --jobs 1)
+hundred=$(count "$program" check "$folder/hundred.json")
+cp "$folder"/ten/{arch-10,tower-10,leaning-10,wall-2}.json "$folder/drawn"
+figures=$(count "$program" batch "$folder/drawn" -o "$folder/drawn.ndjson" --jobs 1 --render "$folder/png" --format png)
+
+compiler=$(rustc --version)
+if [ "${1:-}" = --accept ]; then
+    {
+        echo "# Instructions in the dev profile; tests/bench/instructions.sh --accept writes this file."
+        echo "compiler $compiler"
+        printf '%s %s\n' ten "$ten" hundred "$hundred" figures "$figures"
+    } >"$kept"
+    cat "$kept"
+    exit
+fi
+
+known() { sed -n "s/^$1 //p" "$kept"; }
+most=10
+if [ "$(known compiler)" != "$compiler" ]; then
+    most=20
+    echo "The counts of $kept hold for $(known compiler), and this is $compiler: up to $most % more is let pass here." >&2
+    echo "On a commit whose counts are right by the old compiler, --accept writes those of this one." >&2
+fi
+failed=0
+for path in ten hundred figures; do
+    before=$(known "$path")
+    now=${!path}
+    [ -n "$before" ] || { echo "$kept has no count of $path" >&2; exit 2; }
+    awk -v path="$path" -v before="$before" -v now="$now" -v most="$most" 'BEGIN {
+        change = 100 * (now / before - 1)
+        printf "%-8s %8.1f million instructions, %+5.1f %% against %.1f\n", path, now / 1e6, change, before / 1e6
+        exit change > most
+    }' || failed=1
+done
+if [ "$failed" = 1 ]; then
+    echo "More than $most % above $kept: find out why; where it is worth it, --accept takes the new counts." >&2
+fi
+exit "$failed"
