@@ -5,7 +5,6 @@
 
 use super::Grid;
 use crate::analysis::FrameAnalysis;
-use crate::effect::{EffectReport, margin, wedging};
 use crate::report::result::Timing;
 use crate::text::line;
 use crate::wording::effect;
@@ -32,11 +31,27 @@ pub(super) fn cost(found: &FrameAnalysis, timing: Timing) -> Grid {
     for described in &found.effects {
         let time = match described.effect {
             _ if !described.simulated => "none".to_owned(),
-            margin::NAME => duration(stages.margins),
-            wedging::NAME => duration(stages.wedging),
-            _ => "below, with the others".to_owned(),
+            "margins" => duration(stages.margins),
+            "wedging" => duration(stages.wedging),
+            _ => "shared".to_owned(),
         };
-        add(told(described), time);
+        let meaning = effect::meaning(described.effect);
+        let name = if meaning.is_empty() {
+            described.effect.to_owned()
+        } else {
+            format!("{}: {meaning}", described.effect)
+        };
+        let simulated = match described.simulated {
+            true => "yes",
+            false => "left out",
+        };
+        let unknowns = match (described.simulated, described.unknowns) {
+            (_, 0) => "none".to_owned(),
+            (true, n) => n.to_string(),
+            (false, n) => format!("{n} saved"),
+        };
+        let why = line(&described.why);
+        add([name, simulated.to_owned(), why, unknowns], time);
     }
     if timed {
         let stage = |name: &str, why: &str| {
@@ -68,24 +83,4 @@ pub(super) fn cost(found: &FrameAnalysis, timing: Timing) -> Grid {
     let cells = [name, String::new(), how, unknowns.to_string()];
     add(cells, duration(solve.seconds));
     grid
-}
-
-/// An effect, whether and why it was simulated, and its unknowns.
-fn told(described: &EffectReport) -> [String; 4] {
-    let meaning = effect::meaning(described.effect);
-    let name = if meaning.is_empty() {
-        described.effect.to_owned()
-    } else {
-        format!("{}: {meaning}", described.effect)
-    };
-    let simulated = match described.simulated {
-        true => "yes",
-        false => "left out",
-    };
-    let unknowns = match (described.simulated, described.unknowns) {
-        (_, 0) => "none".to_owned(),
-        (true, n) => n.to_string(),
-        (false, n) => format!("{n} saved"),
-    };
-    [name, simulated.to_owned(), line(&described.why), unknowns]
 }
