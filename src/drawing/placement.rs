@@ -46,8 +46,8 @@ pub struct Wish {
     pub preferred: Vec<PagePoint>,
     /// More room, pixels, that a preferred place should have; places that have it come first.
     pub ease: f64,
-    /// Whether it may stand elsewhere than at a preferred place.
-    pub roams: bool,
+    /// Whether it may stand elsewhere than at a preferred place: how far from the first ring at most, pixels.
+    pub roams: Option<f64>,
 }
 
 /// Where a label stands.
@@ -113,15 +113,13 @@ fn one(
         }
     }
     let fits = |middle: PagePoint| with_room(middle, ROOM);
-    if !wish.roams {
-        return None;
-    }
+    let farthest = wish.from + wish.roams?;
     let step = (0.5 * wish.size.1).max(3.0);
     let mut best: Option<(f64, Placed)> = None;
     for ring in 0..RINGS {
         let radius = wish.from + step * ring as f64;
         // A ring farther out than the best place cannot better it by more than a crossing.
-        if best.is_some_and(|(cost, _)| radius > cost) {
+        if radius > farthest || best.is_some_and(|(cost, _)| radius > cost) {
             break;
         }
         for part in 0..AROUND {
@@ -174,7 +172,8 @@ fn within(page: PageRect, rect: PageRect) -> bool {
         && rect.at.y + rect.height <= page.at.y + page.height
 }
 
-fn nearest(rect: PageRect, p: PagePoint) -> PagePoint {
+/// The point of a rectangle that is nearest to `p`.
+pub(crate) fn nearest(rect: PageRect, p: PagePoint) -> PagePoint {
     PagePoint::new(
         p.x.clamp(rect.at.x, rect.at.x + rect.width),
         p.y.clamp(rect.at.y, rect.at.y + rect.height),
@@ -207,7 +206,7 @@ mod tests {
             size: (30.0, 10.0),
             preferred: vec![PagePoint::new(x + 20.0, y)],
             ease: 3.0,
-            roams: true,
+            roams: Some(f64::INFINITY),
         }
     }
 
@@ -246,7 +245,7 @@ mod tests {
         ink.rect(PAGE);
         assert_eq!(place(&mut ink, PAGE, &[wish(50.0, 50.0)]), [None]);
         let fixed = Wish {
-            roams: false,
+            roams: None,
             preferred: Vec::new(),
             ..wish(50.0, 50.0)
         };

@@ -248,6 +248,26 @@ pub fn wrap(words: &str, face: Face, size: f64, room: f64) -> Vec<String> {
     lines
 }
 
+/// Words in as few lines as `room` pixels allow, at most `most` of them, and those about equally long: no last word stands
+/// alone.
+pub fn balanced(words: &str, face: Face, size: f64, room: f64, most: usize) -> Vec<String> {
+    let mut lines = cut(wrap(words, face, size, room), most, face, size, room);
+    let count = lines.len();
+    if count < 2 || lines.last().is_some_and(|l| l.ends_with('…')) {
+        return lines;
+    }
+    let mut narrower = room;
+    while narrower > room / 3.0 {
+        narrower -= 4.0;
+        let next = wrap(words, face, size, narrower);
+        if next.len() > count {
+            break;
+        }
+        lines = next;
+    }
+    lines
+}
+
 /// The first lines, the last of them ending in "…" where there are more than `most`.
 pub fn cut(mut lines: Vec<String>, most: usize, face: Face, size: f64, room: f64) -> Vec<String> {
     if lines.len() > most {
@@ -300,6 +320,17 @@ mod tests {
         let cut = cut(lines, 2, Face::Serif, 15.0, 120.0);
         assert_eq!(cut.len(), 2);
         assert!(cut[1].ends_with('…') && width(&cut[1], Face::Serif, 15.0) <= 120.0);
+    }
+
+    #[test]
+    fn balanced_lines_are_as_few_and_leave_no_word_alone() {
+        let words = "A flying buttress that takes a vault's thrust";
+        let greedy = wrap(words, Face::SerifBold, 20.0, 380.0);
+        let balanced = balanced(words, Face::SerifBold, 20.0, 380.0, 5);
+        assert_eq!((greedy.len(), balanced.len()), (2, 2));
+        assert_eq!(greedy[1], "thrust");
+        assert!(balanced[1].split(' ').count() > 2, "{balanced:?}");
+        assert_eq!(balanced.join(" "), words);
     }
 
     #[test]

@@ -5,9 +5,11 @@
 
 use std::collections::BTreeMap;
 
+use super::arrow::{ArrowKind, ForceArrow, Marks};
 use super::description;
 use super::label;
 use super::legend::{self, Entry};
+use super::mark;
 use super::panel::composed;
 use super::pen::Pen;
 use super::stage::Stage;
@@ -128,6 +130,8 @@ pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Ca
     let mut changed = Group::of_class("changed");
     let metres = stage.unit / stage.marks[frame].newtons_per_unit.max(f64::MIN_POSITIVE);
     let (share, least, most) = RING;
+    let newtons = stage.marks[frame].newtons_per_unit;
+    let true_lines = mark::marks(stage.analysis, frame, stage.options, newtons);
     let radius = (share * pen.unit()).clamp(least, most);
     for change in changes(stage.analysis, frame).0 {
         let at = camera.place(change.now.resultant.at);
@@ -140,9 +144,12 @@ pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Ca
         let ring = Path::stroked(Outline::circle(at, radius), stroke);
         let drawn = Group::of_class("change").titled(title);
         changed.items.push(drawn.with(ring).into());
-        for (body, sign) in between(change.now).into_iter().zip([1.0, -1.0]) {
+        let bodies = between(change.now);
+        for (body, other, sign) in [(bodies[0], bodies[1], 1.0), (bodies[1], bodies[0], -1.0)] {
             let BodyId::Block(_) = body else { continue };
-            let from = camera.place(change.before.resultant.at);
+            let now = force(change.now) * sign;
+            let aside = aside(&stage.marks[frame], &true_lines, body, other, now);
+            let from = camera.place(change.before.resultant.at + aside);
             let along = camera.turn(force(change.before) * (sign * metres));
             let width = theme.widths.force * pen.unit();
             let arrow = Path::filled(straight(from, along, width), theme.faint);
@@ -151,6 +158,22 @@ pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Ca
     }
     parts.extend([before, pen.arrows(false), pen.arrows(true), changed]);
     composed(&pen, view, pen.blocks(), parts, ink)
+}
+
+/// How far the arrow of this force, N, on a body from another was set aside from others on its line, metres: the force
+/// before goes with it. `true_lines` are the frame's arrows where their forces act.
+fn aside(marks: &Marks, true_lines: &Marks, on: BodyId, from: BodyId, force: Vector) -> Vector {
+    let between = |a: &&ForceArrow| a.on == on && a.kind == ArrowKind::Contact(from);
+    let far = |a: &ForceArrow| (a.force - force).norm();
+    let nearest = |marks: &Marks| -> Option<ForceArrow> {
+        let mut arrows = marks.arrows.iter().filter(between).copied();
+        let first = arrows.next()?;
+        Some(arrows.fold(first, |best, a| if far(&a) < far(&best) { a } else { best }))
+    };
+    match (nearest(marks), nearest(true_lines)) {
+        (Some(drawn), Some(acts)) => drawn.at - acts.at,
+        _ => Vector::zeros(),
+    }
 }
 
 /// What the signs mean, those that occur.

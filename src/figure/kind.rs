@@ -94,6 +94,8 @@ impl Kind {
     pub(crate) fn stage<'a>(self, analysis: &'a Analysis, options: &'a Options) -> Stage<'a> {
         let content = Content {
             tells_amplitudes: self.tells_amplitudes(),
+            draws_forces: self.draws_forces(),
+            strikes_names: self == Kind::Margin,
             largest: &|frame| self.largest(analysis, frame, options),
             marks: &|frame, reference| self.marks(analysis, frame, options, reference),
             reach: &|frame, unit, marks| self.reach(analysis, frame, unit, marks, options),
@@ -124,14 +126,20 @@ impl Kind {
         matches!(self, Kind::Forces | Kind::Build)
     }
 
+    /// Whether it draws the forces on each block.
+    fn draws_forces(self) -> bool {
+        matches!(
+            self,
+            Kind::Forces | Kind::Build | Kind::Polygon | Kind::Compare
+        )
+    }
+
     /// The amount that a frame's own scale takes as one unit edge, N; 0 where the kind draws no arrows.
     fn largest(self, analysis: &Analysis, frame: usize, options: &Options) -> f64 {
         let scene = &analysis.scene;
         let (placed, found) = (&scene.frames[frame], &analysis.frames[frame]);
         match self {
-            Kind::Forces | Kind::Build | Kind::Polygon | Kind::Compare => {
-                mark::largest(scene, placed, found, options)
-            }
+            _ if self.draws_forces() => mark::largest(scene, placed, found, options),
             Kind::Thrust => thrust::largest_load(scene, placed),
             Kind::Margin => margin::largest_load(scene, placed, options),
             _ => 0.0,

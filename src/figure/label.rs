@@ -4,18 +4,21 @@
 //! no arrow, outline, disc or other label; one for which nowhere is clear is left out, and the figure counts those. What
 //! the words below a frame name comes first, and bears its name in a frame of any number of blocks.
 
+mod obstacle;
 mod solid;
 mod spoken;
+
+pub(crate) use obstacle::ink;
 
 use solid::Solids;
 use spoken::names;
 
-use super::arrow::{ArrowKind, ForceArrow, TurnArrow, TurnKind};
-use super::pen::{CENTROID, DOT, Pen};
+use super::arrow::{ArrowKind, ForceArrow, TurnKind};
+use super::pen::{DOT, Pen};
 use super::stage::Stage;
 use super::view;
 use super::words::{counted, listed, quantity};
-use crate::drawing::placement::{Ink, Placed, Wish, place_where};
+use crate::drawing::placement::{Ink, Placed, Wish, nearest, place_where};
 use crate::drawing::{
     Anchor, Colour, Face, Group, Outline, PagePoint, PageRect, Path, Stroke, Text, text,
 };
@@ -28,18 +31,29 @@ pub(crate) const MOST_BLOCKS: usize = 60;
 const ROOMY: f64 = 26.0;
 /// … and of so many blocks in any case.
 const FEW: usize = 12;
+/// In other frames a name stands in its block or beside it, at most so many pixels off.
+const BESIDE: f64 = 8.0;
+/// A name beside its block has a leader where another block's middle is less than so many times as far.
+const DOUBT: f64 = 1.5;
 /// Places tried along each axis of a block.
 const TRIED: usize = 13;
 /// Letters are no smaller than this, pixels.
 const SMALLEST: f64 = 9.0;
 /// Distances from a block's middle are ranked in steps of this share of the block's diagonal.
 const RANK: f64 = 1e-3;
+/// A name of several words has at most so many lines …
+const MOST_LINES: usize = 3;
+/// … so far apart, in sizes, …
+const PITCH: f64 = 1.1;
+/// … and keeps so far from the sides of its block, pixels.
+const INSET: f64 = 4.0;
 /// Height of a line of letters, in sizes.
 const HIGH: f64 = 0.96;
 
 /// A label before it has a place.
 struct Label {
-    words: String,
+    /// Its words, in lines.
+    lines: Vec<String>,
     face: Face,
     size: f64,
     class: &'static str,
@@ -76,7 +90,10 @@ pub(crate) fn labels(pen: &Pen<'_>, view: Bounds, ink: impl FnOnce() -> Ink) -> 
         if placed.is_none_or(|p| p.disliked) {
             pen.stage.cramped.set(pen.stage.cramped.get() + 1);
         }
-        if let Some(placed) = placed {
+        if let Some(mut placed) = placed {
+            if placed.leader.is_none() && doubtful(pen, label, placed.rect) {
+                placed.leader = Some([nearest(placed.rect, label.wish.anchor), label.wish.anchor]);
+            }
             group.items.push(drawn(pen, label, placed).into());
             continue;
         }
@@ -101,6 +118,27 @@ pub(crate) fn labels(pen: &Pen<'_>, view: Bounds, ink: impl FnOnce() -> Ink) -> 
         group.description = format!("no room for {}", listed(&missing));
     }
     group
+}
+
+/// Whether a name beside its block could be taken for another block's, whose middle is nearly as near.
+fn doubtful(pen: &Pen<'_>, label: &Label, rect: PageRect) -> bool {
+    let scene = &pen.stage.analysis.scene;
+    let Some(own) = label.of.filter(|_| label.class == "name") else {
+        return false;
+    };
+    let at = pen.camera.back(middle(rect));
+    let at = pen.displacement(own).map_or(at, |d| d.back(at));
+    if scene.blocks[own.0].body.polygon.contains(at) {
+        return false;
+    }
+    let far = |id: BlockId| {
+        let anchor = pen.camera.place(pen.moved(id, scene.blocks[id.0].centroid));
+        let end = nearest(rect, anchor);
+        libm::hypot(end.x - anchor.x, end.y - anchor.y)
+    };
+    let others = scene.frames[pen.number].placed.iter().copied();
+    let mut others = others.filter(|id| *id != own);
+    others.any(|id| far(id) < DOUBT * far(own))
 }
 
 /// What a figure says of the labels that its frames are too full for; `None` where there are none.
@@ -138,22 +176,22 @@ fn wanted(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
         labels.extend(robots(pen, view));
         if few {
             let others = frame.placed.iter().filter(|id| !first.contains(id));
-            // Leaders from everywhere to everywhere would hide the figure: small blocks are named where they lie.
+            // Leaders from everywhere to everywhere would hide the figure.
             let roam = pen.unit() >= ROOMY || frame.placed.len() <= FEW;
             let names = others.filter_map(|id| name(pen, *id, view));
-            labels.extend(names.map(|label| Label {
-                wish: Wish {
-                    roams: label.wish.roams && roam,
-                    ..label.wish
-                },
-                ..label
+            labels.extend(names.map(|label| {
+                let mut wish = label.wish;
+                if !roam {
+                    wish.roams = wish.roams.map(|far| far.min(BESIDE));
+                }
+                Label { wish, ..label }
             }));
         }
     }
     if few {
         labels.extend(amounts(pen));
     }
-    labels.retain(|label| !label.words.is_empty());
+    labels.retain(|label| label.lines.iter().any(|line| !line.is_empty()));
     labels
 }
 
@@ -186,13 +224,38 @@ fn label(words: String, face: Face, size: f64, class: &'static str, wish: Wish) 
             size: size_of,
             ..wish
         },
-        words,
+        lines: vec![words],
         face,
         size,
         class,
         colour: None,
         named: false,
         of: None,
+    }
+}
+
+/// A name of several words in lines that fit across its block, where one line does not and few do.
+fn broken(label: Label, across: f64) -> Label {
+    let name = label.lines.concat();
+    if label.wish.size.0 <= across {
+        return label;
+    }
+    let lines = text::balanced(&name, label.face, label.size, across, MOST_LINES + 1);
+    // A word broken in two is no name any more.
+    let whole = lines.join(" ").split(' ').eq(name.split_whitespace());
+    if !whole || lines.len() > MOST_LINES {
+        return label;
+    }
+    let widths = lines.iter().map(|l| text::width(l, label.face, label.size));
+    let size = (
+        widths.fold(0.0, f64::max),
+        label.size * (HIGH + PITCH * (lines.len() - 1) as f64),
+    );
+    let wish = Wish { size, ..label.wish };
+    Label {
+        lines,
+        wish,
+        ..label
     }
 }
 
@@ -212,21 +275,24 @@ fn name(pen: &Pen<'_>, id: BlockId, view: Bounds) -> Option<Label> {
     } else {
         name_size(pen, pen.unit())
     };
+    // Beside a pebble its name stands as near as the pebble is small.
+    let extent = block.body.polygon.bounds().diagonal();
     let wish = Wish {
         anchor: pen.camera.place(pen.moved(id, block.centroid)),
-        from: 0.4 * pen.unit(),
+        from: (0.4 * pen.unit()).min(0.5 * pen.camera.length(extent) + 2.0),
         size: (0.0, 0.0),
         preferred: inside(&block.body.polygon, block.centroid, zoomed.then_some(view))
             .into_iter()
             .map(|p| pen.camera.place(pen.moved(id, p)))
             .collect(),
         ease: 0.5 * size,
-        roams: !zoomed || view::holds(view, block.centroid),
+        roams: (!zoomed || view::holds(view, block.centroid)).then_some(f64::INFINITY),
     };
     let label = label(block.id.clone(), Face::SansBold, size, "name", wish);
+    let across = pen.camera.length(block.body.polygon.bounds().width()) - 2.0 * INSET;
     Some(Label {
         of: Some(id),
-        ..label
+        ..broken(label, across)
     })
 }
 
@@ -242,7 +308,7 @@ fn robots(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
             size: (0.0, 0.0),
             preferred: Vec::new(),
             ease: 0.0,
-            roams: true,
+            roams: Some(f64::INFINITY),
         };
         let id = scene.robots[hold.robot.0].id.clone();
         Label {
@@ -281,7 +347,7 @@ fn amounts(pen: &Pen<'_>) -> Vec<Label> {
             size: (0.0, 0.0),
             preferred: beside(from, along, pen.width(arrow), (wide, HIGH * size)),
             ease: 0.0,
-            roams: true,
+            roams: Some(f64::INFINITY),
         };
         Label {
             colour: Some(arrow.colour),
@@ -297,7 +363,7 @@ fn amounts(pen: &Pen<'_>) -> Vec<Label> {
             size: (0.0, 0.0),
             preferred: Vec::new(),
             ease: 0.0,
-            roams: true,
+            roams: Some(f64::INFINITY),
         };
         let words = quantity(turn.torque.abs(), "N·m");
         Label {
@@ -357,56 +423,8 @@ fn inside(polygon: &Polygon, middle: Point, view: Option<Bounds>) -> Vec<Point> 
     ranked.into_iter().map(|(_, p)| p).collect()
 }
 
-/// The ink of ground, blocks, plans, discs and arrows.
-pub(crate) fn ink(pen: &Pen<'_>) -> Ink {
-    let mut ink = Ink::default();
-    let scene = &pen.stage.analysis.scene;
-    let frame = &scene.frames[pen.number];
-    let planned = frame.plans.iter().map(|p| p.block);
-    let blocks = frame.placed.iter().copied().chain(planned);
-    let polygons = blocks
-        .map(|id| &scene.blocks[id.0].body.polygon)
-        .chain(scene.ground.iter().map(|g| &g.body.polygon));
-    for edge in polygons.flat_map(Polygon::edges) {
-        let (from, to) = (pen.camera.place(edge.from), pen.camera.place(edge.to));
-        ink.line(from, to, pen.line);
-    }
-    for hold in &frame.holds {
-        ink.disc(pen.camera.place(pen.moved(hold.block, hold.at)), pen.disc());
-    }
-    let marks = &pen.stage.marks[pen.number];
-    for arrow in marks.arrows.iter().filter(|a| pen.seen(a)) {
-        let (from, along) = (pen.camera.place(arrow.at), pen.camera.turn(arrow.reach()));
-        ink.arrow(from, along, pen.width(arrow));
-        if arrow.kind == ArrowKind::Weight {
-            ink.disc(from, CENTROID * pen.width(arrow) + 1.0);
-        }
-    }
-    for arrow in pen.dots() {
-        ink.disc(pen.camera.place(arrow.at), DOT + 0.5);
-    }
-    for turn in marks.turns.iter().filter(|t| pen.turn_seen(t)) {
-        turning(&mut ink, pen, turn);
-    }
-    ink
-}
-
-/// A turning arrow's outline, cut across into pieces from its inner to its outer edge.
-fn turning(ink: &mut Ink, pen: &Pen<'_>, turn: &TurnArrow) {
-    let points: Vec<PagePoint> = pen.turn(turn).outline.points().collect();
-    let centre = pen.camera.place(turn.at);
-    for pair in points.windows(2) {
-        let width = 3.0 * pen.camera.length(turn.width);
-        // Points of the head and of both edges, each joined to the next, as wide as the head: no gap between them.
-        if libm::hypot(pair[0].x - centre.x, pair[0].y - centre.y) > 0.0 {
-            ink.line(pair[0], pair[1], width);
-        }
-    }
-}
-
 fn drawn(pen: &Pen<'_>, label: &Label, placed: Placed) -> Group {
     let theme = &pen.stage.options.theme;
-    let at = middle(placed.rect).moved(0.0, 0.36 * label.size);
     let mut group = Group::of_class(label.class);
     if let Some(leader) = placed.leader {
         let line = Path::stroked(Outline::line(leader), Stroke::new(theme.faint, 0.6));
@@ -415,18 +433,38 @@ fn drawn(pen: &Pen<'_>, label: &Label, placed: Placed) -> Group {
     // A label lies on no outline, so it lies on one fill or on the page.
     let below = pen.below(middle(placed.rect));
     let colour = theme.letters_on(below, label.colour);
-    let words = Text::new(at, label.words.as_str(), label.face, label.size, colour);
-    group.with(words.anchored(Anchor::Middle))
+    let halo = pen.stage.strikes_names.then_some(below);
+    lettered(group, label, middle(placed.rect), colour, halo)
 }
 
 /// A label for which nowhere is clear, over whatever lies at its anchor, with a seam around its letters.
 fn over(pen: &Pen<'_>, label: &Label) -> Group {
     let below = pen.below(label.wish.anchor);
     let colour = pen.stage.options.theme.letters_on(below, label.colour);
-    let at = label.wish.anchor.moved(0.0, 0.36 * label.size);
-    let words = Text::new(at, label.words.as_str(), label.face, label.size, colour);
-    let words = words.anchored(Anchor::Middle).with_halo(below, 1.5);
-    Group::of_class(label.class).with(words)
+    let group = Group::of_class(label.class);
+    lettered(group, label, label.wish.anchor, colour, Some(below))
+}
+
+/// The lines of a label about its middle, on request with a seam around their letters.
+fn lettered(
+    mut group: Group,
+    label: &Label,
+    middle: PagePoint,
+    colour: Colour,
+    halo: Option<Colour>,
+) -> Group {
+    let half = 0.5 * (label.lines.len() as f64 - 1.0);
+    for (number, line) in label.lines.iter().enumerate() {
+        let down = 0.36 + PITCH * (number as f64 - half);
+        let at = middle.moved(0.0, down * label.size);
+        let words = Text::new(at, line.as_str(), label.face, label.size, colour);
+        let words = words.anchored(Anchor::Middle);
+        group = group.with(match halo {
+            Some(below) => words.with_halo(below, 1.5),
+            None => words,
+        });
+    }
+    group
 }
 
 fn middle(rect: PageRect) -> PagePoint {

@@ -1,9 +1,13 @@
 //! The key: what the colours and signs of a figure mean. It lists only what occurs.
 
+mod sign;
+
+use sign::{SAMPLE, load_dot, load_sign, missing_dot, weight_sign};
+
 use super::arrow::{ArrowKind, ForceArrow, LEAST_SEEN, TurnKind};
 use super::description;
 use super::option::{ArrowScale, Options};
-use super::pen::{CENTROID, DOT, TEXTURE};
+use super::pen::{DOT, TEXTURE};
 use super::stage::Stage;
 use super::words::{counted, quantity, round_below};
 use crate::drawing::arrow::{HEAD_LENGTH, straight};
@@ -40,6 +44,8 @@ pub(crate) enum Entry {
     Metres(f64, String),
     /// What is left out.
     Note(String),
+    /// A part of words that go on over several lines: nothing stands beside it.
+    Part(String),
     /// A sign so many pixels wide, drawn from the middle of its left end, and what it means.
     Sign(fn(PagePoint, &Theme) -> Vec<Item>, f64, String),
 }
@@ -52,9 +58,9 @@ impl Entry {
             return vec![self];
         }
         let below = |sign: Option<Entry>, words: &str| {
-            let lines = text::wrap(words, Face::Sans, theme.sizes.key, room);
+            let lines = text::balanced(words, Face::Sans, theme.sizes.key, room, usize::MAX);
             sign.into_iter()
-                .chain(lines.into_iter().map(Entry::Note))
+                .chain(lines.into_iter().map(Entry::Part))
                 .collect()
         };
         match self {
@@ -91,6 +97,15 @@ impl Entry {
         }
     }
 
+    /// Whether it has a line of its own: words that go on, and a bar or a sign whose meaning stands below it.
+    fn alone(&self) -> bool {
+        match self {
+            Entry::Part(_) => true,
+            Entry::Amplitudes(_, what, _) | Entry::Sign(_, _, what) => what.is_empty(),
+            _ => false,
+        }
+    }
+
     fn width(&self, theme: &Theme) -> f64 {
         let wide = |words: &str| text::width(words, Face::Sans, theme.sizes.key);
         match self {
@@ -111,7 +126,7 @@ impl Entry {
             Entry::Scale(length, _, amount) => length + 7.0 + wide(amount),
             Entry::Line(_, _, meaning) => STROKE + 7.0 + wide(meaning),
             Entry::Metres(length, amount) => length + 7.0 + wide(amount),
-            Entry::Note(words) => wide(words),
+            Entry::Note(words) | Entry::Part(words) => wide(words),
             Entry::Sign(_, width, meaning) => width + 7.0 + wide(meaning),
         }
     }
@@ -218,7 +233,7 @@ impl Entry {
                 let path = Path::stroked(bar, Stroke::new(theme.faint, 1.4));
                 vec![path.into(), words(length + 7.0, amount)]
             }
-            Entry::Note(note) => vec![words(0.0, note)],
+            Entry::Note(note) | Entry::Part(note) => vec![words(0.0, note)],
             Entry::Sign(sign, width, meaning) => {
                 let mut items = sign(at, theme);
                 items.push(words(width + 7.0, meaning));
@@ -351,40 +366,6 @@ pub(crate) fn entries(stage: &Stage<'_>, unit: f64) -> Vec<Entry> {
     entries
 }
 
-/// Length of a sample arrow, pixels.
-const SAMPLE: f64 = 26.0;
-
-fn weight_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    let (colour, from) = (theme.arrow(1), at.moved(4.0, 0.0));
-    let arrow = straight(from, (SAMPLE - 4.0, 0.0), 2.6);
-    let ring = Outline::circle(from, CENTROID * 2.6);
-    vec![
-        Path::filled(arrow, colour).into(),
-        Path::filled(ring, theme.page)
-            .with_stroke(Stroke::new(colour, 1.2))
-            .into(),
-    ]
-}
-
-fn load_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    let arrow = straight(at, (SAMPLE, 0.0), 3.4);
-    vec![
-        Path::filled(arrow, theme.page)
-            .with_stroke(Stroke::new(theme.load, 1.2))
-            .into(),
-    ]
-}
-
-fn load_dot(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    let dot = Path::filled(Outline::circle(at.moved(DOT, 0.0), DOT), theme.page);
-    vec![dot.with_stroke(Stroke::new(theme.load, 1.2)).into()]
-}
-
-fn missing_dot(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    let dot = Outline::circle(at.moved(DOT, 0.0), DOT);
-    vec![Path::filled(dot, theme.failure).into()]
-}
-
 /// A bar of a round number of metres, at most a quarter of a picture `content` pixels wide, a metre being `scale` pixels.
 pub(crate) fn metres(scale: f64, content: f64) -> Option<Entry> {
     let metres = round_below(0.25 * content / scale);
@@ -461,7 +442,11 @@ pub(crate) fn draw(
     for entry in entries {
         let width = entry.width(theme);
         match lines.last_mut() {
-            Some(line) if line.0 + BETWEEN + width <= room => {
+            Some(line)
+                if line.0 + BETWEEN + width <= room
+                    && !entry.alone()
+                    && !line.1.iter().any(|other| other.alone()) =>
+            {
                 line.0 += BETWEEN + width;
                 line.1.push(entry);
             }

@@ -18,7 +18,7 @@ use super::stage::Stage;
 use super::unit::unit;
 use super::verdict;
 use super::view;
-use super::words::round_below;
+use super::words::{letter, listed, round_below};
 use crate::analysis::{Analysis, Verdict};
 use crate::drawing::arrow::straight;
 use crate::drawing::{Camera, Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
@@ -273,28 +273,38 @@ pub(crate) fn entries(stage: &Stage<'_>, unit: f64) -> Vec<Entry> {
         entries.push(Entry::Sign(missing_sign, 26.0, what));
     }
     let frames = stage.marks.iter().enumerate();
-    let mut times: Vec<f64> = frames
-        .filter_map(|(frame, marks)| Some(chain(stage.analysis, frame, marks)?.times))
+    let times: Vec<(usize, f64)> = frames
+        .filter_map(|(frame, marks)| Some((frame, chain(stage.analysis, frame, marks)?.times)))
         .collect();
-    times.dedup();
-    if let [one] = times[..] {
-        let what = match one {
-            1.0 => "force polygon: the same forces tip to tail, to the same scale".to_owned(),
-            t => format!(
-                "force polygon: the same forces tip to tail, drawn {} times as large",
-                larger(t)
-            ),
-        };
-        entries.push(Entry::Note(what));
-    } else if !times.is_empty() {
-        let all: Vec<String> = times.iter().map(|t| larger(*t)).collect();
-        let what = format!(
-            "force polygons: the same forces tip to tail, drawn {} times as large, in the order of the panels",
-            all.join(", ")
-        );
-        entries.push(Entry::Note(what));
-    }
+    entries.extend(scales(&times).map(Entry::Note));
     entries
+}
+
+/// How many times as large as on the structure the forces of each frame's polygon are drawn; `None` without a polygon.
+fn scales(times: &[(usize, f64)]) -> Option<String> {
+    let mut groups: Vec<(f64, Vec<String>)> = Vec::new();
+    for (frame, times) in times {
+        let named = format!("({})", letter(*frame));
+        match groups.iter_mut().find(|group| group.0 == *times) {
+            Some(group) => group.1.push(named),
+            None => groups.push((*times, vec![named])),
+        }
+    }
+    let how = |times: f64| match times {
+        1.0 => "to the same scale".to_owned(),
+        times => format!("{} times as large", larger(times)),
+    };
+    let what = "the same forces tip to tail";
+    match &groups[..] {
+        [] => None,
+        [(times, _)] => Some(format!("force polygon: {what}, {}", how(*times))),
+        groups => {
+            let each = groups.iter();
+            let each = each.map(|(times, frames)| format!("{} in {}", how(*times), listed(frames)));
+            let each: Vec<String> = each.collect();
+            Some(format!("force polygons: {what}; {}", each.join("; ")))
+        }
+    }
 }
 
 /// What is written below a frame's verdict.
@@ -320,5 +330,20 @@ pub(crate) fn reason(stage: &Stage<'_>, frame: usize) -> String {
         how.to_owned()
     } else {
         format!("{how}; {why}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_key_tells_the_scale_of_every_polygon_by_its_panel() {
+        assert_eq!(scales(&[]), None);
+        let one = "force polygon: the same forces tip to tail, 5 times as large";
+        assert_eq!(scales(&[(0, 5.0), (2, 5.0)]).as_deref(), Some(one));
+        let several = "force polygons: the same forces tip to tail; 2 times as large in (a), (c) and (d); to the same scale in (b)";
+        let times = [(0, 2.0), (1, 1.0), (2, 2.0), (3, 2.0)];
+        assert_eq!(scales(&times).as_deref(), Some(several));
     }
 }

@@ -28,6 +28,8 @@ pub(crate) struct Stage<'a> {
     pub analysis: &'a Analysis,
     /// Whether blocks tell amplitudes by their colour; otherwise they are plain.
     pub tells_amplitudes: bool,
+    /// Whether lines are drawn across the blocks, below their names.
+    pub strikes_names: bool,
     pub options: &'a Options,
     /// The unit edge, metres.
     pub unit: f64,
@@ -50,6 +52,10 @@ pub(crate) struct Stage<'a> {
 pub(crate) struct Content<'c> {
     /// Whether blocks tell amplitudes by their colour.
     pub tells_amplitudes: bool,
+    /// Whether forces on blocks are drawn, which often lie on one line.
+    pub draws_forces: bool,
+    /// Whether lines are drawn across the blocks, below their names.
+    pub strikes_names: bool,
     /// The amount that a frame's own scale takes as one unit edge, N; 0 where there are no arrows.
     pub largest: &'c dyn Fn(usize) -> f64,
     /// The arrows of a frame, so many newtons being one unit edge long.
@@ -79,7 +85,7 @@ impl<'a> Stage<'a> {
                     marks.arrows.retain(|arrow| view::holds(near, arrow.at));
                     marks.turns.retain(|turn| view::holds(near, turn.at));
                 }
-                if content.tells_amplitudes && !options.printed() {
+                if content.draws_forces && !options.printed() {
                     apart(&mut marks);
                 }
                 marks
@@ -108,6 +114,7 @@ impl<'a> Stage<'a> {
         Stage {
             analysis,
             tells_amplitudes: content.tells_amplitudes,
+            strikes_names: content.strikes_names,
             options,
             unit,
             shown,

@@ -326,9 +326,9 @@ impl Strip<'_> {
             let size = theme.sizes.reason;
             let unseen = stage.marks[frame].unseen(stage.unit, layout.scale);
             let unseen = unseen.filter(|_| !stage.dusty(layout.scale));
-            let lines = balanced(&reason, Face::Sans, size, layout.panel, MOST_REASON_LINES);
-            let unseen = unseen.map(|u| balanced(&u, Face::Sans, size, layout.panel, 2));
-            let cramped = cramped.map(|c| balanced(&c, Face::Sans, size, layout.panel, 2));
+            let lines = text::balanced(&reason, Face::Sans, size, layout.panel, MOST_REASON_LINES);
+            let unseen = unseen.map(|u| text::balanced(&u, Face::Sans, size, layout.panel, 2));
+            let cramped = cramped.map(|c| text::balanced(&c, Face::Sans, size, layout.panel, 2));
             let notes = unseen.into_iter().chain(cramped).flatten();
             for line in lines.into_iter().chain(notes) {
                 y += REASON_LINE * size;
@@ -356,7 +356,7 @@ impl Strip<'_> {
         if !self.stage.options.captions {
             return Vec::new();
         }
-        balanced(
+        text::balanced(
             &self.caption(frame, " "),
             Face::Serif,
             self.stage.options.theme.sizes.caption,
@@ -473,23 +473,4 @@ fn without_room(picture: &Group) -> Option<String> {
         _ => None,
     });
     groups.into_iter().find(|labelled| !labelled.is_empty())
-}
-
-/// Words in as few lines as `room` allows, and those about equally long.
-fn balanced(words: &str, face: Face, size: f64, room: f64, most: usize) -> Vec<String> {
-    let mut lines = text::cut(text::wrap(words, face, size, room), most, face, size, room);
-    let count = lines.len();
-    if count < 2 || lines.last().is_some_and(|l| l.ends_with('…')) {
-        return lines;
-    }
-    let mut narrower = room;
-    while narrower > room / 3.0 {
-        narrower -= 4.0;
-        let next = text::wrap(words, face, size, narrower);
-        if next.len() > count {
-            break;
-        }
-        lines = next;
-    }
-    lines
 }

@@ -19,7 +19,7 @@ pub(crate) fn lines(title: &str, room: f64, theme: &Theme) -> (Vec<String>, f64)
     let wrapped = |size: f64| text::wrap(title, FACE, size, room);
     let fits = sizes.into_iter().find(|size| wrapped(*size).len() <= FEW);
     let size = fits.unwrap_or(sizes[SMALLER.len() - 1]);
-    (text::cut(wrapped(size), MOST, FACE, size, room), size)
+    (text::balanced(title, FACE, size, room, MOST), size)
 }
 
 #[cfg(test)]

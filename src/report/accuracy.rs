@@ -16,6 +16,7 @@ use crate::chart::{Point, Scatter, Series, Undrawn, scatter};
 use crate::report::result::word;
 use crate::study::{Case, Mark, Method, Run, Study, Summary, summary};
 use crate::text;
+use crate::wording::verdict::plain;
 
 /// Errors below this are drawn and told as this: nothing in f64 is nearer than its last bit.
 const LEAST: f64 = 1e-16;
@@ -240,7 +241,7 @@ fn frame(case: &Case) -> maud::Markup {
     html! {
         details {
             summary {
-                (text::line(&case.name)) ": " (word(truth.verdict)) ", " (case.blocks) " blocks"
+                (text::line(&case.name)) ": " (plain(truth.verdict)) ", " (case.blocks) " blocks"
                 @if truth.within_band { ", within the band" }
                 @if wrong > 0 { ", " (wrong) " wrong verdicts" }
             }
@@ -270,7 +271,7 @@ fn line(run: &Run) -> maud::Markup {
             td { (format!("{:.0e}", run.tolerance)) }
             td { (format!("{:.3}", 1e3 * run.seconds)) }
             td { (run.outcome.iterations) }
-            td.undecided[run.mark == Mark::Undecided] { (word(run.outcome.verdict)) @if run.mark == Mark::Wrong { " (wrong)" } }
+            td.undecided[run.mark == Mark::Undecided] { (plain(run.outcome.verdict)) @if run.mark == Mark::Wrong { " (wrong)" } }
             td { (small(run.total_error)) }
             td { (small(run.largest_error)) }
             td { (run.outcome.points) }

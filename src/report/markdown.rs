@@ -7,7 +7,6 @@ use super::html::slug;
 use super::page::{Made, Report, Unwritable};
 use crate::output::svg::{self, Options, Words};
 use crate::text::{self, markdown};
-use crate::wording::number::quantity;
 use crate::wording::verdict::plain;
 
 /// The folder of a report's figures, beside it.
@@ -41,7 +40,7 @@ pub(super) fn head(report: &Report, summary: &str) -> String {
                 "closest margin",
                 "#friction used, where it stands",
                 "#blocks",
-                "#largest force",
+                "#largest force, where it stands",
                 if report.compares {
                     "what changed"
                 } else {
@@ -61,7 +60,7 @@ pub(super) fn head(report: &Report, summary: &str) -> String {
                 closest.to_owned(),
                 row.friction_words(),
                 row.blocks.to_string(),
-                quantity(row.largest, "N"),
+                row.largest_words(),
                 row.fails.clone(),
             ];
             grid.add("", cells);

@@ -12,7 +12,6 @@ use crate::drawing::{
 use crate::output::fonts::Fonts;
 use crate::output::pdf::{self, Content, Heading, Part, Sheet};
 use crate::text::line;
-use crate::wording::number::quantity;
 use crate::wording::verdict::plain;
 
 /// Width and height of A4, pixels, 96 to the inch.
@@ -25,6 +24,8 @@ const ROOM: f64 = PAGE.0 - 2.0 * EDGE;
 const BOTTOM: f64 = PAGE.1 - EDGE - 16.0;
 /// Size of the words, pixels: 9 pt.
 const SIZE: f64 = 12.0;
+/// Size of the heading of a step.
+const HEADING: f64 = 14.0;
 /// Size of the words of tables, pixels: 7.9 pt.
 const SMALL: f64 = 10.5;
 /// Height of a line in sizes of its words.
@@ -118,9 +119,7 @@ impl Flow {
 
     /// A figure and what it shows, as wide as the words or less.
     fn figure(&mut self, drawing: &Drawing, caption: &str) {
-        let scale = (ROOM / drawing.width)
-            .min(HIGHEST / drawing.height)
-            .min(1.0);
+        let scale = fitted(drawing);
         let (wide, high) = (scale * drawing.width, scale * drawing.height);
         self.make_room(high + 3.0 * SMALL);
         let at = PagePoint::new(EDGE + (ROOM - wide) / 2.0, self.y);
@@ -232,6 +231,12 @@ impl Flow {
     }
 }
 
+/// The scale at which a figure fits a page.
+fn fitted(drawing: &Drawing) -> f64 {
+    let across = ROOM / drawing.width;
+    across.min(HIGHEST / drawing.height).min(1.0)
+}
+
 /// How wide the columns of a table are: as wide as their words where there is room, the widest narrowed where not.
 fn widths(heads: &[String], cells: &[Vec<String>]) -> Vec<f64> {
     let longest = |words: &str| {
@@ -306,7 +311,7 @@ pub(super) fn head(report: &Report, summary: &str) -> Vec<Page> {
                 "verdict",
                 "#friction used, where it stands",
                 "#blocks",
-                "#largest force",
+                "#largest force, where it stands",
                 what,
             ],
         );
@@ -317,7 +322,7 @@ pub(super) fn head(report: &Report, summary: &str) -> Vec<Page> {
                 plain(row.verdict).to_owned(),
                 row.friction_words(),
                 row.blocks.to_string(),
-                quantity(row.largest, "N"),
+                row.largest_words(),
                 row.fails.clone(),
             ];
             grid.add("", cells);
@@ -336,23 +341,41 @@ pub(super) fn section(entry: &Entry) -> Vec<Page> {
     for remark in &entry.remarks {
         flow.note(remark);
     }
-    for step in &entry.steps {
+    for (number, step) in entry.steps.iter().enumerate() {
+        // A step's heading stands on the page of its figure; the first one's stands below the scene's.
+        if number > 0 {
+            flow.make_room(opening(step).min(BOTTOM - EDGE));
+        }
         self::step(&mut flow, step);
     }
     flow.charts(&entry.charts, 2);
     if let Some(study) = &entry.study {
         flow.charts(std::slice::from_ref(study), 1);
     }
+    flow.make_room(entry.commands.len() as f64 * (LINE * SMALL + 0.4 * SIZE));
     for (_, command) in &entry.commands {
         flow.note(command);
     }
     flow.pages
 }
 
+/// How high a step's heading, its words and its first figure are together.
+fn opening(step: &Step) -> f64 {
+    let lines = |words: &str, size: f64| {
+        LINE * size * wrap(words, Face::Sans, size, ROOM).len() as f64 + 0.4 * SIZE
+    };
+    let remarks = step.remarks.iter().map(|r| lines(r, SMALL));
+    let figure = step.plates.first().map_or(0.0, |plate| {
+        let high = fitted(&plate.drawing) * plate.drawing.height;
+        high + 4.0 + lines(&plate.caption, SMALL)
+    });
+    3.0 * HEADING + lines(&step.sentence, SIZE) + remarks.sum::<f64>() + figure
+}
+
 fn step(flow: &mut Flow, step: &Step) {
     if !step.letter.is_empty() {
         let words = format!("({}) {}: {}", step.letter, step.title, plain(step.verdict));
-        flow.heading(&words, 14.0);
+        flow.heading(&words, HEADING);
     }
     flow.paragraph(&step.sentence);
     for remark in &step.remarks {
@@ -436,4 +459,35 @@ pub(super) fn written(
         description,
     };
     Ok(pdf::write_sheets(&sheets, &heading)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::Analysis;
+    use crate::report::entry::{File, Wanted};
+    use crate::scene::Scene;
+
+    #[test]
+    fn the_heading_of_a_step_stands_on_the_page_of_its_figure() {
+        let text = include_str!("../../tests/scenes/lintel.json");
+        let scene = Scene::from_json(text).unwrap_or_else(|problems| panic!("{problems}"));
+        let file = File {
+            name: "lintel.json",
+            text,
+        };
+        let entry = Entry::of(file, &Analysis::of(&scene), &Wanted::default());
+        let mut headings = 0;
+        for page in section(&entry) {
+            for item in &page.items {
+                let Item::Text(words) = item else { continue };
+                if words.size == HEADING && words.face == Face::SerifBold {
+                    headings += 1;
+                    let mut figures = page.figures.iter();
+                    assert!(figures.any(|f| f.1.y > words.at.y), "{}", words.words);
+                }
+            }
+        }
+        assert_eq!(headings, 3);
+    }
 }

@@ -346,10 +346,11 @@ fn what_the_words_below_a_frame_name_is_labelled_and_what_is_not_is_counted() {
                         .collect();
                     let said: Vec<&str> = own.iter().map(|t| t.words.as_str()).collect();
                     let said = said.join(" ");
+                    // A name of several words may stand in several lines.
+                    let lines = |label| texts(label).into_iter().map(|t| t.words);
                     let labels: Vec<String> = classes(&group.items, &["name"])
                         .into_iter()
-                        .flat_map(texts)
-                        .map(|t| t.words)
+                        .map(|label| lines(label).collect::<Vec<_>>().join(" "))
                         .collect();
                     let blocks = frame.placed.iter().map(|id| &scene.blocks()[id.0].id);
                     for id in blocks.filter(|id| names(&said, id)) {

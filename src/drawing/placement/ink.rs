@@ -23,7 +23,7 @@ pub struct Ink {
 
 #[derive(Clone, Copy, Debug)]
 struct Piece {
-    /// Whether it is a label, which a leader that crosses it would strike out.
+    /// Whether it is a label, which a leader that crosses it would strike out, or a leader, which one could take for it.
     is_label: bool,
     /// Its corners and sides, by their numbers.
     first: usize,
@@ -153,13 +153,12 @@ impl Ink {
         self.convex(corners(rect));
     }
 
-    /// A label and its leader.
+    /// A label and its leader, neither of which another leader should cross.
     pub(super) fn placed(&mut self, placed: Option<&Placed>) {
         let Some(placed) = placed else { return };
-        // No other leader should cross the label.
         self.piece(corners(placed.rect), true);
-        if let Some([from, to]) = placed.leader {
-            self.line(from, to, 1.0);
+        if let Some(leader) = placed.leader {
+            self.piece(leader, true);
         }
     }
 

@@ -111,7 +111,7 @@ mod tests {
             size: (20.0, 10.0),
             preferred: Vec::new(),
             ease: 0.0,
-            roams: true,
+            roams: Some(f64::INFINITY),
         };
         let wishes = [wish(50.0), wish(100.0)];
         let at = |x: f64, wish: &Wish| {

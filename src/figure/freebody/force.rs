@@ -489,6 +489,7 @@ pub(super) fn arrows(
             });
         }
     }
+    super::apart::apart(&mut arrows, camera);
     arrows
 }
 

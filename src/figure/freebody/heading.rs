@@ -30,7 +30,7 @@ pub(super) fn heading(
     }
     let room = width - 2.0 * MARGIN;
     let broken = |words: &str, most: usize, face: Face, size: f64| {
-        let lines = text::cut(text::wrap(words, face, size, room), most, face, size, room);
+        let lines = text::balanced(words, face, size, room, most);
         lines.into_iter().map(move |line| (line, face, size))
     };
     let mut lines = Vec::new();

@@ -8,6 +8,7 @@
 //!
 //! Bodies that touch the block are outlined, ground is hatched.
 
+mod apart;
 mod around;
 mod foot;
 mod force;
@@ -24,7 +25,7 @@ use super::option::Options;
 use crate::analysis::{Analysis, Contact};
 use crate::drawing::arrow::{straight, turning};
 use crate::drawing::hatch::{hatch, lines};
-use crate::drawing::placement::{Ink, Wish, place};
+use crate::drawing::placement::{Ink, Wish, place, place_where};
 use crate::drawing::symbol::{Accent, Symbol};
 use crate::drawing::{
     Anchor, Camera, Drawing, Face, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Text,
@@ -297,7 +298,7 @@ impl<'a> Sheet<'a> {
                         size: (wide, high),
                         preferred: (0..3).map(|row| place(f64::from(row))).collect(),
                         ease: 0.0,
-                        roams: false,
+                        roams: None,
                     },
                 ));
             }
@@ -350,7 +351,7 @@ impl<'a> Sheet<'a> {
                     size: (wide, high),
                     preferred: arrow.beside(from, wide, high),
                     ease: 0.0,
-                    roams: true,
+                    roams: Some(f64::INFINITY),
                 },
             ));
         }
@@ -418,7 +419,10 @@ impl<'a> Sheet<'a> {
         }
         let scene = &self.analysis.scene;
         let others = neighbours(&self.contacts, self.block);
-        let blocks = others.into_iter().filter(|b| matches!(b, BodyId::Block(_)));
+        let blocks = others
+            .iter()
+            .copied()
+            .filter(|b| matches!(b, BodyId::Block(_)));
         let mut blocks: Vec<BodyId> = blocks.collect();
         nameless += blocks.len().saturating_sub(MOST_NAMES);
         blocks.truncate(MOST_NAMES);
@@ -434,14 +438,21 @@ impl<'a> Sheet<'a> {
                 size,
                 preferred: self.inside(&scene.body(body).polygon),
                 ease: 8.0,
-                roams: own,
+                roams: own.then_some(f64::INFINITY),
             };
             let room = if own {
                 page
             } else {
                 self.camera.rect(self.view)
             };
-            match place(ink, room, &[wish])[0] {
+            // In another body it would seem to name that one; the heading names the block in any case.
+            let abroad = |_: usize, rect: PageRect| {
+                let at = rect.at.moved(rect.width / 2.0, rect.height / 2.0);
+                let at = self.camera.back(at);
+                let mut others = others.iter().filter(|other| **other != body);
+                others.any(|other| scene.body(*other).polygon.contains(at))
+            };
+            match place_where(ink, room, &[wish], &abroad)[0].filter(|p| !p.disliked) {
                 Some(placed) => {
                     if let Some(leader) = placed.leader {
                         let line = Outline::line(leader);

@@ -7,6 +7,7 @@
 mod bullet;
 mod chosen;
 mod comparison;
+mod cost;
 mod grid;
 mod row;
 mod step;

@@ -7,7 +7,7 @@ use crate::drawing::{Outline, PagePoint, Segment};
 use crate::geometry::Bounds;
 use crate::text;
 use crate::wording::failure;
-use crate::wording::number::percent;
+use crate::wording::number::{percent, quantity};
 
 /// Width and height of a thumbnail, pixels.
 const THUMBNAIL: (f64, f64) = (96.0, 60.0);
@@ -34,8 +34,9 @@ pub struct Row {
     /// The largest share of the friction available that an interface uses, in the steps that stand; `None` where none does:
     /// there missing forces would be counted among those that press and rub.
     pub friction: Option<f64>,
-    /// The largest force at one interface, N.
-    pub largest: f64,
+    /// The largest force at one interface in the steps that stand, N; `None` where none does: there missing forces would be
+    /// counted among those that press and rub.
+    pub largest: Option<f64>,
     /// What fails first, in words; empty where all stands. Of a comparison what changed.
     pub fails: String,
     /// How it looks.
@@ -60,7 +61,7 @@ impl Row {
         for frame in frames {
             bullets.extend(bullet::of(scene, frame));
         }
-        let contacts = || frames.iter().flat_map(|f| &f.contacts);
+        let standing = || frames.iter().filter(|f| f.verdict == Verdict::Stable);
         let mut placed: Vec<usize> = scene
             .frames
             .iter()
@@ -84,28 +85,21 @@ impl Row {
             title,
             verdict: analysis.verdict(),
             before: None,
-            stand: (
-                frames
-                    .iter()
-                    .filter(|f| f.verdict == Verdict::Stable)
-                    .count(),
-                frames.len(),
-            ),
+            stand: (standing().count(), frames.len()),
             blocks: placed.len(),
             closest: match (bullet::closest(&bullets), analysis.verdict()) {
                 (None, _) => None,
                 (Some(_), Verdict::Unstable) => Some(("none: it falls".into(), -1.0)),
                 (Some(b), _) => Some((text::line(&b.short), b.reserve)),
             },
-            friction: frames
-                .iter()
-                .filter(|f| f.verdict == Verdict::Stable)
+            friction: standing()
                 .map(|f| f.contacts.iter().map(|c| c.friction_used))
                 .map(|shares| shares.fold(0.0, f64::max))
                 .reduce(f64::max),
-            largest: contacts()
-                .map(|c| c.resultant.force.norm())
-                .fold(0.0, f64::max),
+            largest: standing()
+                .map(|f| f.contacts.iter().map(|c| c.resultant.force.norm()))
+                .map(|forces| forces.fold(0.0, f64::max))
+                .reduce(f64::max),
             fails: text::line(&fails),
             thumbnail: thumbnail(analysis, &placed),
         }
@@ -116,6 +110,12 @@ impl Row {
     /// How much of the friction available is used, in words.
     pub(crate) fn friction_words(&self) -> String {
         self.friction.map_or_else(|| "none stands".into(), percent)
+    }
+
+    /// The largest force, in words.
+    pub(crate) fn largest_words(&self) -> String {
+        let words = |largest| quantity(largest, "N");
+        self.largest.map_or_else(|| "none stands".into(), words)
     }
 }
 

@@ -2,22 +2,20 @@
 
 use super::bullet::{self, Bullet};
 use super::chosen::chosen;
+use super::cost::cost;
 use super::{Chart, Grid, Plate, Touch, Wanted};
 use crate::analysis::{Analysis, Contact, EffectName, Failure, FrameAnalysis, Verdict};
 use crate::chart::{self, Bars};
 use crate::figure::{self, Kind, Options};
 use crate::geometry::Point;
 use crate::interface::ContactKind;
-use crate::report::result::Timing;
 use crate::scene::{BodyId, Scene};
 use crate::text::line;
-use crate::wording::number::{counted, digits, duration, letter, listed, percent, place};
-use crate::wording::{effect, failure, proof, verdict};
+use crate::wording::number::{digits, letter, listed, percent, place};
+use crate::wording::{failure, proof, verdict};
 
 /// Width of a figure, pixels.
 const WIDTH: f64 = 560.0;
-/// Stages shorter than this are not told, seconds.
-const LEAST_SECONDS: f64 = 1e-5;
 /// Of fewer interfaces a table says more than a chart.
 const FEW: usize = 8;
 /// So many figures of one scene are drawn with marks for the mouse only where they have at most this many of them.
@@ -201,7 +199,10 @@ fn totals(scene: &Scene, number: usize, found: &FrameAnalysis) -> Grid {
     if let Some(largest) = largest {
         let between = failure::pair(scene, largest.interface.bodies);
         add(
-            &line(&format!("largest force at an interface, between {between}")),
+            &line(&format!(
+                "largest force at an interface{}, between {between}",
+                of_what(found)
+            )),
             format!("{} N", digits(size(largest))),
         );
     }
@@ -313,67 +314,6 @@ fn failures(scene: &Scene, found: &FrameAnalysis) -> Grid {
         ];
         grid.add(format!("f{number}"), cells);
     }
-    grid
-}
-
-fn cost(found: &FrameAnalysis, timing: Timing) -> Grid {
-    let mut grid = Grid::new(
-        "What was simulated, and what was left out",
-        &["effect", "simulated", "why", "#unknowns"],
-    );
-    for described in &found.effects {
-        let name = format!(
-            "{}: {}",
-            described.effect,
-            effect::meaning(described.effect)
-        );
-        let simulated = if described.simulated {
-            "yes"
-        } else {
-            "left out"
-        };
-        let unknowns = match (described.simulated, described.unknowns) {
-            (false, 0) | (true, 0) => "none".to_owned(),
-            (true, n) => n.to_string(),
-            (false, n) => format!("{n} saved"),
-        };
-        grid.add(
-            "",
-            [name, simulated.to_owned(), line(&described.why), unknowns],
-        );
-    }
-    let solve = &found.solve;
-    let unknowns: usize = found
-        .effects
-        .iter()
-        .filter(|e| e.simulated)
-        .map(|e| e.unknowns)
-        .sum();
-    let mut how = format!(
-        "{}, {}; {}, of which earlier steps answered {}",
-        counted(solve.programs, "program"),
-        counted(solve.iterations, "iteration"),
-        counted(solve.groups, "separate part"),
-        solve.reused
-    );
-    if timing == Timing::Included {
-        let stages = [
-            ("posing", solve.stages.assembly),
-            ("solving and proving", solve.stages.solution),
-            ("wedging", solve.stages.wedging),
-            ("margins", solve.stages.margins),
-        ];
-        let spent = stages.iter().filter(|s| s.1 >= LEAST_SECONDS);
-        let spent: Vec<String> = spent
-            .map(|(stage, time)| format!("{stage} {}", duration(*time)))
-            .collect();
-        how.push_str(&format!("; {}", duration(solve.seconds)));
-        if !spent.is_empty() {
-            how.push_str(&format!(", of which {}", listed(&spent)));
-        }
-    }
-    let name = format!("all together, decided by: {}", solve.method.name());
-    grid.add("", [name, String::new(), how, unknowns.to_string()]);
     grid
 }
 

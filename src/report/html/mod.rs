@@ -15,7 +15,6 @@ use super::entry::{Row, Thumbnail};
 use super::page::{Made, Report};
 use crate::analysis::Verdict;
 use crate::text;
-use crate::wording::number::quantity;
 use crate::wording::verdict::plain;
 
 const STYLE: &str = include_str!("../../../assets/report/report.css");
@@ -177,7 +176,7 @@ fn overview(report: &Report, link: &dyn Fn(usize) -> String) -> Markup {
                             @if margins { th scope="col" data-sort="number" { "closest margin" } }
                             th.number scope="col" data-sort="number" { "friction used, where it stands" }
                             th.number scope="col" data-sort="number" { "blocks" }
-                            th.number scope="col" data-sort="number" { "largest force" }
+                            th.number scope="col" data-sort="number" { "largest force, where it stands" }
                             th scope="col" data-sort="text" { (fails) }
                         }
                     }
@@ -215,7 +214,7 @@ fn line(row: &Row, link: &str, margins: bool) -> Markup {
             }
             td.number data-value=(row.friction.unwrap_or(-1.0)) { (row.friction_words()) }
             td.number data-value=(row.blocks) { (row.blocks) }
-            td.number data-value=(row.largest) { (quantity(row.largest, "N")) }
+            td.number data-value=(row.largest.unwrap_or(-1.0)) { (row.largest_words()) }
             td.fails { bdi { (row.fails) } }
         }
     }

@@ -1,0 +1,81 @@
+//! [`apart`]: arrows of a free body that lie on one line, set side by side.
+//!
+//! A stone in the middle of a pile is pushed up on the line along which its weight pulls it down: drawn there, the two
+//! heads would run into each other. Only where an arrow is drawn changes; the list keeps the line along which it acts.
+
+use super::force::{Arrow, WIDTH};
+use crate::drawing::Camera;
+use crate::drawing::arrow::HEAD_WIDTH;
+
+/// Arrows whose directions differ by less than this, rad, run side by side.
+const PARALLEL: f64 = 0.12;
+/// Arrows that share less of their line than this touch end to end, pixels.
+const SHARED: f64 = 2.0;
+/// How far apart two axes are set, pixels: their heads and a little room.
+const STEP: f64 = (HEAD_WIDTH + 0.8) * WIDTH;
+
+/// Moves each arrow that runs along an earlier one beside it.
+pub(super) fn apart(arrows: &mut [Arrow], camera: &Camera) {
+    for i in 1..arrows.len() {
+        let (before, rest) = arrows.split_at_mut(i);
+        let Some(arrow) = rest.first_mut() else {
+            return;
+        };
+        let (x, y) = arrow.along;
+        let length = libm::hypot(x, y);
+        if arrow.turn.is_some() || length.is_nan() || length <= 0.0 {
+            continue;
+        }
+        let true_place = camera.place(arrow.at);
+        let (across_x, across_y) = (-y / length * STEP, x / length * STEP);
+        let places =
+            [0.0, 1.0, -1.0, 2.0, -2.0].map(|k| true_place.moved(k * across_x, k * across_y));
+        let clear = places.into_iter().find(|place| {
+            let mut before = before.iter().filter(|other| other.turn.is_none());
+            !before.any(|other| {
+                let from = camera.place(other.at);
+                one_line(
+                    other.along,
+                    arrow.along,
+                    (place.x - from.x, place.y - from.y),
+                )
+            })
+        });
+        if let Some(clear) = clear.filter(|clear| *clear != true_place) {
+            arrow.at = camera.back(clear);
+        }
+    }
+}
+
+/// Whether two arrows lie on each other, the second beginning so far from the first.
+fn one_line(first: (f64, f64), second: (f64, f64), offset: (f64, f64)) -> bool {
+    let (long, other) = (
+        libm::hypot(first.0, first.1),
+        libm::hypot(second.0, second.1),
+    );
+    if !(long > 0.0 && other > 0.0) {
+        return false;
+    }
+    let (ux, uy) = (first.0 / long, first.1 / long);
+    let cross = |(x, y): (f64, f64)| ux * y - uy * x;
+    let along = |(x, y): (f64, f64)| ux * x + uy * y;
+    let parallel = (cross(second) / other).abs() < PARALLEL;
+    let (a, b) = (along(offset), along(offset) + along(second));
+    let shared = long.min(a.max(b)) - a.min(b).max(0.0);
+    parallel && cross(offset).abs() < STEP - 0.1 && shared > SHARED
+}
+
+#[cfg(test)]
+mod tests {
+    use super::one_line;
+
+    #[test]
+    fn only_arrows_that_share_a_stretch_of_one_line_are_in_each_others_way() {
+        let up = (0.0, -40.0);
+        let down = (0.0, 20.0);
+        assert!(one_line(up, down, (0.0, -30.0)));
+        assert!(!one_line(up, down, (9.5, -30.0)), "beside each other");
+        assert!(!one_line(up, down, (0.0, 0.0)), "tail to tail");
+        assert!(!one_line(up, (20.0, 0.0), (0.0, -30.0)), "across");
+    }
+}

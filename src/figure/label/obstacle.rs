@@ -1,0 +1,54 @@
+//! [`ink`]: what a frame draws that no label may lie on.
+
+use crate::drawing::PagePoint;
+use crate::drawing::placement::Ink;
+use crate::figure::arrow::{ArrowKind, TurnArrow};
+use crate::figure::pen::{CENTROID, DOT, Pen};
+use crate::geometry::Polygon;
+
+/// The ink of ground, blocks, plans, discs and arrows.
+pub(crate) fn ink(pen: &Pen<'_>) -> Ink {
+    let mut ink = Ink::default();
+    let scene = &pen.stage.analysis.scene;
+    let frame = &scene.frames[pen.number];
+    let planned = frame.plans.iter().map(|p| p.block);
+    let blocks = frame.placed.iter().copied().chain(planned);
+    let polygons = blocks
+        .map(|id| &scene.blocks[id.0].body.polygon)
+        .chain(scene.ground.iter().map(|g| &g.body.polygon));
+    for edge in polygons.flat_map(Polygon::edges) {
+        let (from, to) = (pen.camera.place(edge.from), pen.camera.place(edge.to));
+        ink.line(from, to, pen.line);
+    }
+    for hold in &frame.holds {
+        ink.disc(pen.camera.place(pen.moved(hold.block, hold.at)), pen.disc());
+    }
+    let marks = &pen.stage.marks[pen.number];
+    for arrow in marks.arrows.iter().filter(|a| pen.seen(a)) {
+        let (from, along) = (pen.camera.place(arrow.at), pen.camera.turn(arrow.reach()));
+        ink.arrow(from, along, pen.width(arrow));
+        if arrow.kind == ArrowKind::Weight {
+            ink.disc(from, CENTROID * pen.width(arrow) + 1.0);
+        }
+    }
+    for arrow in pen.dots() {
+        ink.disc(pen.camera.place(arrow.at), DOT + 0.5);
+    }
+    for turn in marks.turns.iter().filter(|t| pen.turn_seen(t)) {
+        turning(&mut ink, pen, turn);
+    }
+    ink
+}
+
+/// A turning arrow's outline, cut across into pieces from its inner to its outer edge.
+fn turning(ink: &mut Ink, pen: &Pen<'_>, turn: &TurnArrow) {
+    let points: Vec<PagePoint> = pen.turn(turn).outline.points().collect();
+    let centre = pen.camera.place(turn.at);
+    for pair in points.windows(2) {
+        let width = 3.0 * pen.camera.length(turn.width);
+        // Points of the head and of both edges, each joined to the next, as wide as the head: no gap between them.
+        if libm::hypot(pair[0].x - centre.x, pair[0].y - centre.y) > 0.0 {
+            ink.line(pair[0], pair[1], width);
+        }
+    }
+}
