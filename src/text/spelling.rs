@@ -157,8 +157,8 @@ mod tests {
             for b in &words {
                 let all = plain(a, b);
                 for reach in 0..=5 {
-                    let told = rows.distance(a, b, reach);
-                    assert_eq!(told, Some(all).filter(|d| *d <= reach), "{a:?} {b:?}");
+                    let found = rows.distance(a, b, reach);
+                    assert_eq!(found, Some(all).filter(|d| *d <= reach), "{a:?} {b:?}");
                 }
             }
         }
