@@ -82,13 +82,17 @@ impl Wedged {
             at_least: (squeeze.least).map(|least| (least * scale.force, motion(&squeeze.bound))),
             gives_way: motion(&squeeze.motion),
             presses_nothing: squeeze.presses_nothing,
-            ruled_out: squeeze.cases.iter().map(|c| told(assembly, c)).collect(),
+            ruled_out: squeeze
+                .cases
+                .iter()
+                .map(|c| described(assembly, c))
+                .collect(),
         }
     }
 }
 
 /// A case in the frame's numbers of contacts.
-fn told(assembly: &Assembly, case: &solve::RuledOut) -> RuledOut {
+fn described(assembly: &Assembly, case: &solve::RuledOut) -> RuledOut {
     let interface = |contact: usize| assembly.contacts[contact].interface;
     let points = case.points.iter();
     let faces = case.faces.iter();

@@ -27,7 +27,6 @@ pub enum ContactKind {
 
 /// A stretch of edge shared by two bodies.
 #[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
 pub struct Interface {
     /// The two bodies; the first is always a block, the later one in the file.
     pub bodies: [BodyId; 2],

@@ -36,7 +36,7 @@ impl Lattice {
     /// ```
     /// use drystone::{Analysis, Scene, analysis::Verdict, starter::Lattice};
     /// let pile = |friction| Scene::new(Lattice { friction, ..Lattice::default() }.scene());
-    /// assert_eq!(pile(0.7)?.blocks.len(), 9);
+    /// assert_eq!(pile(0.7)?.blocks().len(), 9);
     /// assert_eq!(Analysis::of(&pile(0.7)?).verdict(), Verdict::Stable);
     /// assert_eq!(Analysis::of(&pile(0.05)?).verdict(), Verdict::Unstable);
     /// # Ok::<(), drystone::scene::Problems>(())

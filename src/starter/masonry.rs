@@ -38,7 +38,7 @@ impl Wall {
     /// ```
     /// use drystone::{Analysis, Scene, analysis::Verdict, starter::Wall};
     /// let wall = Scene::new(Wall::default().scene())?;
-    /// assert_eq!(wall.blocks.len(), 3 * 5 + 3 * 6);
+    /// assert_eq!(wall.blocks().len(), 3 * 5 + 3 * 6);
     /// assert_eq!(Analysis::of(&wall).verdict(), Verdict::Stable);
     /// # Ok::<(), drystone::scene::Problems>(())
     /// ```

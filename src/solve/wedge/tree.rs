@@ -57,7 +57,7 @@ pub(super) fn search(program: &Program) -> Search {
         let answer = solve(&conic, TOLERANCE, Conditioning::Full);
         let split = match answer.status {
             Status::Infeasible if contradicts(&conic, &answer.z, program) => {
-                ruled_out.push(case.told(&springs, &rough));
+                ruled_out.push(case.described(&springs, &rough));
                 continue;
             }
             Status::Solved => {
@@ -127,7 +127,7 @@ impl Case {
     }
 
     /// What the case says.
-    fn told(&self, springs: &Springs, rough: &dyn Fn(usize) -> bool) -> RuledOut {
+    fn described(&self, springs: &Springs, rough: &dyn Fn(usize) -> bool) -> RuledOut {
         let end = |k: usize| {
             let before = springs.points[..k].iter();
             let contact = springs.points[k].contact;
