@@ -9,7 +9,7 @@
 use super::{Ask, Doubt, FrameAnalysis, Options, Verdict, examine, examine_found};
 use crate::geometry::Point;
 use crate::interface::{Interface, Interfaces, Near, Touching, held_open};
-use crate::scene::{BodyId, Note, NoteCode, Penetration, Scene, ToleranceSource};
+use crate::scene::{BodyId, Note, NoteCode, Penetration, Scene, ToleranceSource, size};
 
 /// So many places are named.
 const NAMED: usize = 3;
@@ -17,6 +17,11 @@ const NAMED: usize = 3;
 const NOTED: usize = 10;
 /// What may have been meant to touch is closed by so many times the widest of it.
 const ENOUGH: f64 = 1.01;
+/// A corner that is off by rounding lies farther from where it belongs than from either of its edges, along which gaps and
+/// overlaps are measured: closing may take so many times the widest of them.
+const CORNERS: f64 = 2.5;
+/// What is meant to touch is no farther apart than this part of the smallest block's size.
+const NARROW: f64 = 0.01;
 
 /// Where two bodies may have been meant to touch.
 #[derive(Clone, Copy)]
@@ -87,24 +92,42 @@ pub(super) fn judge(
     let Some(widest) = (places.iter().flatten().map(|p| p.size)).reduce(f64::max) else {
         return;
     };
-    let closed = scene.closed(ENOUGH * widest);
     let options = Options {
         margins: Ask::No,
         wedging: Ask::No,
         ..*options
     };
-    let (_, others) = examine(&closed, &options);
-    for ((frame, other), mut places) in frames.iter_mut().zip(&others).zip(places) {
+    let closed = |closing: f64| (closing, examine(&scene.closed(closing), &options).1);
+    let mut others = vec![closed(ENOUGH * widest)];
+    let same = |((frame, other), places): ((&FrameAnalysis, &FrameAnalysis), &Vec<Place>)| {
+        !places.is_empty() && frame.verdict == other.verdict
+    };
+    if frames.iter().zip(&others[0].1).zip(&places).any(same) {
+        let sizes = scene.blocks.iter().map(|b| size(&b.body.polygon));
+        let smallest = sizes.fold(f64::INFINITY, f64::min);
+        let wider = (CORNERS * widest).min(NARROW * smallest);
+        if wider > ENOUGH * widest {
+            others.push(closed(wider));
+        }
+    }
+    for (number, (frame, mut places)) in frames.iter_mut().zip(places).enumerate() {
         places.sort_by(|a, b| b.size.total_cmp(&a.size));
         let overlaps: Vec<Place> = places.iter().copied().filter(|p| p.overlaps).collect();
         let open = |verdict: Verdict| verdict == Verdict::Undecided;
+        let closed = others
+            .iter()
+            .map(|(closing, all)| (*closing, all[number].verdict));
+        let decided = |(_, other): &(f64, Verdict)| !open(*other) && *other != frame.verdict;
+        let (closing, other) = (closed.clone().find(decided))
+            .or(closed.clone().next())
+            .unwrap_or((ENOUGH * widest, frame.verdict));
         // Beside an overlap no verdict is given that was not reached both ways.
-        let unsure = open(frame.verdict) || (open(other.verdict) && overlaps.is_empty());
+        let unsure = open(frame.verdict) || (open(other) && overlaps.is_empty());
         if places.is_empty() {
             continue;
         }
-        if frame.verdict != other.verdict && !unsure {
-            frame.doubts = vec![gaps(scene, [frame.verdict, other.verdict], &places)];
+        if frame.verdict != other && !unsure {
+            frame.doubts = vec![gaps(scene, [frame.verdict, other], &places, closing)];
             frame.verdict = Verdict::Undecided;
         } else if !overlaps.is_empty() && !open(frame.verdict) {
             frame.notices.push(format!(
@@ -224,13 +247,12 @@ pub(super) fn notes(scene: &Scene, found: &Interfaces) -> Vec<Note> {
     notes
 }
 
-fn gaps(scene: &Scene, verdicts: [Verdict; 2], places: &[Place]) -> Doubt {
-    let widest = places.first().map_or(0.0, |place| place.size);
+fn gaps(scene: &Scene, verdicts: [Verdict; 2], places: &[Place], closing: f64) -> Doubt {
     Doubt::Gaps {
         open: verdicts[0],
         closed: verdicts[1],
-        closing: ENOUGH * widest,
-        words: words(scene, verdicts, places, ENOUGH * widest),
+        closing,
+        words: words(scene, verdicts, places, closing),
     }
 }
 

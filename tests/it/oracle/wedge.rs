@@ -209,7 +209,7 @@ fn share(case: &RuledOut) -> RBig {
 /// Whether two cases say different things of a point or a face.
 fn apart(one: &RuledOut, other: &RuledOut) -> bool {
     let points = one.points.iter().any(|a| {
-        let same = |b: &&_| ends(a) == ends(*b);
+        let same = |b: &&_| ends(a) == ends(b);
         other
             .points
             .iter()
