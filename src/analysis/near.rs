@@ -2,7 +2,8 @@
 //!
 //! Edges that face each other with a gap above the contact tolerance and below a hundredth of the block's size may have
 //! been meant to touch, and so may bodies that overlap by as little. Where there are such places a frame is judged both
-//! ways: as it is written, where neither a gap nor an overlap carries force, and with all of them closed. If the verdicts
+//! ways: as it is written, where neither a gap nor an overlap carries force, and with all of them closed, if need be as far as
+//! the corners beside them may be off. If the verdicts
 //! differ nobody can say which structure was meant: the frame is undecided, with the places and the tolerance that settles
 //! it. If they agree an overlap is reported beside the verdict. A tolerance that somebody gave settles it already.
 

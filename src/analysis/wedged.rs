@@ -31,8 +31,8 @@ pub struct Wedged {
 ///
 /// At a point that presses N = −g with g its opening, at one that does not N = 0 and g ≥ 0; a face that sticks has T = −s with
 /// s its slip along (−n_y, n_x), |T| ≤ μ(N₁ + N₂), and one that slides T = ∓μ(N₁ + N₂) and ±s ≥ μ(N₁ + N₂). Of the others N ≥ 0,
-/// N ≥ −g and |T| ≤ μ(N₁ + N₂) hold all the same. Springs have unit stiffness. With the balance, and where no robot holds on
-/// with loads whose work is not negative, this has no solution.
+/// N ≥ −g and |T| ≤ μ(N₁ + N₂) hold all the same. Springs have unit stiffness. Together with the balance, and where no robot
+/// holds a block with the condition that the work of the loads is not negative, this has no solution.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct RuledOut {

@@ -1,10 +1,14 @@
 //! A program whose joints are parallel, or square to each other, where they are so but for the rounding of coordinates.
 
+use core::f64::consts::FRAC_PI_2;
+
 use super::Program;
 use crate::geometry::{Vector, cross};
 
 /// Joints whose directions, or the squares to them, differ by less than this, in radians, are meant to be the same.
 const SAME: f64 = 1e-5;
+/// Turns below this, in radians, are the rounding of angles.
+const ROUNDING: f64 = 1e-12;
 
 impl Program {
     /// The program with nearly parallel joints made parallel; `None` where there are none.
@@ -12,33 +16,51 @@ impl Program {
     /// Between faces that are parallel but for 10⁻⁶ a block is a wedge so slender that velocities of 10⁶ open it; then the
     /// least force ends without a status, which it does not where the faces are parallel, or less nearly so.
     pub fn with_straight_joints(&self) -> Option<Program> {
-        let mut angles: Vec<(f64, usize)> = self
-            .contacts
-            .iter()
-            .enumerate()
-            .map(|(k, contact)| (beyond_square(contact.normal), k))
-            .collect();
-        angles.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let mut straight = self.clone();
-        let mut changed = false;
-        for same in angles.chunk_by(|a, b| b.0 - a.0 <= SAME) {
-            let mean = same.iter().map(|a| a.0).sum::<f64>() / same.len() as f64;
-            for (angle, k) in same {
-                changed |= *angle != mean;
-                let normal = &mut straight.contacts[*k].normal;
-                let (sin, cos) = libm::sincos(mean - angle);
-                *normal = Vector::new(
-                    cos * normal.x - sin * normal.y,
-                    sin * normal.x + cos * normal.y,
-                );
-            }
+        let normals: Vec<Vector> = self.contacts.iter().map(|c| c.normal).collect();
+        let turns = turns(&normals);
+        if turns.iter().all(|turn| turn.abs() <= ROUNDING) {
+            return None;
         }
-        changed.then_some(straight)
+        let mut straight = self.clone();
+        for (contact, turn) in straight.contacts.iter_mut().zip(turns) {
+            contact.normal = turned(contact.normal, turn);
+        }
+        Some(straight)
     }
 }
 
-/// The angle of a direction from the nearest axis, radians, from −π/4 to π/4.
-fn beyond_square(direction: Vector) -> f64 {
+/// By how much each of some directions is to be turned, radians, so that those which are nearly parallel or square are so.
+fn turns(directions: &[Vector]) -> Vec<f64> {
+    let angles = directions.iter().map(|d| beyond_axis(*d));
+    let mut angles: Vec<(f64, usize)> = angles.zip(0..).collect();
+    angles.sort_by(|a, b| a.0.total_cmp(&b.0));
+    // Directions halfway between the axes lie at both ends of the list: it begins again behind the first gap.
+    let gap = angles.windows(2).position(|w| w[1].0 - w[0].0 > SAME);
+    let first = gap.map_or(0, |gap| gap + 1);
+    for (angle, _) in &mut angles[..first] {
+        *angle += FRAC_PI_2;
+    }
+    angles.rotate_left(first);
+    let mut turns = vec![0.0; directions.len()];
+    for same in angles.chunk_by(|a, b| b.0 - a.0 <= SAME) {
+        let mean = same.iter().map(|a| a.0).sum::<f64>() / same.len() as f64;
+        for (angle, number) in same {
+            turns[*number] = mean - angle;
+        }
+    }
+    turns
+}
+
+fn turned(direction: Vector, angle: f64) -> Vector {
+    let (sin, cos) = libm::sincos(angle);
+    Vector::new(
+        cos * direction.x - sin * direction.y,
+        sin * direction.x + cos * direction.y,
+    )
+}
+
+/// The angle of a direction beyond the nearest axis, radians, from −π/4 to π/4.
+fn beyond_axis(direction: Vector) -> f64 {
     let axis = if direction.x.abs() >= direction.y.abs() {
         Vector::new(direction.x.signum(), 0.0)
     } else {
@@ -51,14 +73,34 @@ fn beyond_square(direction: Vector) -> f64 {
 mod tests {
     use super::*;
 
+    fn along(angle: f64) -> Vector {
+        Vector::new(libm::cos(angle), libm::sin(angle))
+    }
+
+    /// In whatever direction a wall stands, halfway between the axes too.
     #[test]
-    fn an_angle_is_that_from_the_nearest_axis() {
-        for turn in [-0.7, -1e-7, 0.0, 0.3] {
-            for quarters in 0..4 {
-                let angle = turn + f64::from(quarters) * core::f64::consts::FRAC_PI_2;
-                let direction = Vector::new(libm::cos(angle), libm::sin(angle));
-                assert!((beyond_square(direction) - turn).abs() < 1e-15, "{angle}");
+    fn what_is_nearly_parallel_or_square_becomes_so_and_nothing_else_turns() {
+        for turn in [0.0, -0.7, 0.3, FRAC_PI_2 / 2.0, -FRAC_PI_2 / 2.0] {
+            let off = [1e-6, -2e-6, 5e-7, 0.0, -1e-6];
+            let mut directions: Vec<Vector> = (0..5_u8)
+                .zip(off)
+                .map(|(k, off)| along(turn + off + f64::from(k) * FRAC_PI_2))
+                .collect();
+            directions.push(along(turn + 0.01));
+            let turns = turns(&directions);
+            assert_eq!(turns[5], 0.0, "{turn}");
+            let straight: Vec<Vector> = directions
+                .iter()
+                .zip(&turns)
+                .map(|(d, turn)| turned(*d, *turn))
+                .collect();
+            for other in &straight[1..5] {
+                let (parallel, square) = (cross(straight[0], *other), straight[0].dot(other));
+                assert!(parallel.abs().min(square.abs()) < 1e-15, "{turn}");
             }
+            assert!(turns.iter().all(|turn| turn.abs() < 4e-6), "{turn}");
         }
+        let exact = turns(&[along(0.0), along(FRAC_PI_2)]);
+        assert!(exact.iter().all(|turn| turn.abs() <= ROUNDING));
     }
 }

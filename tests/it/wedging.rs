@@ -21,7 +21,7 @@ fn wedged(file: &Value) -> bool {
 }
 
 /// A bar between two walls whose faces lean towards each other at the top by `lean` over the bar's height.
-fn bar_between_walls(lean: f64, friction: f64) -> Value {
+pub fn bar_between_walls(lean: f64, friction: f64) -> Value {
     json!({ "drystone": 1, "friction": friction,
         "ground": [{ "polygon": [[-2, -2], [-2.0 * lean, -2], [lean * 2.0, 2], [-2, 2]] },
                    { "polygon": [[3.0 + 2.0 * lean, -2], [5, -2], [5, 2], [3.0 - 2.0 * lean, 2]] }],
@@ -29,7 +29,7 @@ fn bar_between_walls(lean: f64, friction: f64) -> Value {
 }
 
 /// Two columns on the floor with a bar between them, at half height.
-fn h_model(friction: f64) -> Value {
+pub fn h_model(friction: f64) -> Value {
     on_floor(
         friction,
         vec![

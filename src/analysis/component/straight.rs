@@ -4,7 +4,7 @@ use super::Case;
 use super::rung::Rung;
 use crate::program::Program;
 use crate::proof::Proof;
-use crate::solve::{Amounts, Effort, SolverSettings, corrected};
+use crate::solve::{Amounts, Choice, Effort, SolverSettings, corrected};
 
 /// Forces that balance, with what was shown of their sum.
 pub(super) struct Least {
@@ -17,7 +17,8 @@ pub(super) struct Least {
 
 impl Case<'_> {
     /// Forces of a smaller sum than those found, where the program of least force ended without a status: the least ones with
-    /// nearly parallel joints made parallel, changed least so that they balance as the joints are.
+    /// nearly parallel joints made parallel, changed least so that they balance as the joints are. Where any forces will do,
+    /// those found stay.
     pub(super) fn smaller(&self, program: &Program, found: Least, effort: &mut Effort) -> Least {
         match self.least_with_straight_joints(program, effort) {
             Some(least) if least.amounts.total() < found.amounts.total() => least,
@@ -26,8 +27,9 @@ impl Case<'_> {
     }
 
     fn least_with_straight_joints(&self, program: &Program, effort: &mut Effort) -> Option<Least> {
+        let wanted = |s: &&SolverSettings| s.choice != Choice::Any;
+        let settings = self.settings.iter().find(wanted)?;
         let straight = program.with_straight_joints()?;
-        let settings: &SolverSettings = self.settings.first()?;
         let attempt = Rung::Force(*settings).attempt(&straight);
         *effort = effort.and(attempt.effort);
         let amounts = corrected(program, attempt.forces.as_ref()?, effort)?;

@@ -2,16 +2,14 @@
 //! leave nothing out. The rows are made here, from outlines and the law of the springs, and solved by the exact simplex.
 
 use dashu_ratio::RBig;
-use drystone::Analysis;
-use drystone::Scene;
 use drystone::analysis::{Ask, FrameAnalysis, Options, RuledOut, Slide};
 use drystone::scene::BodyId;
-use serde_json::{Value, json};
+use drystone::{Analysis, Scene};
 
 use super::simplex::{LinearProgram, Row};
 use super::touch::exact;
-use crate::structure::on_floor;
-use crate::structure::{block, rectangle, scene};
+use crate::structure::scene;
+use crate::wedging::{bar_between_walls, h_model};
 
 /// Forces of more than so many times the weight of all are no rest of springs.
 const FAR: i64 = 1_000_000;
@@ -227,28 +225,13 @@ fn ends(point: &drystone::analysis::PointCase) -> (usize, usize) {
     (point.interface, point.point)
 }
 
-fn bar_between_walls(lean: f64, friction: f64) -> Value {
-    json!({ "drystone": 1, "friction": friction,
-        "ground": [{ "polygon": [[-2, -2], [-2.0 * lean, -2], [lean * 2.0, 2], [-2, 2]] },
-                   { "polygon": [[3.0 + 2.0 * lean, -2], [5, -2], [5, 2], [3.0 - 2.0 * lean, 2]] }],
-        "blocks": [{ "id": "bar", "polygon": [[0, 0], [3, 0], [3.0 - lean * 0.5, 0.5], [lean * 0.5, 0.5]], "weight": 6 }] })
-}
-
 #[test]
 fn every_case_of_a_wedge_is_ruled_out_in_fractions_too() {
-    let h_model = on_floor(
-        0.7,
-        vec![
-            block("left", rectangle(0.0, 0.0, 1.0, 3.0), 60.0),
-            block("right", rectangle(4.0, 0.0, 1.0, 3.0), 60.0),
-            block("bar", rectangle(1.0, 1.25, 3.0, 0.5), 6.0),
-        ],
-    );
     let mut cases = 0;
     for file in [
         bar_between_walls(0.0, 0.7),
         bar_between_walls(0.2, 0.7),
-        h_model,
+        h_model(0.7),
     ] {
         let scene = scene(&file);
         let options = Options::default().wedging(Ask::Yes);
