@@ -136,7 +136,7 @@ impl Batch {
 
     fn work(&self) -> Result<Work, Complaint> {
         let format = self.picture.asked().unwrap_or(Format::Png);
-        let picture = self.picture.clone().or_width(WIDTH, format);
+        let picture = self.picture.clone().or_width(WIDTH, format).of_many();
         let drawn = match &self.render {
             None => None,
             Some(folder) => {

@@ -9,7 +9,7 @@ use crate::cli::complaint::Complaint;
 use crate::drawing::{Colour, Drawing};
 use crate::output::fonts::Fonts;
 use crate::output::pdf::{self, PdfError};
-use crate::output::png::{self, PngError, Size};
+use crate::output::png::{self, Compression, PngError, Size};
 use crate::output::svg::{self, Words};
 use crate::output::tikz;
 
@@ -42,6 +42,9 @@ pub(crate) struct Picture {
     /// are written as their code points wherever the words are drawn here
     #[arg(long = "font", value_name = "FILE")]
     fonts: Vec<PathBuf>,
+    /// How hard a PNG is packed.
+    #[arg(skip)]
+    compression: Compression,
 }
 
 /// By how much a figure laid out for print is made smaller: letters of 12.5 pixels, 9.4 points, become 7.5 points high.
@@ -118,6 +121,14 @@ impl Picture {
         self
     }
 
+    /// One of so many that time matters more than the size of a file.
+    pub(crate) fn of_many(self) -> Picture {
+        Picture {
+            compression: Compression::Quick,
+            ..self
+        }
+    }
+
     /// Refuses what a format does not have.
     pub(crate) fn check(&self, format: Format) -> Result<(), Complaint> {
         let mut wrong = Vec::new();
@@ -168,7 +179,10 @@ impl Picture {
             Format::Png => {
                 // A page that is too large is refused before it is written out, which takes far more memory than the drawing.
                 png::check(drawing.width, drawing.height, self.size())
-                    .and_then(|()| png::render_in(&svg::write(&drawing), self.size(), fonts))
+                    .and_then(|()| {
+                        let text = svg::for_pixels(&drawing);
+                        png::render_in(&text, self.size(), fonts, self.compression)
+                    })
                     .map_err(|error| not_drawn(&error))
             }
             Format::Tikz => Ok(tikz::write(&drawing, self.width_mm).into_bytes()),
@@ -194,7 +208,7 @@ impl Picture {
         }
         let svgs: Vec<String> = drawings
             .into_iter()
-            .map(|drawing| svg::write(&self.on_page(drawing)))
+            .map(|drawing| svg::for_pixels(&self.on_page(drawing)))
             .collect();
         png::animate(&svgs, self.size(), seconds, fonts).map_err(|error| not_drawn(&error))
     }

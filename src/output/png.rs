@@ -1,6 +1,6 @@
 //! [`render`]: an SVG of ours as PNG bytes.
 
-use std::collections::BTreeSet;
+use std::collections::HashSet;
 
 use resvg::tiny_skia::{Pixmap, PremultipliedColorU8, Transform};
 
@@ -24,6 +24,27 @@ pub enum Size {
         /// Pixels per inch.
         dpi: f64,
     },
+}
+
+/// How hard a PNG is packed. The picture is the same, pixel for pixel.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Compression {
+    /// Small files.
+    #[default]
+    Small,
+    /// A fourth of the time, for files a third larger: for thousands of pictures.
+    Quick,
+}
+
+impl Compression {
+    /// Figures are flat: differences of neighbours, which help photographs, cost time here and make files larger.
+    fn set(self, encoder: &mut png::Encoder<'_, &mut Vec<u8>>) {
+        encoder.set_filter(png::Filter::NoFilter);
+        encoder.set_deflate_compression(png::DeflateCompression::Level(match self {
+            Compression::Small => 6,
+            Compression::Quick => 1,
+        }));
+    }
 }
 
 /// Why there is no picture.
@@ -69,19 +90,24 @@ pub const MOST_ACROSS: u32 = 32_000;
 /// # Ok::<(), drystone::output::png::PngError>(())
 /// ```
 pub fn render(svg: &str, size: Size) -> Result<Vec<u8>, PngError> {
-    render_in(svg, size, &Fonts::default())
+    render_in(svg, size, &Fonts::default(), Compression::default())
 }
 
-/// As [`render`], with more fonts than ours.
+/// As [`render`], with more fonts than ours, packed as told.
 ///
 /// # Errors
 /// As [`render`].
-pub fn render_in(svg: &str, size: Size, fonts: &Fonts) -> Result<Vec<u8>, PngError> {
+pub fn render_in(
+    svg: &str,
+    size: Size,
+    fonts: &Fonts,
+    compression: Compression,
+) -> Result<Vec<u8>, PngError> {
     let per_metre = match size {
         Size::Print { dpi, .. } => Some((dpi * 1000.0 / MM_PER_INCH).round() as u32),
         _ => None,
     };
-    encode(&raster(svg, size, fonts)?, per_metre)
+    encode(&raster(svg, size, fonts)?, per_metre, compression)
 }
 
 /// The pixels of a picture, before they are packed.
@@ -139,7 +165,7 @@ pub fn animate(
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, first.width(), first.height());
     encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_compression(png::Compression::Balanced);
+    Compression::Small.set(&mut encoder);
     encoder.set_color(png::ColorType::Rgba);
     encoder
         .set_animated(pictures.len() as u32, 0)
@@ -206,12 +232,16 @@ fn raster(svg: &str, size: Size, fonts: &Fonts) -> Result<Pixmap, PngError> {
     Ok(pixels)
 }
 
-fn encode(pixels: &Pixmap, per_metre: Option<u32>) -> Result<Vec<u8>, PngError> {
+fn encode(
+    pixels: &Pixmap,
+    per_metre: Option<u32>,
+    compression: Compression,
+) -> Result<Vec<u8>, PngError> {
     let colours = Colours::of(pixels);
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, pixels.width(), pixels.height());
     encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_compression(png::Compression::Balanced);
+    compression.set(&mut encoder);
     encoder.set_pixel_dims(per_metre.map(|n| png::PixelDimensions {
         xppu: n,
         yppu: n,
@@ -237,10 +267,15 @@ enum Colours {
 
 impl Colours {
     fn of(pixels: &Pixmap) -> Colours {
-        let mut table = BTreeSet::new();
+        let mut found = HashSet::new();
+        // Figures are flat: most pixels are as the one before.
+        let mut before = None;
         for pixel in pixels.pixels() {
-            table.insert(straight(*pixel));
-            if table.len() > 256 {
+            if before.replace(*pixel) == Some(*pixel) {
+                continue;
+            }
+            found.insert(straight(*pixel));
+            if found.len() > 256 {
                 let opaque = pixels.pixels().iter().all(|p| p.is_opaque());
                 return if opaque {
                     Colours::Opaque
@@ -249,35 +284,41 @@ impl Colours {
                 };
             }
         }
-        Colours::Table(table.into_iter().collect())
+        let mut table: Vec<_> = found.into_iter().collect();
+        table.sort_unstable();
+        Colours::Table(table)
     }
 
     fn data(&self, pixels: &Pixmap, encoder: &mut png::Encoder<'_, &mut Vec<u8>>) -> Vec<u8> {
-        let all = pixels.pixels().iter().map(|p| straight(*p));
         match self {
             Colours::Table(table) => {
                 encoder.set_color(png::ColorType::Indexed);
-                // Neighbours in a table are no neighbours in colour: differences say nothing.
-                encoder.set_filter(png::Filter::NoFilter);
-                encoder.set_palette(
-                    table
-                        .iter()
-                        .flat_map(|c| [c[0], c[1], c[2]])
-                        .collect::<Vec<_>>(),
-                );
+                let colours = table.iter().flat_map(|c| [c[0], c[1], c[2]]);
+                encoder.set_palette(colours.collect::<Vec<_>>());
                 if table.iter().any(|c| c[3] < 255) {
                     encoder.set_trns(table.iter().map(|c| c[3]).collect::<Vec<_>>());
                 }
-                all.map(|c| table.binary_search(&c).unwrap_or_default() as u8)
-                    .collect()
+                let (mut before, mut number) = (None, 0);
+                let numbers = pixels.pixels().iter().map(|pixel| {
+                    if before.replace(*pixel) != Some(*pixel) {
+                        let found = table.binary_search(&straight(*pixel));
+                        number = found.unwrap_or_default() as u8;
+                    }
+                    number
+                });
+                numbers.collect()
             }
             Colours::Opaque => {
                 encoder.set_color(png::ColorType::Rgb);
-                all.flat_map(|c| [c[0], c[1], c[2]]).collect()
+                // Where nothing shows through, the premultiplied colours are the colours.
+                let (all, _) = pixels.data().as_chunks::<4>();
+                let colours: Vec<[u8; 3]> = all.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect();
+                colours.into_flattened()
             }
             Colours::All => {
                 encoder.set_color(png::ColorType::Rgba);
-                all.flatten().collect()
+                let colours: Vec<[u8; 4]> = pixels.pixels().iter().map(|p| straight(*p)).collect();
+                colours.into_flattened()
             }
         }
     }
@@ -338,6 +379,43 @@ mod tests {
             for unknown in ["石", "🪨", "ア", "\u{e000}", "لوح"] {
                 let marks = "?".repeat(unknown.chars().count());
                 assert_eq!(picture(unknown, face), picture(&marks, face), "{unknown}");
+            }
+        }
+    }
+
+    fn decoded(bytes: Vec<u8>) -> Vec<u8> {
+        let mut decoder = png::Decoder::new(std::io::Cursor::new(bytes));
+        decoder.set_transformations(png::Transformations::ALPHA | png::Transformations::EXPAND);
+        let mut reader = decoder.read_info().expect("png");
+        let mut data = vec![0; reader.output_buffer_size().expect("size")];
+        reader.next_frame(&mut data).expect("frame");
+        data
+    }
+
+    #[test]
+    fn a_picture_has_the_pixels_drawn_however_it_is_packed() {
+        let ramp = "<linearGradient id='r'><stop stop-color='#f00'/><stop offset='0.5' stop-color='#0f0'/><stop offset='1' stop-color='#00f'/></linearGradient>\
+                    <rect width='600' height='40' fill='url(#r)'";
+        // A table of few colours, some half clear; many opaque ones; many half clear ones.
+        for (inside, colour_type) in [
+            (
+                "<rect width='9' height='9' fill='#123456' opacity='0.4'/>".to_owned(),
+                3,
+            ),
+            (format!("{ramp}/>"), 2),
+            (format!("{ramp} opacity='0.9'/>"), 6),
+        ] {
+            let svg = format!(
+                "<svg xmlns='http://www.w3.org/2000/svg' width='600' height='40'>{inside}</svg>"
+            );
+            let drawn = rgba(&svg, Size::Natural).expect("drawn").rgba.concat();
+            let [small, quick] = [Compression::Small, Compression::Quick].map(|compression| {
+                render_in(&svg, Size::Natural, &Fonts::default(), compression).expect("packed")
+            });
+            assert_eq!(small[25], colour_type, "the PNG's colour type");
+            assert!(small.len() <= quick.len());
+            for packed in [small, quick] {
+                assert!(decoded(packed) == drawn, "{inside}");
             }
         }
     }

@@ -51,6 +51,12 @@ pub fn write(drawing: &Drawing) -> String {
     document(drawing, None, &mark, Form::Names)
 }
 
+/// As [`write()`], for what is only turned into pixels: no other figure shares its page, so its names need no mark.
+#[cfg(all(feature = "cli", feature = "png"))]
+pub(crate) fn for_pixels(drawing: &Drawing) -> String {
+    document(drawing, None, "d", Form::Names)
+}
+
 /// A drawing as an SVG document of a size in print, or with words that do not depend on a reader's fonts.
 ///
 /// # Errors
