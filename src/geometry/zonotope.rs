@@ -98,10 +98,15 @@ fn exact(generators: &[Triple], point: Triple) -> f64 {
         return f64::INFINITY;
     };
     let mut worst: f64 = 0.0;
+    let rounding = Rounding {
+        off: ROUNDING * norm(point),
+        width: ROUNDING * generators.iter().map(|g| norm(*g)).sum::<f64>(),
+    };
     let mut along = |normal: Triple| {
         let length = norm(normal);
         if length > 0.0 {
-            worst = worst.max(ratio(generators, point, normal.map(|v| v / length)));
+            let normal = normal.map(|v| v / length);
+            worst = worst.max(ratio(generators, point, normal, rounding));
         }
     };
     for (k, a) in generators.iter().enumerate() {
@@ -133,18 +138,21 @@ fn exact(generators: &[Triple], point: Triple) -> f64 {
     worst
 }
 
+/// By how much the two sums of a [`ratio`] may be off.
+#[derive(Clone, Copy)]
+struct Rounding {
+    off: f64,
+    width: f64,
+}
+
 /// |n·r| / Σ |n·gᵢ|, its rounding counted against the generators.
-fn ratio(generators: &[Triple], point: Triple, normal: Triple) -> f64 {
+fn ratio(generators: &[Triple], point: Triple, normal: Triple, rounding: Rounding) -> f64 {
     let off = dot(normal, point).abs();
-    if off <= ROUNDING * norm(point) {
+    if off <= rounding.off {
         return 0.0;
     }
-    let (mut width, mut size) = (0.0, 0.0);
-    for g in generators {
-        width += dot(normal, *g).abs();
-        size += norm(*g);
-    }
-    let sure = width - ROUNDING * size;
+    let width: f64 = generators.iter().map(|g| dot(normal, *g).abs()).sum();
+    let sure = width - rounding.width;
     if sure > 0.0 {
         off / sure
     } else {

@@ -52,7 +52,8 @@ impl Factor {
         let first = products.iter().position(|v| *v != 0.0);
         let first = first.unwrap_or(products.len());
         self.forward_from(&mut products, first);
-        let mut entries = products.split_off(first);
+        let mut entries = Vec::with_capacity(products.len() + 1 - first);
+        entries.extend_from_slice(&products[first..]);
         let across = own - dot(&entries, &entries);
         if !(across > least) {
             return false;

@@ -84,6 +84,7 @@ impl Nearest {
         let mut changes = budget;
         // What was known may be all that it takes.
         let (mut entry, mut digits) = (Entry::Several, Digits::All);
+        let mut wanting = Vec::new();
         if !self.used.is_empty() {
             self.settle(loads, columns, &mut place, digits, &mut changes)?;
         }
@@ -91,7 +92,7 @@ impl Nearest {
             let rest = self.rest(loads, columns);
             let left = rest.iter().map(|v| v * v).sum::<f64>().sqrt();
             let enough = (WANTS * left).max(ROUNDING * size);
-            let mut wanting = Vec::new();
+            wanting.clear();
             for (k, column) in columns.iter().enumerate() {
                 let gain = match place[k] {
                     State::Out => column.dot(&rest),
@@ -121,7 +122,7 @@ impl Nearest {
             }
             digits = Digits::Some;
             let mut entered = Vec::new();
-            for k in entry.chosen(wanting, columns, loads.len()) {
+            for k in entry.chosen(&mut wanting, columns, loads.len()) {
                 changes = changes.checked_sub(1)?;
                 let amount = match place[k] {
                     State::Full => columns[k].limit,
@@ -304,14 +305,19 @@ enum Entry {
 
 impl Entry {
     /// Those of the columns that want in by their gains, of a problem of so many rows.
-    fn chosen(self, mut wanting: Vec<(f64, usize)>, columns: &[Column], rows: usize) -> Vec<usize> {
+    fn chosen(
+        self,
+        wanting: &mut Vec<(f64, usize)>,
+        columns: &[Column],
+        rows: usize,
+    ) -> Vec<usize> {
         wanting.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
         if self == Entry::One {
             wanting.truncate(1);
         }
         let mut taken = vec![false; rows.div_ceil(3)];
         let mut chosen = Vec::new();
-        for (_, k) in wanting {
+        for (_, k) in wanting.drain(..) {
             let blocks = || columns[k].entries().map(|(row, _)| row / 3);
             if blocks().all(|block| !taken[block]) {
                 blocks().for_each(|block| taken[block] = true);

@@ -50,6 +50,9 @@ pub(crate) fn area(ring: &[Corner]) -> f64 {
 /// So many times bodies that came out wrong are put back and the rest is tried again.
 const ROUNDS: usize = 12;
 
+/// What is nearer than this part of the gap is there already: a thousandth of what counts as having moved.
+const EXACT: f64 = 1e-9;
+
 /// What became of some bodies.
 pub(crate) struct Outcome {
     /// Their outlines.
@@ -126,10 +129,28 @@ fn envelope(b: Bounds) -> AABB<[f64; 2]> {
     AABB::from_corners([b.min.x, b.min.y], [b.max.x, b.max.y])
 }
 
+/// A node beside a side of another body, within their gaps.
+struct Beside<'s> {
+    node: usize,
+    side: &'s Side,
+    /// How far along the side, and how far off it; metres.
+    reach: f64,
+    off: f64,
+}
+
 fn attempt(bodies: &[Rings], gaps: &[f64], kept: &[bool]) -> Outcome {
     let mut nodes = Nodes::of(bodies, gaps, kept);
-    let sides = sides(bodies, &nodes);
-    let nearby = Nearby::of(sides);
+    let nearby = Nearby::of(sides(bodies, &nodes));
+    let found = beside(&nodes, &nearby, gaps, kept);
+    // Where everything fits already there is nothing to draw together.
+    let fits = |b: &Beside<'_>| !b.side.curved && b.off <= EXACT * nodes.all[b.node].gap;
+    if nodes.exact && found.iter().all(fits) {
+        return Outcome {
+            bodies: bodies.to_vec(),
+            moved: Vec::new(),
+            kept: Vec::new(),
+        };
+    }
     let mut touching: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); bodies.len()];
     for node in &nodes.all {
         for a in &node.bodies {
@@ -139,6 +160,35 @@ fn attempt(bodies: &[Rings], gaps: &[f64], kept: &[bool]) -> Outcome {
     // Where corners lie on straight sides, by the side; and those that curved sides take in, by how far along.
     let mut on: BTreeMap<[usize; 2], BTreeSet<usize>> = BTreeMap::new();
     let mut taken: BTreeMap<(usize, usize, usize), Vec<(f64, usize)>> = BTreeMap::new();
+    for Beside {
+        node, side, reach, ..
+    } in found
+    {
+        for body in &nodes.all[node].bodies {
+            touching[*body].insert(side.body);
+            touching[side.body].insert(*body);
+        }
+        if side.curved {
+            let key = (side.body, side.ring, side.corner);
+            taken.entry(key).or_default().push((reach, node));
+        } else {
+            let [a, b] = side.ends;
+            on.entry([a.min(b), a.max(b)]).or_default().insert(node);
+        }
+    }
+    let lines = Lines::of(&nodes, &on);
+    lines.settle(&mut nodes);
+    rebuilt(bodies, &nodes, taken, touching, gaps)
+}
+
+/// The nodes that lie beside sides of other bodies.
+fn beside<'s>(
+    nodes: &Nodes,
+    nearby: &'s Nearby<Side>,
+    gaps: &[f64],
+    kept: &[bool],
+) -> Vec<Beside<'s>> {
+    let mut found = Vec::new();
     for (number, node) in nodes.all.iter().enumerate() {
         let around = Bounds {
             min: node.at,
@@ -154,28 +204,21 @@ fn attempt(bodies: &[Rings], gaps: &[f64], kept: &[bool]) -> Outcome {
             let length = along.norm();
             let reach = (node.at - from).dot(&along) / length;
             let foot = from + along * (reach / length);
+            let off = (node.at - foot).norm();
             // Written so that a side of no length takes nothing.
             let gap = node.gap.min(gaps[side.body]);
-            let beside = reach > 0.0 && reach < length && (node.at - foot).norm() <= gap;
-            if !beside || (side.curved && kept[side.body]) {
-                continue;
-            }
-            for body in &node.bodies {
-                touching[*body].insert(side.body);
-                touching[side.body].insert(*body);
-            }
-            if side.curved {
-                let key = (side.body, side.ring, side.corner);
-                taken.entry(key).or_default().push((reach, number));
-            } else {
-                let [a, b] = side.ends;
-                on.entry([a.min(b), a.max(b)]).or_default().insert(number);
+            let beside = reach > 0.0 && reach < length && off <= gap;
+            if beside && !(side.curved && kept[side.body]) {
+                found.push(Beside {
+                    node: number,
+                    side,
+                    reach,
+                    off,
+                });
             }
         }
     }
-    let lines = Lines::of(&nodes, &on);
-    lines.settle(&mut nodes);
-    rebuilt(bodies, &nodes, taken, touching, gaps)
+    found
 }
 
 fn sides(bodies: &[Rings], nodes: &Nodes) -> Vec<Side> {

@@ -23,6 +23,8 @@ pub(super) struct Nodes {
     /// First corner of each ring of each body, among all corners.
     starts: Vec<Vec<usize>>,
     of_corner: Vec<usize>,
+    /// Whether every corner lies exactly where its node does.
+    pub(super) exact: bool,
 }
 
 struct Loose {
@@ -89,10 +91,14 @@ impl Nodes {
                 fixed: fixed.is_some(),
             });
         }
+        let of_corner: Vec<usize> = cluster_of.into_iter().map(|c| number[c]).collect();
+        let places = of_corner.iter().map(|n| all[*n].at);
+        let exact = places.zip(&corners).all(|(at, corner)| at == corner.at);
         Nodes {
             all,
             starts,
-            of_corner: cluster_of.into_iter().map(|c| number[c]).collect(),
+            of_corner,
+            exact,
         }
     }
 
