@@ -32,7 +32,7 @@ pub use limit::{Extreme, Limit, least, most};
 pub use nearest::{Nearest, generators};
 pub use polish::polished;
 pub use refine::{corrected, relative};
-pub use residual::{Residual, least_residual};
+pub use residual::{Residual, any_balance, least_residual};
 pub use stick::{Stuck, stick, stick_in};
 pub use tangent::Tangent;
 pub use wedge::{Reach, RuledOut, Slide, Squeeze, reach};

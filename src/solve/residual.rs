@@ -13,15 +13,17 @@ use super::{
     Amounts, Conditioning, Effort, Face, Status, in_forces, largest, remainder, settled,
     solved_with_retry,
 };
-use crate::program::{Program, least_left};
+use crate::program::{Column, Program, least_left};
 
-/// What the program of the least residual gave.
+/// Forces and a motion, of which a proof takes one.
 #[derive(Clone, Debug)]
 pub struct Residual {
     /// The admissible forces.
     pub forces: Amounts,
-    /// The motion of largest power: three velocities per block.
+    /// The motion against them: three velocities per block, 0 where the forces balance.
     pub motion: Vec<f64>,
+    /// Whether the forces balance, or come as near to it as any do.
+    pub nearest: bool,
     /// The work it took.
     pub effort: Effort,
 }
@@ -30,59 +32,83 @@ pub struct Residual {
 /// by ten times the band within which forces count as balanced.
 const BEYOND_THE_BAND: f64 = 1e-6;
 
-/// What any balance may leave, in parts of the largest load, before the least residual is asked for.
+/// What any balance may leave, in parts of the largest load.
 const BALANCED: f64 = 1e-9;
 
-/// Finds forces that balance, or else those that leave least and the motion against which that is so; `None` where the
-/// solver ends without a status.
+/// A program with a largest load of 1.
 ///
-/// It is posed with a largest load of 1: on a wall of 410 bricks pushed to its edge loads of 300 end without a status,
-/// loads of 1 after some 70 iterations.
-pub fn least_residual(program: &Program) -> Option<Residual> {
-    let load = match largest(&program.loads) {
-        0.0 => 1.0,
-        load => load,
-    };
-    let columns = columns_in(program, load);
-    let slanted = Slanted::of(&columns);
-    let loads: Vec<f64> = program.loads.iter().map(|v| v / load).collect();
-    let mut effort = Effort::default();
-    let residual = |amounts: &[f64], y: &[f64], effort: Effort| {
-        let mut face = Face::whole(&program.loads, columns.clone());
-        face.amounts = slanted.amounts_of_all(&columns, amounts);
-        face.amounts.iter_mut().for_each(|amount| *amount *= load);
-        let (forces, _) = face.gathered(program);
-        Residual {
-            forces,
-            motion: y.iter().map(|v| -v).collect(),
-            effort,
+/// On a wall of 410 bricks pushed to its edge loads of 300 end without a status, loads of 1 after some 70 iterations.
+struct Posed<'p> {
+    program: &'p Program,
+    load: f64,
+    loads: Vec<f64>,
+    columns: Vec<Column>,
+    slanted: Slanted,
+}
+
+impl Posed<'_> {
+    fn of(program: &Program) -> Posed<'_> {
+        let load = match largest(&program.loads) {
+            0.0 => 1.0,
+            load => load,
+        };
+        let columns = columns_in(program, load);
+        Posed {
+            program,
+            load,
+            loads: program.loads.iter().map(|v| v / load).collect(),
+            slanted: Slanted::of(&columns),
+            columns,
         }
+    }
+
+    /// The forces of these amounts, in the program's own numbers.
+    fn forces(&self, amounts: &[f64]) -> Amounts {
+        let mut face = Face::whole(&self.program.loads, self.columns.clone());
+        face.amounts = self.slanted.amounts_of_all(&self.columns, amounts);
+        face.amounts
+            .iter_mut()
+            .for_each(|amount| *amount *= self.load);
+        face.gathered(self.program).0
+    }
+}
+
+/// Forces that balance, or a motion that shows that none do; neither forces nor motion where the solver tells neither.
+pub fn any_balance(program: &Program) -> Residual {
+    let posed = Posed::of(program);
+    let (loads, columns) = (&posed.loads, &posed.slanted.columns);
+    let mut effort = Effort::default();
+    let any = in_forces(loads, columns, Conditioning::Plain, &mut effort, |_| 0.0);
+    let mut found = Residual {
+        forces: Amounts::none(program),
+        motion: vec![0.0; loads.len()],
+        nearest: false,
+        effort,
     };
-    let any = in_forces(
-        &loads,
-        &slanted.columns,
-        Conditioning::Plain,
-        &mut effort,
-        |_| 0.0,
-    );
     match any.status {
         Status::Solved => {
             let settings = Conditioning::Plain.into();
-            let amounts = settled(&loads, &slanted.columns, any.amounts, settings, &mut effort);
-            if largest(&remainder(&loads, &slanted.columns, &amounts)) <= BALANCED {
-                return Some(residual(&amounts, &vec![0.0; loads.len()], effort));
-            }
+            let amounts = settled(loads, columns, any.amounts, settings, &mut found.effort);
+            found.nearest = largest(&remainder(loads, columns, &amounts)) <= BALANCED;
+            found.forces = posed.forces(&amounts);
         }
         Status::Unbounded => {
             let power: f64 = loads.iter().zip(&any.y).map(|(n, v)| n * v).sum();
             let way: f64 = any.y.iter().map(|v| v.abs()).sum();
-            if power > BEYOND_THE_BAND * way {
-                return Some(residual(&vec![0.0; any.amounts.len()], &any.y, effort));
-            }
+            found.nearest = power > BEYOND_THE_BAND * way;
+            found.motion = any.y.iter().map(|v| -v).collect();
         }
         _ => {}
     }
-    let (conic, row_of) = least_left(&loads, &slanted.columns);
+    found
+}
+
+/// The forces that leave least unbalanced and the motion against which that is so; `None` where the solver ends without a
+/// status.
+pub fn least_residual(program: &Program) -> Option<Residual> {
+    let posed = Posed::of(program);
+    let mut effort = Effort::default();
+    let (conic, row_of) = least_left(&posed.loads, &posed.slanted.columns);
     let answer = solved_with_retry(&conic, Conditioning::Plain, &mut effort);
     if answer.status != Status::Solved {
         return None;
@@ -96,5 +122,10 @@ pub fn least_residual(program: &Program) -> Option<Residual> {
             row => answer.z[row].max(0.0),
         })
         .collect();
-    Some(residual(&amounts, &answer.x[..loads.len()], effort))
+    Some(Residual {
+        forces: posed.forces(&amounts),
+        motion: answer.x[..posed.loads.len()].iter().map(|v| -v).collect(),
+        nearest: true,
+        effort,
+    })
 }

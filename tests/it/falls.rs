@@ -6,7 +6,7 @@ use drystone::internals::geometry::{Point, Vector, cross};
 use drystone::scene::{BodyId, Scene};
 use serde_json::{Value, json};
 
-use crate::structure::{arch, scene, wall};
+use crate::structure::{arch, block, on_floor, rectangle, scene, wall};
 
 /// The same file with gravity turned to the right.
 fn turned(mut file: Value, degrees: f64) -> Value {
@@ -163,4 +163,17 @@ fn the_verdict_alone_is_proved_and_says_what_it_leaves_out() {
             assert!(off < 1e-6 * whole.total_force, "{degrees}°: off by {off} N");
         }
     }
+}
+
+/// A motion of very many blocks does little work on its way. Where it violates nothing that is no reason for doubt.
+#[test]
+fn the_verdict_alone_of_a_high_turned_stack_takes_one_program() {
+    let at = |k: i32| rectangle(0.0, 0.5 * f64::from(k), 1.0, 0.5);
+    let bricks = (0..2_000).map(|k| block(&k.to_string(), at(k), 6.0));
+    let scene = scene(&turned(on_floor(0.7, bricks.collect()), 26.0));
+    let asked = Options::default().verdict_only(Ask::Yes);
+    let frame = Analysis::with(&scene, &asked).frames.remove(0);
+    assert_eq!(frame.verdict, Verdict::Unstable);
+    assert!(frame.proof.holds());
+    assert_eq!(frame.solve.programs, 1);
 }

@@ -62,10 +62,13 @@ pub(in crate::analysis) enum Place {
 /// One program that may decide: the program of the least …
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Rung {
-    /// … force of many blocks, given up early.
+    /// … force, of many blocks, given up early.
     FirstLook(SolverSettings),
     /// … force.
     Force(SolverSettings),
+    /// … of nothing: any balance.
+    Any,
+    /// … residual.
     Residual,
     Sticking(SolverSettings),
 }
@@ -94,27 +97,33 @@ impl Attempt {
 impl Rung {
     /// From the quickest to the one that decides nearest to the edge.
     ///
-    /// Least force first, as nearly every component is decided there; then the least residual, which has an optimum on
-    /// either side of the edge; then least force with full precision; last the least sticking, whose optimum is the
+    /// Least force first, as nearly every component is decided there; then any balance and the least residual, which have
+    /// answers on either side of the edge; then least force with full precision; last the least sticking, whose optimum is the
     /// physical residual.
     ///
-    /// What is known to be at its edge begins with the least residual: the least force would end without a status there.
+    /// What is known to be at its edge begins with any balance: the least force would end without a status there.
     /// So do many blocks where any forces will do: walls of 410 and 915 bricks that fall take it 9 to 20 iterations, and
     /// the least force 9 to 60; where they stand it is the same to either.
     pub fn ladder(program: &Program, settings: &[SolverSettings], place: Place) -> Vec<Rung> {
         let mut rungs: Vec<Rung> = settings.iter().copied().map(Rung::Force).collect();
         let many = program.blocks >= MANY_BLOCKS;
         let any = settings.iter().all(|s| s.choice == Choice::Any);
+        let residual = [Rung::Any, Rung::Residual];
         match place {
             Place::Anywhere if many && !any => {
                 let quick = settings
                     .iter()
                     .find(|s| s.conditioning == Conditioning::Plain);
-                rungs.insert(0, Rung::Residual);
+                rungs.splice(0..0, residual);
                 rungs.splice(0..0, quick.copied().map(Rung::FirstLook));
             }
-            Place::Anywhere if !many => rungs.insert(1.min(rungs.len()), Rung::Residual),
-            _ => rungs.insert(0, Rung::Residual),
+            Place::Anywhere if !many => {
+                let second = 1.min(rungs.len());
+                rungs.splice(second..second, residual);
+            }
+            _ => {
+                rungs.splice(0..0, residual);
+            }
         }
         rungs.extend(settings.iter().copied().map(Rung::Sticking));
         rungs
@@ -124,6 +133,7 @@ impl Rung {
         match self {
             Rung::FirstLook(settings) => least_force::first_look(program, *settings),
             Rung::Force(settings) => least_force::attempt(program, *settings),
+            Rung::Any => least_residual::any(program),
             Rung::Residual => least_residual::attempt(program),
             Rung::Sticking(settings) => least_sticking::attempt(program, *settings),
         }
@@ -138,7 +148,7 @@ impl Rung {
     pub fn excludes_balance(&self, attempt: &Attempt) -> bool {
         match self {
             Rung::FirstLook(_) | Rung::Force(_) => false,
-            Rung::Residual => attempt.forces.is_some(),
+            Rung::Any | Rung::Residual => attempt.forces.is_some(),
             Rung::Sticking(_) => attempt.stuck.is_some(),
         }
     }
@@ -150,7 +160,7 @@ impl Rung {
                 Method::LeastForce
             }
             Rung::Force(_) => Method::LeastForceRefined,
-            Rung::Residual => Method::LeastResidual,
+            Rung::Any | Rung::Residual => Method::LeastResidual,
             Rung::Sticking(_) => Method::LeastSticking,
         }
     }
