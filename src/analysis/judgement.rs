@@ -6,7 +6,7 @@
 //! [`Analysis`](super::Analysis) does, so that a guess can save work and decide nothing.
 
 use super::component::Candidate;
-use super::{Analysis, Known, Options, Verdict, examined};
+use super::{Analysis, Ask, Known, Options, Verdict, examined};
 use crate::assembly::Assembly;
 use crate::effect::{self, Situation};
 use crate::interface::{Interface, Interfaces};
@@ -34,6 +34,7 @@ const OFF_SCALE: f64 = 100.0;
 /// # Ok::<(), drystone::scene::Problems>(())
 /// ```
 pub fn verdicts(scene: &Scene, options: &Options) -> Vec<Verdict> {
+    let options = &options.verdict_only(Ask::Yes);
     let found = Interfaces::of(scene);
     if hinges_on_gaps(scene, &found) {
         let frames = Analysis::with(scene, options).frames;
@@ -102,7 +103,8 @@ impl Guess {
                 return (verdict, Source::Guess);
             }
         }
-        let verdict = examined(&situation, *options, &mut Known::default()).verdict;
+        let alone = options.verdict_only(Ask::Yes);
+        let verdict = examined(&situation, alone, &mut Known::default()).verdict;
         (verdict, Source::Examined)
     }
 

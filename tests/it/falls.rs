@@ -1,7 +1,7 @@
 //! What falls: its failures are named, whatever the turn of gravity, and with them every block is in balance.
 
 use drystone::Analysis;
-use drystone::analysis::{Ask, EffectName, Failure, FrameAnalysis, Options, Verdict};
+use drystone::analysis::{Ask, EffectName, Failure, FrameAnalysis, Options, Verdict, verdicts};
 use drystone::internals::geometry::{Point, Vector, cross};
 use drystone::scene::{BodyId, Scene};
 use serde_json::{Value, json};
@@ -134,6 +134,7 @@ fn the_verdict_alone_is_proved_and_says_what_it_leaves_out() {
             "{degrees}°"
         );
         assert!(frame.proof.holds());
+        assert_eq!(verdicts(&scene, &Options::default()), [verdict]);
         let programs = |frame: &FrameAnalysis| frame.solve.programs;
         assert!(programs(&frame) <= programs(&whole), "{degrees}°");
         let sticking = |frame: &FrameAnalysis| {

@@ -6,7 +6,7 @@
 Every peer is asked once outside the count and then timed several times, in turns with the others; medians are told. Solvers
 of programs are handed the source's program with contacts found for them, and their time is that of one call of the solver; the
 time of drystone is that of its whole process: starting it, reading, finding contacts, everything it finds out, and the result
-as JSON. All times are processor time, so that other work on the machine counts little. Simulators get polygons and find
+as JSON; "one of many" is its share of a batch of many copies, which gives verdicts alone, as a solver does. All times are processor time, so that other work on the machine counts little. Simulators get polygons and find
 contacts themselves. A peer whose last answer took longer than --patience is not asked about that kind of structure again.
 """
 
@@ -44,6 +44,20 @@ def drystone(binary, level):
         frame = told["frames"][0]
         case.setdefault("interfaces", frame["interfaces"])
         return frame["verdict"] == "stable", seconds
+
+    return answer
+
+
+def drystone_batch(binary):
+    """The verdict of one scene among many that one process answers, reading and contacts included."""
+
+    def answer(case):
+        copies = max(1, 2000 // len(case["scene"]["blocks"]))
+        lines = (json.dumps(case["scene"]) + "\n") * copies
+        start = spent()
+        told = subprocess.run([binary, "batch", "--jobs", "1"], input=lines, capture_output=True, text=True, check=False).stdout
+        seconds = (spent() - start) / copies
+        return json.loads(told.split("\n", 1)[0])["verdict"] == "stable", seconds
 
     return answer
 
@@ -273,6 +287,7 @@ def main():
     contestants = [
         ("drystone", drystone(binary, "standard")),
         ("drystone --accuracy draft", drystone(binary, "draft")),
+        ("drystone batch, one of many", drystone_batch(binary)),
     ]
     for name, package, make in PEERS:
         if wanted.only and wanted.only not in name:
