@@ -82,7 +82,7 @@ pub(crate) fn of(name: &str, analysis: &Analysis, timing: Timing, width: Option<
         styles[1] = style(frame.verdict);
         line(&mut page, cells, &widths[..columns], styles);
         if columns < cells.len() {
-            page.line(&format!("      {}", cells[columns]));
+            page.line(&format!("      proof: {}", cells[columns]));
         }
         for remark in remarks(scene, frame) {
             page.line(&format!("      {remark}"));
