@@ -273,7 +273,11 @@ fn only_what_moves_apart_counts_between_two_bodies() {
     .with_friction(0.0);
     // Both rise together; the ground joint opens.
     let together = [moving(0, 0.0, 2.0, 0.0), moving(1, 0.0, 2.0, 0.0)];
-    assert_near(driven(&two, &together)[1], 0.0, 1e-14);
+    let [_, violation] = driven(&two, &together);
+    assert!(
+        violation > 0.0 && violation < 1e-14,
+        "the rounding of both: {violation}"
+    );
     // The lower one rises into the upper one, which rises by half as much.
     let into = [moving(0, 0.0, 2.0, 0.0), moving(1, 0.0, 1.0, 0.0)];
     assert_near(driven(&two, &into)[1], 0.5, 1e-14);
@@ -438,6 +442,6 @@ fn points_of_a_body_move_with_it() {
         .expect("a sound scene");
     let at = motion.at(&scene, Point::new(0.0, 3.0));
     assert_near((at - Vector::new(2.25, -2.0)).norm(), 0.0, 1e-12);
-    // The lower right corner goes by 3 + 0.75 and by −1 + 1, and no other faster.
-    assert_near(motion.fastest(&scene), 3.75, 1e-12);
+    // The lower left corner goes by 3 + 0.75 and by −1 − 1, and no other faster.
+    assert_near(motion.fastest(&scene), 4.25, 1e-12);
 }
