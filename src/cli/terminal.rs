@@ -1,7 +1,7 @@
 //! [`Terminal`]: the two streams, who may be quiet on them, and whether they carry colour.
 //!
-//! The only file that names anstream and terminal_size. Escape codes are written everywhere and taken out here, where a stream does not want
-//! them: because it is no terminal, because `NO_COLOR` is set, or because `--color` says so, which beats both.
+//! The only file that names anstream and terminal_size. Escape codes are written everywhere and taken out here, where a stream
+//! does not want them: because it is no terminal, because `NO_COLOR` is set, or because `--color` says so, which beats both.
 
 use std::io::{self, IsTerminal, Write};
 

@@ -350,6 +350,47 @@ fn rounding_counts_against_a_motion_by_its_own_size() {
     assert!(objects > 0.0 && objects < 1e-13, "{objects}");
 }
 
+/// To the last digits, because a motion is believed for what is left when all roundings are taken off.
+#[test]
+fn every_sum_of_a_motion_is_taken_at_its_worst() {
+    const EPSILON: f64 = f64::EPSILON;
+    // 1 W from the force and 1 W from the moment: nine roundings of 2 W are taken off.
+    let mut alone = on_ground(listed(1.0, 0.0, 1.0));
+    alone.contacts.clear();
+    alone.bodies[0].weight = 0.0;
+    alone = alone.settled();
+    let motion = [moving(0, 1.0, 0.0, 1.0)];
+    let watts = |assembly: &Assembly, motion: &[Motion]| {
+        let unit = moving_load(assembly, motion) * fastest(&assembly.bodies[0], &motion[0]);
+        driven(assembly, motion)[0] * unit
+    };
+    let found = watts(&alone, &motion);
+    assert!(found <= 2.0 - 12.0 * EPSILON && found > 2.0 - 1e-13);
+    // A moment of 10⁸ N·m that turns by 10⁻⁸ gives 1 W to as many digits.
+    alone.bodies[0].listed = listed(0.0, 0.0, 1e8);
+    alone = alone.settled();
+    assert_near(watts(&alone, &[moving(0, 0.0, 0.0, 1e-8)]), 1.0, 1e-13);
+    // A robot that takes 1 W: eight roundings of its speed, and nine of the sum.
+    let mut held = on_ground(listed(0.0, 0.0, 1.0));
+    held.contacts.clear();
+    held.bodies[0].weight = 0.0;
+    held = held.settled();
+    held.grips = vec![grip(0, 1.0, 0.0, 0.0)];
+    let found = watts(&held, &[moving(0, 1.0, 0.0, 0.0)]);
+    assert!(found <= -1.0 - 12.0 * EPSILON && found > -1.0 - 1e-13);
+    held.grips = vec![grip(0, 1e3, 0.0, 0.0)];
+    let found = watts(&held, &[moving(0, 1e-3, 0.0, 0.0)]);
+    assert_near(found, -1.0, 1e-14);
+    // A slide along a level joint: friction's share of its speed may be off by eight roundings of itself.
+    let slides = driven(&on_ground(LoadVector::NONE), &[moving(0, 1.0, 0.0, 0.0)]);
+    assert!(slides[1] >= 1.0 / 3.0 + 3.0 * EPSILON && slides[1] < 1.0 / 3.0 + 1e-14);
+    // What weighs nothing proves nothing by its motion.
+    let mut weightless = on_ground(LoadVector::NONE);
+    weightless.bodies[0].weight = 0.0;
+    let still = driven(&weightless.settled(), &[moving(0, 1.0, 1.0, 0.0)]);
+    assert_eq!(still, [0.0, 0.0]);
+}
+
 #[test]
 fn a_motion_bounds_the_sum_of_forces_from_below() {
     let forces = Forces {
