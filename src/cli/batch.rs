@@ -24,9 +24,7 @@ use crate::cli::terminal::Terminal;
 use crate::figure;
 use crate::output::file::Existing;
 use crate::output::fonts::Fonts;
-use crate::report::result::{
-    Fields, Picture as PictureState, Place, line_of, problem_line, verdict_line,
-};
+use crate::report::result::{Fields, Origin, PictureOutcome, line_of, problem_line, verdict_line};
 use crate::scene::{Code, Problem, Scene};
 use output::Output;
 use pace::Pace;
@@ -195,17 +193,17 @@ struct Answer {
 impl Work {
     /// The line for a record; a complaint where its picture could not be written, as nothing later could be either.
     fn answer(&self, record: Record) -> Result<Answer, Complaint> {
-        let place = Place {
+        let origin = Origin {
             file: record.file.as_ref().map(|f| f.display().to_string()),
             line: record.line,
         };
         let name = input::picture_name(&record);
-        let caught = catch_unwind(AssertUnwindSafe(|| self.examined(&place, &name, &record)));
+        let caught = catch_unwind(AssertUnwindSafe(|| self.examined(&origin, &name, &record)));
         caught.unwrap_or_else(|_| {
             let fault =
                 "the program failed on this scene; that is its own fault and no fault of the scene";
             Ok(refused(
-                &place,
+                &origin,
                 &[problem(
                     Code::InternalFault,
                     fault,
@@ -215,31 +213,31 @@ impl Work {
         })
     }
 
-    fn examined(&self, place: &Place, name: &str, record: &Record) -> Result<Answer, Complaint> {
+    fn examined(&self, origin: &Origin, name: &str, record: &Record) -> Result<Answer, Complaint> {
         let bytes = match &record.bytes {
             Ok(bytes) => bytes,
-            Err(why) => return Ok(refused(place, &[problem(Code::NotReadable, why, "")])),
+            Err(why) => return Ok(refused(origin, &[problem(Code::NotReadable, why, "")])),
         };
         let scene = match Scene::from_slice_within(bytes, self.level.contact_tolerance) {
             Ok(scene) => scene,
-            Err(problems) => return Ok(refused(place, &problems.list)),
+            Err(problems) => return Ok(refused(origin, &problems.list)),
         };
         let options = self.options();
         if self.drawn.is_none() && self.fields.are_few() {
             let verdict = verdicts(&scene, &options).into_iter().max();
             let verdict = verdict.unwrap_or(Verdict::Stable);
             return Ok(Answer {
-                line: verdict_line(place, &scene.title, verdict, &self.fields),
+                line: verdict_line(origin, &scene.title, verdict, &self.fields),
                 ending: Ending::from(verdict),
             });
         }
         let analysis = Analysis::with(&scene, &options);
         let picture = match &self.drawn {
-            None => PictureState::NotAsked,
+            None => PictureOutcome::NotAsked,
             Some(drawn) => drawn.draw(&analysis, name)?,
         };
         Ok(Answer {
-            line: line_of(place, &analysis, &picture, &self.fields),
+            line: line_of(origin, &analysis, &picture, &self.fields),
             ending: Ending::of(&analysis),
         })
     }
@@ -260,7 +258,7 @@ impl Work {
 
 impl Drawn {
     /// Draws a scene into its file. The file is there, whole, before the line that tells of it.
-    fn draw(&self, analysis: &Analysis, name: &str) -> Result<PictureState, Complaint> {
+    fn draw(&self, analysis: &Analysis, name: &str) -> Result<PictureOutcome, Complaint> {
         let name = format!("{name}.{}", self.format.ending());
         let legible = match self.picture.draws_words(self.format) {
             true => Arc::new(script::legible(&analysis.scene, &self.fonts)),
@@ -276,10 +274,10 @@ impl Drawn {
             Ok(bytes) => {
                 let file = (self.folder.join(&name), bytes);
                 destination::write(&[file], Existing::Replace)?;
-                Ok(PictureState::Drawn(name))
+                Ok(PictureOutcome::Drawn(name))
             }
             Err(Complaint::CommandLine(why) | Complaint::NotWritten { why, .. }) => {
-                Ok(PictureState::Refused(why))
+                Ok(PictureOutcome::Refused(why))
             }
             Err(other) => Err(other),
         }
@@ -299,9 +297,9 @@ fn problem(code: Code, message: &str, help: &str) -> Problem {
     }
 }
 
-fn refused(place: &Place, problems: &[Problem]) -> Answer {
+fn refused(origin: &Origin, problems: &[Problem]) -> Answer {
     Answer {
-        line: problem_line(place, problems),
+        line: problem_line(origin, problems),
         ending: Ending::WrongInput,
     }
 }

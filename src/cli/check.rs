@@ -181,9 +181,10 @@ impl Check {
             terminal.print_bytes(objects.concat().as_bytes())
         } else {
             let mut page = Page::default();
+            let width = terminal.width();
             if !terminal.is_quiet() {
                 for (source, analysis) in sources.iter().zip(&analyses) {
-                    page.append(&table::of(&source.name(), analysis, timing));
+                    page.append(&table::of(&source.name(), analysis, timing, width));
                     page.append(&noted(&analysis.notes));
                     page.end();
                 }
@@ -191,7 +192,7 @@ impl Check {
                     page.ours(table::LIMITS);
                 }
             }
-            terminal.print(&page)
+            terminal.print(&width.map_or(page.clone(), |width| page.fitted(width)))
         };
         printed.map_err(|c| vec![c])?;
         let wrong = refused.iter().map(|(.., complaint)| complaint.ending());

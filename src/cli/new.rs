@@ -10,7 +10,7 @@ use crate::cli::destination;
 use crate::cli::ending::Ending;
 use crate::cli::terminal::Terminal;
 use crate::output::file::Existing;
-use crate::starter::{Arch, Doorway, Lattice, Tower, Wall};
+use crate::starter::{Arch, Doorway, LatticePile, Tower, Wall};
 
 /// Write a scene to build on: a small example, or an arch, wall, tower, doorway or lattice to your measures
 #[derive(Debug, Args)]
@@ -194,7 +194,7 @@ impl Structure {
                 rows,
                 side,
                 friction,
-            } => Lattice {
+            } => LatticePile {
                 rows,
                 side,
                 friction,

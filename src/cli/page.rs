@@ -5,6 +5,7 @@
 //! cannot forget that: there is no other way onto the page.
 
 use clap::builder::styling::Style;
+use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
 use crate::text;
 
@@ -73,10 +74,64 @@ impl Page {
         self.text.push_str(&page.text);
     }
 
+    /// The page with no line wider than a terminal of so many columns: a wider one goes on below, further in than a row of a
+    /// table begins, so that what stands behind the break cannot be taken for one.
+    pub(crate) fn fitted(&self, width: usize) -> Page {
+        let mut page = Page::default();
+        for line in self.text.lines() {
+            page.broken(line, width);
+        }
+        page
+    }
+
+    fn broken(&mut self, line: &str, width: usize) {
+        let indent = line.len() - line.trim_start_matches(' ').len();
+        let hang = (indent + 2).clamp(4, 12).min(width / 2);
+        let (mut column, mut gap, mut is_begun) = (0, 0, false);
+        for (number, word) in line.split(' ').enumerate() {
+            gap += usize::from(number > 0);
+            if word.is_empty() {
+                continue;
+            }
+            if is_begun && column + gap + seen(word) > width {
+                self.text.push('\n');
+                (column, gap) = (0, hang);
+            }
+            self.text.extend(std::iter::repeat_n(' ', gap));
+            column += gap;
+            (gap, is_begun) = (0, true);
+            let mut rest = word;
+            while let Some(c) = rest.chars().next() {
+                let escape = colour(rest);
+                let (piece, behind) = rest.split_at(escape.unwrap_or(c.len_utf8()));
+                let wide = escape.map_or(c.width().unwrap_or(0), |_| 0);
+                if column + wide > width && column > hang {
+                    self.text.push('\n');
+                    self.text.extend(std::iter::repeat_n(' ', hang));
+                    column = hang;
+                }
+                self.text.push_str(piece);
+                column += wide;
+                rest = behind;
+            }
+        }
+        self.end();
+    }
+
     /// The page with its escape codes.
     pub(crate) fn text(&self) -> &str {
         &self.text
     }
+}
+
+/// How many columns of a terminal a text takes that may set colours.
+pub(crate) fn seen(text: &str) -> usize {
+    let Some(at) = text.find('\u{1b}') else {
+        return text.width();
+    };
+    let (before, rest) = text.split_at(at);
+    let behind = &rest[colour(rest).unwrap_or(1)..];
+    before.width() + seen(behind)
 }
 
 /// How many bytes of a text are an escape sequence that sets a colour, if it begins with one.
@@ -95,6 +150,30 @@ mod tests {
         let mut page = Page::of("a\n\u{1b}[31mb\rc");
         page.ours("x\n");
         assert_eq!(page.text(), "a \u{fffd}[31mb c\nx\n");
+    }
+
+    #[test]
+    fn a_line_wider_than_the_terminal_goes_on_further_in_and_loses_nothing() {
+        let mut page = Page::default();
+        page.styled(Style::new().bold(), "one two");
+        page.words(" three ");
+        page.line("abcdefghijklmnopqrstuvwxyz");
+        page.line("      石石石石 石石石 a");
+        page.line("  a  b");
+        let plain = page.fitted(16).text().replace("\u{1b}[1m", "");
+        let lines: Vec<&str> = plain.lines().collect();
+        let expected = [
+            "one two\u{1b}[0m three",
+            "    abcdefghijkl",
+            "    mnopqrstuvwx",
+            "    yz",
+            "      石石石石",
+            "        石石石 a",
+            "  a  b",
+        ];
+        assert_eq!(lines, expected);
+        assert!(lines.iter().all(|line| seen(line) <= 16));
+        assert_eq!(page.fitted(200), page);
     }
 
     #[test]

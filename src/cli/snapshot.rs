@@ -15,7 +15,7 @@ use crate::cli::terminal::Terminal;
 use crate::output::file::{Existing, Unwritten};
 use crate::snapshot::check::{Acceptance, folders};
 use crate::snapshot::store::{self, Use};
-use crate::snapshot::{Fault, Report, check, ci, discover, review};
+use crate::snapshot::{CheckOutcome, Fault, check, ci, discover, review};
 
 /// Check scenes and their pictures against the references beside them, in words
 ///
@@ -164,7 +164,7 @@ impl Snapshot {
     fn tell(
         &self,
         terminal: &Terminal,
-        report: &Report,
+        report: &CheckOutcome,
         described: &[String],
         accepts: bool,
         failing: &[String],
@@ -203,7 +203,7 @@ impl Snapshot {
     }
 }
 
-fn ending(report: &Report) -> Ending {
+fn ending(report: &CheckOutcome) -> Ending {
     if report.holds() {
         Ending::Done
     } else {

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use clap::builder::styling::{AnsiColor, Style};
 
 use crate::analysis::{Analysis, EffectName, FrameAnalysis, Verdict};
-use crate::cli::page::Page;
+use crate::cli::page::{Page, seen};
 use crate::report::result::Timing;
 use crate::scene::Scene;
 use crate::text::heading;
@@ -33,8 +33,14 @@ const TITLE: usize = 40;
 /// A scene's longer title is cut: a terminal would break the line, and what stands behind the break would look like a row.
 const HEADING: usize = 60;
 
-/// The table of one scene.
-pub(crate) fn of(name: &str, analysis: &Analysis, timing: Timing) -> Page {
+/// A narrow terminal cuts titles of frames to no less.
+const SHORTEST: usize = 8;
+
+/// The table of one scene, for a terminal of so many columns.
+///
+/// Where the rows would be wider, proofs stand below them, and titles are cut as far as it takes. What is said below the rows
+/// may be wider than the terminal: [`Page::fitted`] breaks it.
+pub(crate) fn of(name: &str, analysis: &Analysis, timing: Timing, width: Option<usize>) -> Page {
     let scene = &analysis.scene;
     let mut page = Page::default();
     page.styled(Style::new().bold(), name);
@@ -43,7 +49,7 @@ pub(crate) fn of(name: &str, analysis: &Analysis, timing: Timing) -> Page {
         page.words(&heading(&scene.title, HEADING));
     }
     page.end();
-    let rows: Vec<[String; 7]> = scene
+    let mut rows: Vec<[String; 7]> = scene
         .frames
         .iter()
         .zip(&analysis.frames)
@@ -54,20 +60,30 @@ pub(crate) fn of(name: &str, analysis: &Analysis, timing: Timing) -> Page {
         "frame", "verdict", "forces", "sticking", "friction", "robots", "proof",
     ]
     .map(String::from);
-    let width = |column: usize| {
-        let cells = rows
-            .iter()
-            .chain([&heads])
-            .map(|row| row[column].chars().count());
+    let widest = |rows: &[[String; 7]], column: usize| {
+        let cells = rows.iter().chain([&heads]).map(|row| seen(&row[column]));
         cells.max().unwrap_or(0)
     };
-    let widths: [usize; 7] = std::array::from_fn(width);
+    let mut widths: [usize; 7] = std::array::from_fn(|column| widest(&rows, column));
+    let mut columns = widths.len();
+    if let Some(width) = width.filter(|width| taken(&widths) > *width) {
+        columns -= 1;
+        let beyond = taken(&widths[..columns]).saturating_sub(width);
+        let most = widths[0].saturating_sub(beyond).max(SHORTEST);
+        for row in &mut rows {
+            row[0] = shortened(&row[0], most);
+        }
+        widths[0] = widest(&rows, 0);
+    }
     let dim = Style::new().dimmed();
-    line(&mut page, &heads, &widths, [dim; 7]);
+    line(&mut page, &heads, &widths[..columns], [dim; 7]);
     for (frame, cells) in analysis.frames.iter().zip(&rows) {
         let mut styles = [Style::new(); 7];
         styles[1] = style(frame.verdict);
-        line(&mut page, cells, &widths, styles);
+        line(&mut page, cells, &widths[..columns], styles);
+        if columns < cells.len() {
+            page.line(&format!("      proof: {}", cells[columns]));
+        }
         for remark in remarks(scene, frame) {
             page.line(&format!("      {remark}"));
         }
@@ -88,11 +104,20 @@ fn style(verdict: Verdict) -> Style {
     colour.on_default().bold()
 }
 
-/// Words to the left, numbers to the right of their columns.
-fn line(page: &mut Page, cells: &[String; 7], widths: &[usize; 7], styles: [Style; 7]) {
+/// Before the first column, and before every other.
+const GAPS: [&str; 2] = ["  ", "   "];
+
+/// How many columns of a terminal a row takes whose cells are so wide.
+fn taken(widths: &[usize]) -> usize {
+    let gaps = GAPS[0].len() + GAPS[1].len() * (widths.len() - 1);
+    widths.iter().sum::<usize>() + gaps
+}
+
+/// The first cells of a row: words to the left, numbers to the right of their columns.
+fn line(page: &mut Page, cells: &[String; 7], widths: &[usize], styles: [Style; 7]) {
     for (column, (cell, width)) in cells.iter().zip(widths).enumerate() {
-        let gap = " ".repeat(width - cell.chars().count());
-        page.words(if column == 0 { "  " } else { "   " });
+        let gap = " ".repeat(width.saturating_sub(seen(cell)));
+        page.words(GAPS[usize::from(column > 0)]);
         if (2..6).contains(&column) {
             page.words(&gap);
         }
@@ -102,6 +127,22 @@ fn line(page: &mut Page, cells: &[String; 7], widths: &[usize; 7], styles: [Styl
         }
     }
     page.end();
+}
+
+/// Words in no more columns than this; what is cut off leaves a mark.
+fn shortened(words: &str, most: usize) -> String {
+    if seen(words) <= most {
+        return words.into();
+    }
+    let mut short = String::new();
+    for c in words.chars() {
+        short.push(c);
+        if seen(&short) >= most {
+            short.pop();
+            break;
+        }
+    }
+    short + "…"
 }
 
 /// A frame by its letter, where it needs one, and its title.
@@ -203,4 +244,85 @@ fn remarks(scene: &Scene, frame: &FrameAnalysis) -> Vec<String> {
     }
     remarks.extend(frame.notices.iter().map(|n| format!("note: {n}")));
     remarks
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+    use std::path::Path;
+
+    use super::*;
+    use crate::analysis::{Ask, Options};
+    use crate::scene::format::{BlockEntry, LimitsEntry, RobotEntry, StepEntry};
+
+    fn assert_fits(name: &str, analysis: &Analysis) {
+        for width in [80, 100] {
+            let page = of(name, analysis, Timing::Included, Some(width)).fitted(width);
+            for line in page.text().lines() {
+                assert!(seen(line) <= width, "{width}: {line}");
+            }
+        }
+        // A file or another program gets every row whole.
+        let page = of(name, analysis, Timing::Included, None);
+        assert!(page.text().contains("robots\u{1b}[0m   \u{1b}[2mproof"));
+    }
+
+    #[test]
+    fn every_scene_of_the_assets_fits_a_terminal() {
+        let assets = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets");
+        let mut seen = 0;
+        for folder in ["thesis", "study"] {
+            for entry in fs::read_dir(assets.join(folder)).expect("a folder") {
+                let path = entry.expect("an entry").path();
+                let name = path.to_string_lossy();
+                let scene = Scene::from_json(&fs::read_to_string(&path).expect("text"));
+                let scene = scene.expect("a sound scene");
+                let options = match folder {
+                    "thesis" => Options::default().margins(Ask::Yes),
+                    _ => Options::default().verdict_only(Ask::Yes),
+                };
+                assert_fits(&name, &Analysis::with(scene, &options));
+                seen += 1;
+            }
+        }
+        assert!(seen > 30, "{seen}");
+    }
+
+    /// Long words and wide letters as titles and names, blocks that pull apart, robots that are not strong enough, and forces of
+    /// many digits.
+    #[test]
+    fn strange_names_and_many_robots_fit_a_terminal() {
+        let names = [
+            "n".repeat(300),
+            "石".repeat(120),
+            "a stone of many words ".repeat(12),
+            "e\u{301}".repeat(90),
+            "  all   stands   5 N   none".into(),
+        ];
+        let square = |x: f64, y: f64| [[x, y], [x + 1.0, y], [x + 1.0, y + 1.0], [x, y + 1.0]];
+        for name in names {
+            let ids: Vec<String> = (0..9).map(|k| format!("{name}{k}")).collect();
+            let mut scene = Scene::builder()
+                .title(&name)
+                .friction(0.5)
+                .ground(square(-1.0, -1.0))
+                .ground(square(0.0, -1.0));
+            for (k, id) in (0_u8..).zip(&ids) {
+                let polygon = square(0.75 * f64::from(k), f64::from(k));
+                scene = scene.block(BlockEntry::new(id).polygon(polygon).weight(1.234_567_8e7));
+            }
+            let mut held = StepEntry::new(&name).place(&ids[5..]);
+            for id in &ids[5..] {
+                let limits = LimitsEntry::default().force(1.0).torque(1.0);
+                scene = scene.robot(RobotEntry::new(id).limits(limits));
+                held = held.hold(id, id);
+            }
+            let scene = scene
+                .step(StepEntry::new(&name).place(&ids[..5]))
+                .step(held);
+            let scene = scene.build().expect("a sound scene");
+            let options = Options::default().margins(Ask::Yes);
+            assert_fits(&format!("{name}.json"), &Analysis::with(scene, &options));
+        }
+    }
 }

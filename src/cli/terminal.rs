@@ -1,7 +1,7 @@
 //! [`Terminal`]: the two streams, who may be quiet on them, and whether they carry colour.
 //!
-//! The only file that names anstream. Escape codes are written everywhere and taken out here, where a stream does not want
-//! them: because it is no terminal, because `NO_COLOR` is set, or because `--color` says so, which beats both.
+//! The only file that names anstream and terminal_size. Escape codes are written everywhere and taken out here, where a stream
+//! does not want them: because it is no terminal, because `NO_COLOR` is set, or because `--color` says so, which beats both.
 
 use std::io::{self, IsTerminal, Write};
 
@@ -60,6 +60,12 @@ impl Terminal {
     /// Whether somebody looks at standard output, who would rather not look at the bytes of a PNG.
     pub(crate) fn is_watched(&self) -> bool {
         io::stdout().is_terminal()
+    }
+
+    /// How many columns a person sees of standard output; `None` where it goes into a file or to another program.
+    pub(crate) fn width(&self) -> Option<usize> {
+        let (width, _) = terminal_size::terminal_size_of(io::stdout())?;
+        Some(usize::from(width.0)).filter(|width| *width > 0)
     }
 
     /// Writes a result for a person.

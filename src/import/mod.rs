@@ -100,7 +100,7 @@ pub struct Snapped {
 /// A drawing that does not become a scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
-pub struct Refusal {
+pub struct DrawingProblems {
     /// Why, at least one reason.
     pub problems: Vec<Remark>,
     /// What was not taken in any case.
@@ -129,15 +129,15 @@ pub struct Refusal {
 /// assert_eq!(scene.blocks()[0].body.polygon.bounds().min, drystone::scene::Point::new(0.02, 0.01));
 /// # Ok::<(), drystone::scene::Problems>(())
 /// ```
-pub fn import(text: &str, format: Format, options: &Options) -> Result<Imported, Refusal> {
+pub fn import(text: &str, format: Format, options: &Options) -> Result<Imported, DrawingProblems> {
     let problems = wrong_options(options);
     if !problems.is_empty() {
-        return Err(Refusal {
+        return Err(DrawingProblems {
             problems,
             remarks: Vec::new(),
         });
     }
-    let refused = |why: String| Refusal {
+    let refused = |why: String| DrawingProblems {
         problems: vec![Remark {
             element: String::new(),
             message: why,
@@ -194,7 +194,7 @@ fn wrong_options(options: &Options) -> Vec<Remark> {
     problems
 }
 
-fn made(mut draft: Draft, options: &Options) -> Result<Imported, Refusal> {
+fn made(mut draft: Draft, options: &Options) -> Result<Imported, DrawingProblems> {
     let size = outline::size(&mut draft);
     let flatten = options.flatten.unwrap_or(1e-3 * size);
     let close = options.gap.unwrap_or(1e-3 * size).min(1e-3 * size);
@@ -209,13 +209,13 @@ fn made(mut draft: Draft, options: &Options) -> Result<Imported, Refusal> {
             message: "nothing in the drawing becomes a block".into(),
             help: "draw blocks as closed outlines, in layers whose names do not begin with ground, robot, ignore or guide".into(),
         };
-        return Err(Refusal {
+        return Err(DrawingProblems {
             problems: vec![empty],
             remarks: draft.remarks,
         });
     }
     if let Some(problem) = crowd::problem(&outlines) {
-        return Err(Refusal {
+        return Err(DrawingProblems {
             problems: vec![problem],
             remarks: draft.remarks,
         });
@@ -245,7 +245,7 @@ fn made(mut draft: Draft, options: &Options) -> Result<Imported, Refusal> {
             remarks: draft.remarks,
             snapped,
         }),
-        Err(problems) => Err(Refusal {
+        Err(problems) => Err(DrawingProblems {
             problems: problems.list.iter().map(|p| outlines.located(p)).collect(),
             remarks: draft.remarks,
         }),

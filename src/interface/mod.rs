@@ -8,6 +8,8 @@ mod corner;
 mod edge;
 mod held;
 mod lattice;
+#[cfg(test)]
+mod tests;
 
 pub(crate) use held::{Touching, held_open};
 pub(crate) use lattice::Edges;

@@ -82,7 +82,7 @@ pub fn write_in(
     let sheet = Sheet {
         width: drawing.width,
         height: drawing.height,
-        parts: vec![Part {
+        parts: vec![Inset {
             content: Content::Drawing(drawing),
             at: PagePoint::new(0.0, 0.0),
             scale: 1.0,
@@ -106,7 +106,7 @@ pub enum Content<'d> {
 
 /// A drawing or a chart in its place on a page.
 #[derive(Clone, Copy, Debug)]
-pub struct Part<'d> {
+pub struct Inset<'d> {
     /// What is drawn.
     pub content: Content<'d>,
     /// Where its upper left corner lies, pixels of the page.
@@ -123,7 +123,7 @@ pub struct Sheet<'d> {
     /// Height in pixels.
     pub height: f64,
     /// What is on it, the lowest first.
-    pub parts: Vec<Part<'d>>,
+    pub parts: Vec<Inset<'d>>,
 }
 
 /// What a document says of itself.

@@ -10,6 +10,8 @@ mod column;
 mod pose;
 mod scale;
 mod straight;
+#[cfg(test)]
+mod tests;
 
 pub use column::{Column, Count, Force, columns, sticking_columns};
 pub(crate) use pose::product;

@@ -15,6 +15,8 @@
 
 mod balance;
 mod least;
+#[cfg(test)]
+mod tests;
 
 pub use balance::imbalances;
 pub use least::least_sum;

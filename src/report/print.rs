@@ -10,7 +10,7 @@ use crate::drawing::{
     Anchor, Colour, Drawing, Face, Item, Outline, PagePoint, Path, Stroke, Text, Theme,
 };
 use crate::output::fonts::Fonts;
-use crate::output::pdf::{self, Content, Heading, Part, Sheet};
+use crate::output::pdf::{self, Content, Heading, Inset, Sheet};
 use crate::text::line;
 use crate::wording::verdict::plain;
 
@@ -432,17 +432,17 @@ pub(super) fn written(
         .iter()
         .zip(&words)
         .map(|(page, words)| {
-            let mut parts = vec![Part {
+            let mut parts = vec![Inset {
                 content: Content::Drawing(words),
                 at: PagePoint::new(0.0, 0.0),
                 scale: 1.0,
             }];
-            parts.extend(page.figures.iter().map(|(drawing, at, scale)| Part {
+            parts.extend(page.figures.iter().map(|(drawing, at, scale)| Inset {
                 content: Content::Drawing(drawing),
                 at: *at,
                 scale: *scale,
             }));
-            parts.extend(page.charts.iter().map(|(svg, shows, at, scale)| Part {
+            parts.extend(page.charts.iter().map(|(svg, shows, at, scale)| Inset {
                 content: Content::Svg(svg, shows),
                 at: *at,
                 scale: *scale,

@@ -30,7 +30,7 @@ pub use accuracy::accuracy_json;
 #[cfg(feature = "import")]
 pub use import::import_json;
 pub use key::schema;
-pub use line::{Fields, Picture, Place, UnknownField, line_of, verdict_line};
+pub use line::{Fields, Origin, PictureOutcome, UnknownField, line_of, verdict_line};
 use margin::Margins;
 pub use page::{Counts, quoted, report_json};
 use proof::ProofNumbers;

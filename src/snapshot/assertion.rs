@@ -7,7 +7,7 @@
 
 use std::path::{Component, Path, PathBuf};
 
-use super::check::{self, Acceptance, Report, Snapshot, check, folders};
+use super::check::{self, Acceptance, CheckOutcome, Snapshot, check, folders};
 use super::discovery::{Fault, discover, parts};
 use super::setting::{self, Settings};
 use super::store::{self, Use};
@@ -137,7 +137,7 @@ pub fn figure(crate_folder: &Path, name: &Path, drawing: &Drawing) {
         references,
         findings: check::of_drawing(drawing, &parts, &settings),
     };
-    let report = Report {
+    let report = CheckOutcome {
         snapshots: vec![snapshot],
         orphans: Vec::new(),
     };
@@ -202,7 +202,7 @@ fn scenes_at(places: &[PathBuf], what: &str) {
 }
 
 #[track_caller]
-fn settle(mut report: Report, what: &str) {
+fn settle(mut report: CheckOutcome, what: &str) {
     let accepts = usage() == Use::Accept;
     if report.holds() && !may_write() {
         return;

@@ -1,6 +1,6 @@
 //! [`check`](check()): what is not as its reference says, in three layers, each of which explains the next.
 //!
-//! Makes a [`Report`] from scenes and the references beside them. Nothing is written here but by [`Report::settle`].
+//! Makes a [`CheckOutcome`] from scenes and the references beside them. Nothing is written here but by [`CheckOutcome::settle`].
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -120,7 +120,7 @@ pub struct Snapshot {
 
 /// What a check found.
 #[derive(Clone, Debug, Default)]
-pub struct Report {
+pub struct CheckOutcome {
     /// Every scene, by name.
     pub snapshots: Vec<Snapshot>,
     /// References without a scene, each with what to do.
@@ -137,7 +137,7 @@ pub enum Acceptance {
 }
 
 /// Checks scenes against their references, in parallel. `done` is called after each.
-pub fn check(found: Found, done: &(dyn Fn(&str) + Sync)) -> Report {
+pub fn check(found: Found, done: &(dyn Fn(&str) + Sync)) -> CheckOutcome {
     let one = |job: &Job| {
         let snapshot = Snapshot {
             name: job.name.clone(),
@@ -148,7 +148,7 @@ pub fn check(found: Found, done: &(dyn Fn(&str) + Sync)) -> Report {
         done(&job.name);
         snapshot
     };
-    Report {
+    CheckOutcome {
         snapshots: found.jobs.par_iter().map(one).collect(),
         orphans: found.orphans,
     }
@@ -411,7 +411,7 @@ impl Snapshot {
     }
 }
 
-impl Report {
+impl CheckOutcome {
     /// Whether everything is as its references say.
     pub fn holds(&self) -> bool {
         self.orphans.is_empty() && self.failing().next().is_none()

@@ -1,12 +1,12 @@
 //! A report for programs of continuous integration: JUnit XML, and annotations as GitHub shows them beside the code.
 
-use super::check::{Report, Snapshot};
+use super::check::{CheckOutcome, Snapshot};
 use super::discovery::shown;
 use crate::text::{github, github_property, xml};
 
 /// The report as JUnit XML: a case for each snapshot and for each reference without a scene, a failure for each that does not hold.
 /// Times are left out: the same report gives the same bytes.
-pub fn junit(report: &Report) -> String {
+pub fn junit(report: &CheckOutcome) -> String {
     let mut cases = Vec::new();
     for snapshot in &report.snapshots {
         cases.push(case(&snapshot.name, &snapshot.lines()));
@@ -46,7 +46,7 @@ fn case(name: &str, lines: &[String]) -> String {
 
 /// The report as annotations of GitHub, one per line: `::error file=scenes/arch.json,title=…::…`. Paths must begin at the root of the
 /// repository for GitHub to show them at their files.
-pub fn annotations(report: &Report) -> Vec<String> {
+pub fn annotations(report: &CheckOutcome) -> Vec<String> {
     let failing = report.failing().map(annotation);
     let orphans = report.orphans.iter().map(|(path, words)| {
         let words = format!("a reference without a scene: {words}");

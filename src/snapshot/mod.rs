@@ -26,7 +26,7 @@ pub mod review;
 pub mod setting;
 pub mod store;
 
-pub use check::{Finding, Layer, Report, Snapshot, State, check};
+pub use check::{CheckOutcome, Finding, Layer, Snapshot, State, check};
 pub use discovery::{Fault, Job, discover};
 pub use setting::Settings;
 

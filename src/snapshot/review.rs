@@ -10,7 +10,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use super::check::{Finding, Layer, Report, Snapshot, State};
+use super::check::{CheckOutcome, Finding, Layer, Snapshot, State};
 use super::discovery::shown;
 use crate::text::{line, shell};
 
@@ -25,11 +25,11 @@ const MOST_LISTED: usize = 60;
 ///
 /// # Example
 /// ```
-/// use drystone::snapshot::{Report, review::page};
-/// let page = page(&Report::default(), &["scenes".into()]);
+/// use drystone::snapshot::{CheckOutcome, review::page};
+/// let page = page(&CheckOutcome::default(), &["scenes".into()]);
 /// assert!(page.contains("Everything is as its references say"));
 /// ```
-pub fn page(report: &Report, folders: &[std::path::PathBuf]) -> String {
+pub fn page(report: &CheckOutcome, folders: &[std::path::PathBuf]) -> String {
     let failing: Vec<&Snapshot> = report.failing().collect();
     let places: Vec<String> = folders.iter().map(|f| shell(&shown(f))).collect();
     let places = places.join(" ");

@@ -7,7 +7,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::check::Layer;
 use super::fact::DIGITS;
-use super::picture::Tolerance;
+use super::picture::PixelTolerance;
 use crate::drawing::Theme;
 use crate::figure::Kind;
 use crate::output::png::MOST_ACROSS;
@@ -31,7 +31,7 @@ pub struct Settings {
     /// Digits of a force of the size of the largest load.
     pub digits: usize,
     /// From when on pixels differ.
-    pub tolerance: Tolerance,
+    pub tolerance: PixelTolerance,
     /// A reference picture may take so many kilobytes of 1000 bytes for each of its panels.
     pub most_kilobytes: Option<u64>,
     /// Scenes that are none of ours: paths from the file's folder, `*` for any characters.
@@ -48,7 +48,7 @@ impl Default for Settings {
             themes: vec!["thesis".into()],
             widths: Vec::new(),
             digits: DIGITS,
-            tolerance: Tolerance::default(),
+            tolerance: PixelTolerance::default(),
             most_kilobytes: None,
             ignore: Vec::new(),
             scenes: Vec::new(),

@@ -1,4 +1,4 @@
-//! [`Lattice`]: a pile of triangles on the triangular lattice.
+//! [`LatticePile`]: a pile of triangles on the triangular lattice.
 
 use super::STONE;
 use crate::scene::format::{
@@ -9,7 +9,7 @@ use crate::scene::format::{
 ///
 /// Contacts on a lattice are decided in whole numbers, and coordinates are whole.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Lattice {
+pub struct LatticePile {
     /// How many rows; the lowest has as many triangles that stand on the ground.
     pub rows: usize,
     /// Edge length of a cell, metres.
@@ -18,10 +18,10 @@ pub struct Lattice {
     pub friction: f64,
 }
 
-impl Default for Lattice {
+impl Default for LatticePile {
     /// 3 rows of cells of 1 m with a friction of 0.7: it stands.
-    fn default() -> Lattice {
-        Lattice {
+    fn default() -> LatticePile {
+        LatticePile {
             rows: 3,
             side: 1.0,
             friction: 0.7,
@@ -29,13 +29,13 @@ impl Default for Lattice {
     }
 }
 
-impl Lattice {
+impl LatticePile {
     /// The scene file.
     ///
     /// # Example
     /// ```
-    /// use drystone::{Analysis, Scene, analysis::Verdict, starter::Lattice};
-    /// let pile = |friction| Scene::new(Lattice { friction, ..Lattice::default() }.scene());
+    /// use drystone::{Analysis, Scene, analysis::Verdict, starter::LatticePile};
+    /// let pile = |friction| Scene::new(LatticePile { friction, ..LatticePile::default() }.scene());
     /// assert_eq!(pile(0.7)?.blocks().len(), 9);
     /// assert_eq!(Analysis::of(&pile(0.7)?).verdict(), Verdict::Stable);
     /// assert_eq!(Analysis::of(&pile(0.05)?).verdict(), Verdict::Unstable);

@@ -8,7 +8,7 @@ mod lattice;
 mod masonry;
 
 pub use arch::Arch;
-pub use lattice::Lattice;
+pub use lattice::LatticePile;
 pub use masonry::{Doorway, Tower, Wall};
 
 use crate::scene::format::{BlockEntry, GroundEntry, Pair};

@@ -351,3 +351,39 @@ fn a_frame_is_answered_as_the_scene_of_what_stands_then() {
         "{falling} of {frames} frames fall"
     );
 }
+
+/// A box of 4 m by 3 m on the ground, with a load and a robot: lengths in parts of L = 4 m, the joint's, and forces such that
+/// the heaviest load is 300.
+#[test]
+fn a_program_counts_lengths_in_l_and_forces_in_parts_of_the_heaviest_load() {
+    let file = json!({ "drystone": 1, "friction": 0.5, "kernel": 0.5,
+        "ground": [{ "polygon": rectangle(-1.0, -1.0, 9.0, 1.0) }],
+        "blocks": [{ "id": "a", "polygon": rectangle(0.0, 0.0, 4.0, 3.0), "weight": 600 }],
+        "loads": [{ "block": "a", "force": [10, 0], "at": [2, 3], "torque": 3 }],
+        "robots": [{ "id": "r", "holds": "a", "at": [0, 3], "limits": { "fx": 20, "torque": 64 } }] });
+    let scene = Scene::from_json(&file.to_string()).expect("a sound scene");
+    let (assembly, _) = assembly_of(&scene, &scene.frames()[0]);
+    let scale = Scale::of_assembly(&assembly);
+    assert_eq!((scale.length, scale.moment()), (4.0, 4.0 * scale.force));
+    // The load and the weight together pull a little more than the weight alone.
+    let heaviest = libm::hypot(600.0, 10.0);
+    assert!((scale.force * Scale::HEAVIEST - heaviest).abs() < 1e-9);
+    let program = Program::of(&assembly, scale);
+    // 10 N, 1.5 m above the centroid, turn by −15 N·m.
+    let loads = [-10.0, 600.0, (15.0 - 3.0) / 4.0].map(|v| v / scale.force);
+    for (found, expected) in program.loads.iter().zip(loads) {
+        assert!((found - expected).abs() < 1e-9, "{:?}", program.loads);
+    }
+    // Points 1 m to either side and 1.5 m below, from the left to the right against the joint's ends.
+    let arms = [Vector::new(0.25, -0.375), Vector::new(-0.25, -0.375)];
+    assert_eq!(
+        (program.contacts[0].on, program.contacts[0].from),
+        ((0, arms), None)
+    );
+    assert_eq!(program.grips[0].arm, Vector::new(-0.5, 0.375));
+    let limits = program.grips[0].limits;
+    assert!((limits[0] * scale.force - 20.0).abs() < 1e-9 && limits[1].is_infinite());
+    assert!((limits[2] * scale.moment() - 64.0).abs() < 1e-9);
+    // Without loads a unit is a three hundredth of a newton.
+    assert_eq!(Scale::of(2.0, 0.0).force, 1.0 / 300.0);
+}

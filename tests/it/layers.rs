@@ -183,6 +183,8 @@ const DOORS: &[(&str, &[&str])] = &[
     ("ariadne", &["cli/complaint.rs"]),
     ("indicatif", &["cli/progress.rs"]),
     ("anstream", &["cli/terminal.rs"]),
+    ("terminal_size", &["cli/terminal.rs"]),
+    ("unicode_width", &["cli/page.rs"]),
     ("clap_complete", &["cli/completions.rs"]),
     ("clap_mangen", &["cli/man.rs"]),
     ("clap", &["cli/"]),

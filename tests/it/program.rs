@@ -6,6 +6,7 @@ mod broken;
 mod check;
 mod figures;
 mod import;
+mod readme;
 mod render;
 mod safety;
 mod words;

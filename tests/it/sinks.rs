@@ -253,7 +253,7 @@ fn markdown_is_words_and_a_book_keeps_them_in_its_figure() {
 #[test]
 fn snapshots_are_told_in_words_whatever_their_names() {
     use drystone::snapshot::fact::{DIGITS, Facts};
-    use drystone::snapshot::{Finding, Layer, Report, Snapshot, State, ci, review};
+    use drystone::snapshot::{CheckOutcome, Finding, Layer, Snapshot, State, ci, review};
     let mut shapes = Vec::new();
     each(|hostile, _, analysis| {
         let facts = Facts::of(analysis, DIGITS);
@@ -268,7 +268,7 @@ fn snapshots_are_told_in_words_whatever_their_names() {
             expected: None,
             difference: None,
         };
-        let report = Report {
+        let report = CheckOutcome {
             snapshots: vec![Snapshot {
                 name: hostile.to_owned(),
                 scene: Some(hostile.into()),

@@ -3,7 +3,7 @@
 use drystone::analysis::{Analysis, Verdict};
 use drystone::scene::Scene;
 use drystone::scene::format::SceneFile;
-use drystone::starter::{Arch, Doorway, Lattice, Tower, Wall};
+use drystone::starter::{Arch, Doorway, LatticePile, Tower, Wall};
 
 fn verdict(file: &SceneFile) -> Verdict {
     let text = file.to_json();
@@ -68,19 +68,19 @@ fn starters_stand_or_fall_as_they_say() {
             Verdict::Stable,
         ),
         (Doorway::default().scene(), Verdict::Stable),
-        (Lattice::default().scene(), Verdict::Stable),
+        (LatticePile::default().scene(), Verdict::Stable),
         (
-            Lattice {
+            LatticePile {
                 rows: 6,
-                ..Lattice::default()
+                ..LatticePile::default()
             }
             .scene(),
             Verdict::Stable,
         ),
         (
-            Lattice {
+            LatticePile {
                 friction: 0.05,
-                ..Lattice::default()
+                ..LatticePile::default()
             }
             .scene(),
             Verdict::Unstable,

@@ -1,5 +1,6 @@
 //! Names in the source are those of statics and optimisation: words that once stood in their place do not come back.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
@@ -54,6 +55,53 @@ fn identifiers_are_plain_terms() {
         }
     }
     assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+/// Rooms whose types others build on: those of the public interface, and those whose types it gives out.
+const PUBLIC: &[&str] = &[
+    "scene",
+    "geometry",
+    "interface",
+    "starter",
+    "import",
+    "analysis",
+    "wording",
+    "drawing",
+    "figure",
+    "output",
+    "report",
+    "batch",
+    "session",
+    "snapshot",
+];
+
+/// A name among the public types means one thing; only `Options` is always seen with its module.
+#[test]
+fn a_name_of_a_public_type_is_given_once() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut homes: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    for room in PUBLIC {
+        let mut files = Vec::new();
+        collect(&root.join(room), &mut files);
+        for file in files {
+            let text = fs::read_to_string(&file).expect("source is UTF-8");
+            for line in bare(&text).lines() {
+                let public = line.trim_start().strip_prefix("pub ");
+                let kind = public.and_then(|rest| rest.split_once(' '));
+                let named =
+                    kind.filter(|(kind, _)| ["struct", "enum", "type", "trait"].contains(kind));
+                let Some((_, name)) = named else { continue };
+                let name = name.split(|c: char| !c.is_alphanumeric()).next();
+                let home = homes
+                    .entry(name.unwrap_or_default().to_owned())
+                    .or_default();
+                home.push(file.display().to_string());
+            }
+        }
+    }
+    assert!(homes.len() > 100, "{}", homes.len());
+    homes.retain(|name, files| name != "Options" && files.len() > 1);
+    assert!(homes.is_empty(), "{homes:#?}");
 }
 
 #[test]

@@ -9,7 +9,7 @@ use crate::cli::complaint::Complaint;
 use crate::cli::ending::Ending;
 use crate::cli::page::Page;
 use crate::cli::terminal::Terminal;
-use crate::snapshot::check::{Acceptance, Report, Snapshot};
+use crate::snapshot::check::{Acceptance, CheckOutcome, Snapshot};
 use crate::snapshot::store::{self, Use};
 
 /// How a terminal shows a picture within its text.
@@ -28,7 +28,10 @@ const PIECE: usize = 4096;
 
 /// Asks of each snapshot that does not hold whether it is meant: `y` accepts it, `n` keeps the reference, `s` leaves it for later,
 /// `q` leaves all that follow.
-pub(super) fn ask(terminal: &Terminal, report: &mut Report) -> Result<Ending, Vec<Complaint>> {
+pub(super) fn ask(
+    terminal: &Terminal,
+    report: &mut CheckOutcome,
+) -> Result<Ending, Vec<Complaint>> {
     let pictures = pictures(terminal);
     let total = report.failing().count();
     let mut number = 0;

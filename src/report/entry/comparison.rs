@@ -10,7 +10,7 @@ use super::bullet;
 use super::row::file_name;
 use super::step::{self, Step};
 use super::touch::onto_scene;
-use super::{Entry, File, Grid, Plate, Row, Wanted};
+use super::{Entry, Figure, File, Grid, Row, Wanted};
 use crate::analysis::{Analysis, Contact, FrameAnalysis, Verdict};
 use crate::drawing::{Camera, Colour, Drawing, Group, Outline, Path, Stroke};
 use crate::figure::{self, Kind};
@@ -141,10 +141,10 @@ fn bare(scene: &Scene, number: usize, verdict: Verdict, sentence: String) -> Ste
     }
 }
 
-fn plate(side: Side<'_>, found: &FrameAnalysis, drawing: Drawing) -> Plate {
+fn plate(side: Side<'_>, found: &FrameAnalysis, drawing: Drawing) -> Figure {
     let scale = "arrows to its own scale";
     let name = line(side.file.name);
-    Plate {
+    Figure {
         caption: format!("{name}: {}; {scale}.", plain(found.verdict)),
         drawing,
     }

@@ -84,7 +84,7 @@ pub struct Entry {
 
 /// A figure and what it shows.
 #[derive(Clone, Debug)]
-pub struct Plate {
+pub struct Figure {
     /// What it shows.
     pub caption: String,
     /// The figure.

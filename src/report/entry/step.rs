@@ -3,7 +3,7 @@
 use super::bullet::{self, Bullet};
 use super::chosen::chosen;
 use super::cost::cost;
-use super::{Chart, Grid, Plate, Touch, Wanted};
+use super::{Chart, Figure, Grid, Touch, Wanted};
 use crate::analysis::{Analysis, Contact, EffectName, Failure, FrameAnalysis, Verdict};
 use crate::chart::{self, Bars};
 use crate::figure::{self, Kind, Options};
@@ -35,7 +35,7 @@ pub struct Step {
     /// What else a reader should know, a sentence each.
     pub remarks: Vec<String>,
     /// The figures.
-    pub plates: Vec<Plate>,
+    pub plates: Vec<Figure>,
     /// What of the first figure belongs to which line of the tables.
     pub touches: Vec<Touch>,
     /// The margins, where they were asked for.
@@ -89,7 +89,7 @@ pub(super) fn all(analysis: &Analysis, wanted: &Wanted) -> Vec<Step> {
             steps.push(step);
             continue;
         };
-        step.plates.push(Plate {
+        step.plates.push(Figure {
             caption: if found.failures.is_empty() {
                 "The force on every block, as an arrow as long as it is large.".into()
             } else {
@@ -99,7 +99,7 @@ pub(super) fn all(analysis: &Analysis, wanted: &Wanted) -> Vec<Step> {
             drawing,
         });
         if let Some(drawing) = has_mechanism(found).then(|| motions.next()).flatten() {
-            step.plates.push(Plate {
+            step.plates.push(Figure {
                 caption: "How it begins to fall: dashed where the blocks stand.".into(),
                 drawing,
             });

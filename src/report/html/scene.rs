@@ -5,7 +5,7 @@ use maud::{Markup, PreEscaped, html};
 use super::{thumbnail, verdict};
 use crate::chart;
 use crate::output::svg::{self, Options};
-use crate::report::entry::{Bullet, Chart, Entry, Grid, Plate, Step, touched};
+use crate::report::entry::{Bullet, Chart, Entry, Figure, Grid, Step, touched};
 
 /// Tables of more lines are folded.
 const LONG: usize = 24;
@@ -91,7 +91,7 @@ fn step(step: &Step, (number, place): (usize, usize), several: bool) -> Markup {
     }
 }
 
-fn plate(plate: &Plate, mark: &str, touches: &[crate::report::entry::Touch]) -> Markup {
+fn plate(plate: &Figure, mark: &str, touches: &[crate::report::entry::Touch]) -> Markup {
     let drawing = touched(&plate.drawing, touches);
     let options = Options {
         mark: Some(mark.trim_end_matches('-').to_owned()),

@@ -11,7 +11,7 @@ use name::{NAMES, Name};
 
 /// Which scene a line is about.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Place {
+pub struct Origin {
     /// The file, as given.
     pub file: Option<String>,
     /// The line in it, or of standard input, from 1; absent where the scene is a file of its own.
@@ -98,7 +98,7 @@ impl Fields {
 
 /// The picture of a scene, if one was wanted.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Picture {
+pub enum PictureOutcome {
     /// None was.
     NotAsked,
     /// The name of its file in its folder.
@@ -112,15 +112,20 @@ pub enum Picture {
 ///
 /// # Example
 /// ```
-/// use drystone::{Analysis, Scene, report::result::{Fields, Picture, Place, line_of}};
+/// use drystone::{Analysis, Scene, report::result::{Fields, PictureOutcome, Origin, line_of}};
 /// let scene = Scene::from_json(r#"{ "drystone": 1, "title": "A dart", "blocks": [{ "polygon": [[0, 0], [3, 0], [0, 2]] }] }"#)?;
-/// let place = Place { line: Some(7), ..Place::default() };
-/// let line = line_of(&place, &Analysis::of(&scene), &Picture::NotAsked, &Fields::default());
+/// let origin = Origin { line: Some(7), ..Origin::default() };
+/// let line = line_of(&origin, &Analysis::of(&scene), &PictureOutcome::NotAsked, &Fields::default());
 /// assert_eq!(line, "{\"line\":7,\"scene\":\"A dart\",\"verdict\":\"unstable\"}\n");
 /// # Ok::<(), drystone::scene::Problems>(())
 /// ```
-pub fn line_of(place: &Place, analysis: &Analysis, picture: &Picture, fields: &Fields) -> String {
-    let mut out = begun(place);
+pub fn line_of(
+    origin: &Origin,
+    analysis: &Analysis,
+    picture: &PictureOutcome,
+    fields: &Fields,
+) -> String {
+    let mut out = begun(origin);
     let verdict = word(analysis.verdict());
     let all = fields.are_all();
     if fields.are_few() {
@@ -151,9 +156,9 @@ pub fn line_of(place: &Place, analysis: &Analysis, picture: &Picture, fields: &F
         }
     }
     match picture {
-        Picture::NotAsked => {}
-        Picture::Drawn(name) => put(&mut out, "picture", &Value::from(&**name)),
-        Picture::Refused(why) => {
+        PictureOutcome::NotAsked => {}
+        PictureOutcome::Drawn(name) => put(&mut out, "picture", &Value::from(&**name)),
+        PictureOutcome::Refused(why) => {
             put(&mut out, "picture", &Value::Null);
             put(&mut out, "picture_refused", &Value::from(&**why));
         }
@@ -162,8 +167,8 @@ pub fn line_of(place: &Place, analysis: &Analysis, picture: &Picture, fields: &F
 }
 
 /// The line of a verdict, where no more than that and the scene's title are wanted. Ends with a line feed.
-pub fn verdict_line(place: &Place, title: &str, verdict: Verdict, fields: &Fields) -> String {
-    let mut out = begun(place);
+pub fn verdict_line(origin: &Origin, title: &str, verdict: Verdict, fields: &Fields) -> String {
+    let mut out = begun(origin);
     put_few(&mut out, title, verdict, fields);
     ended(out)
 }
@@ -180,12 +185,12 @@ fn put_few(out: &mut String, title: &str, verdict: Verdict, fields: &Fields) {
     }
 }
 
-fn begun(place: &Place) -> String {
+fn begun(origin: &Origin) -> String {
     let mut out = String::from("{");
-    if let Some(file) = &place.file {
+    if let Some(file) = &origin.file {
         put(&mut out, "file", &Value::from(&**file));
     }
-    if let Some(line) = place.line {
+    if let Some(line) = origin.line {
         put(&mut out, "line", &Value::from(line));
     }
     out

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Layout, Place};
+use super::{Layout, Origin};
 use crate::scene::Problem;
 use crate::scene::format::Lines;
 use crate::text;
@@ -53,12 +53,12 @@ pub fn refusal(file: &str, problems: &[Problem], layout: Layout) -> String {
 /// The same on one line, for a scene that may be a line among many; ends with a line feed.
 ///
 /// Lines and columns are those of the input, so that an editor finds them: of a scene that is a line of its own, that line.
-pub fn problem_line(place: &Place, problems: &[Problem]) -> String {
-    let before = place.line.map_or(0, |line| line - 1);
+pub fn problem_line(origin: &Origin, problems: &[Problem]) -> String {
+    let before = origin.line.map_or(0, |line| line - 1);
     written(
         &Refusal {
-            file: place.file.as_deref(),
-            line: place.line,
+            file: origin.file.as_deref(),
+            line: origin.line,
             problems: entries(problems, before),
         },
         Layout::OneLine,

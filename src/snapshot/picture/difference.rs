@@ -6,7 +6,7 @@ use super::perception::{differ, smoothed};
 
 /// From when on two pixels differ.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tolerance {
+pub struct PixelTolerance {
     /// So much may each channel differ, of 255. Where something shows through, channels count by how much of them is seen.
     pub channel: u8,
     /// Where given, pixels beyond that are told apart as eyes do: by distances in brightness and colour above this threshold, from
@@ -14,9 +14,9 @@ pub struct Tolerance {
     pub perceptual: Option<f64>,
 }
 
-impl Default for Tolerance {
-    fn default() -> Tolerance {
-        Tolerance {
+impl Default for PixelTolerance {
+    fn default() -> PixelTolerance {
+        PixelTolerance {
             channel: 1,
             perceptual: None,
         }
@@ -56,17 +56,17 @@ impl Difference {
     ///
     /// # Example
     /// ```
-    /// use drystone::snapshot::picture::{Difference, Picture, Tolerance};
+    /// use drystone::snapshot::picture::{Difference, Picture, PixelTolerance};
     /// let page = |x: usize| {
     ///     let mut pixels = vec![[250, 250, 250, 255]; 40];
     ///     pixels[x] = [10, 20, 30, 255];
     ///     Picture::new(8, 5, pixels)
     /// };
-    /// let found = Difference::of(&page(3), &page(12), Tolerance::default());
+    /// let found = Difference::of(&page(3), &page(12), PixelTolerance::default());
     /// assert_eq!((found.changed, found.bounds), (2, Some([3, 0, 2, 2])));
     /// assert_eq!(found.words(), "2 of 40 pixels differ, by up to 240 of 255, within 2 × 2 pixels from (3, 0)");
     /// ```
-    pub fn of(expected: &Picture, found: &Picture, tolerance: Tolerance) -> Difference {
+    pub fn of(expected: &Picture, found: &Picture, tolerance: PixelTolerance) -> Difference {
         let wide = expected.width.max(found.width);
         let high = expected.height.max(found.height);
         let (across, down) = (

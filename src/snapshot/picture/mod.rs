@@ -15,7 +15,7 @@ use std::io::{Cursor, ErrorKind};
 
 use png::{BitDepth, ColorType, DecodingError, Transformations};
 
-pub use difference::{Difference, Tolerance};
+pub use difference::{Difference, PixelTolerance};
 use palette::Palette;
 
 use crate::output::png::{MOST_ACROSS, MOST_PIXELS};

@@ -6,7 +6,7 @@ use drystone::figure::{self, Options};
 use drystone::output::{png, svg};
 use drystone::snapshot::element;
 use drystone::snapshot::fact::{DIGITS, Facts};
-use drystone::snapshot::picture::{Difference, Picture, Subject, Tolerance};
+use drystone::snapshot::picture::{Difference, Picture, PixelTolerance, Subject};
 use drystone::{Scene, output};
 
 use super::lintel;
@@ -51,7 +51,7 @@ fn said(expected: &Take, found: &Take) -> [Vec<String>; 3] {
         .encode(Some(Subject::Scene))
         .expect("packed");
     let packed = Picture::decode(&packed).expect("what was packed is read");
-    let difference = Difference::of(&packed, &found.picture, Tolerance::default());
+    let difference = Difference::of(&packed, &found.picture, PixelTolerance::default());
     let pixels = if difference.is_none() {
         vec![]
     } else {
@@ -386,9 +386,9 @@ fn pixels_off_by_one_are_no_change_and_by_two_are() {
             pixels.collect(),
         )
     };
-    let by_one = Difference::of(&packed, &off(1), Tolerance::default());
+    let by_one = Difference::of(&packed, &off(1), PixelTolerance::default());
     assert!(by_one.is_none(), "{}", by_one.words());
-    let by_two = Difference::of(&packed, &off(2), Tolerance::default());
+    let by_two = Difference::of(&packed, &off(2), PixelTolerance::default());
     assert!(by_two.changed > by_two.of / 2, "{}", by_two.words());
 }
 
@@ -400,7 +400,7 @@ fn one_pixel_is_enough() {
     // A pixel of the white page, where no rounding is.
     pixels[5 * expected.width as usize + 9] = [252, 255, 255, 255];
     let found = Picture::new(expected.width, expected.height, pixels);
-    let difference = Difference::of(&packed, &found, Tolerance::default());
+    let difference = Difference::of(&packed, &found, PixelTolerance::default());
     assert_eq!(
         (difference.changed, difference.largest, difference.bounds),
         (1, 3, Some([9, 5, 1, 1]))

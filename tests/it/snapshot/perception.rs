@@ -1,6 +1,6 @@
 //! Perceptual comparison: the counts of pixelmatch, and smoothing that is let pass.
 
-use drystone::snapshot::picture::{Difference, Picture, Tolerance};
+use drystone::snapshot::picture::{Difference, Picture, PixelTolerance};
 
 /// Another disc, a threshold, and how many pixels differ and are smoothed.
 type Count = ([f64; 3], f64, u64, u64);
@@ -27,8 +27,8 @@ fn disc(x: f64, y: f64, radius: f64) -> Picture {
     Picture::new(64, 64, (0..64 * 64).map(pixel).collect())
 }
 
-fn perceptual(threshold: f64) -> Tolerance {
-    Tolerance {
+fn perceptual(threshold: f64) -> PixelTolerance {
+    PixelTolerance {
         channel: 0,
         perceptual: Some(threshold),
     }
@@ -52,7 +52,7 @@ fn counts_are_those_of_pixelmatch() {
 #[test]
 fn another_smoothing_of_the_same_edge_is_let_pass_only_on_request() {
     let (one, other) = (disc(32.0, 32.0, 16.0), disc(32.2, 32.1, 16.0));
-    let strict = Difference::of(&one, &other, Tolerance::default());
+    let strict = Difference::of(&one, &other, PixelTolerance::default());
     assert!(strict.changed > 80, "{}", strict.words());
     let seen = Difference::of(&one, &other, perceptual(0.1));
     assert!(seen.is_none() && seen.smoothed > 0, "{}", seen.words());

@@ -1,0 +1,289 @@
+//! What touches in scenes whose contacts can be named by looking at them.
+
+use super::*;
+use crate::scene::format::{BlockEntry, CellEntry, GridKind, GroundEntry, Pair};
+
+/// Coordinates times this have all their digits, so that no scene here takes them for rounded and moves corners.
+const ODD: f64 = 1.023_456_789_012_345_6;
+
+fn odd(corners: &[Pair]) -> Vec<Pair> {
+    corners.iter().map(|p| p.map(|v| v * ODD)).collect()
+}
+
+fn rectangle(x: f64, y: f64, width: f64, height: f64) -> Vec<Pair> {
+    odd(&[
+        [x, y],
+        [x + width, y],
+        [x + width, y + height],
+        [x, y + height],
+    ])
+}
+
+/// Parts of the ground, then blocks, with corner contacts.
+fn scene(ground: Vec<Vec<Pair>>, blocks: Vec<Vec<Pair>>) -> Scene {
+    let mut scene = Scene::builder().friction(0.5).corner_contacts(true);
+    for part in ground {
+        scene = scene.ground(part);
+    }
+    for (number, block) in blocks.into_iter().enumerate() {
+        scene = scene.block(BlockEntry::new(format!("{number}")).polygon(block));
+    }
+    scene.build().expect("a sound scene")
+}
+
+const FIRST: BodyId = BodyId::Block(BlockId(0));
+const SECOND: BodyId = BodyId::Block(BlockId(1));
+
+/// The gap within which the first block touches what it stands by.
+fn gap(scene: &Scene, other: BodyId) -> f64 {
+    scene.tolerance_between(FIRST, other).gap
+}
+
+fn near(found: Vector, expected: [f64; 2]) -> bool {
+    (found - Vector::new(expected[0], expected[1])).norm() < 1e-9
+}
+
+#[test]
+fn a_tip_touches_an_edge_on_any_side_within_the_tolerance_and_no_farther() {
+    // A triangle whose tip points at the ground; the ground lies below, above, left and right of it, its outward normal
+    // as given.
+    let tip = [[0.0, 0.0], [1.0, 2.0], [-1.0, 2.0]];
+    let turned = |[x, y]: Pair, [nx, ny]: Pair| [x * ny + y * nx, y * ny - x * nx];
+    let slab = [[-5.0, -1.0], [5.0, -1.0], [5.0, 0.0], [-5.0, 0.0]];
+    for outward in [[0.0, 1.0], [0.0, -1.0], [1.0, 0.0], [-1.0, 0.0]] {
+        let at = |apart: f64| {
+            let place = |p: &Pair| turned(*p, outward);
+            let block: Vec<Pair> = odd(&tip.iter().map(place).collect::<Vec<_>>());
+            let block = block
+                .iter()
+                .map(|p| [p[0] + apart * outward[0], p[1] + apart * outward[1]])
+                .collect();
+            scene(
+                vec![odd(&slab.iter().map(place).collect::<Vec<_>>())],
+                vec![block],
+            )
+        };
+        let gap = gap(&at(0.0), BodyId::Ground(0));
+        for (apart, touches) in [(0.0, true), (0.9 * gap, true), (1.2 * gap, false)] {
+            let found = Interfaces::of(&at(apart)).all;
+            assert_eq!(found.len(), usize::from(touches), "{outward:?} {apart}");
+            for corner in found {
+                assert_eq!(corner.kind, ContactKind::Corner);
+                assert_eq!(corner.bodies, [FIRST, BodyId::Ground(0)]);
+                assert!(near(corner.normal, outward), "{corner:?}");
+                assert_eq!(corner.length(), 0.0);
+                assert_eq!(corner.friction, 0.5);
+            }
+        }
+    }
+}
+
+#[test]
+fn tips_that_meet_press_along_their_bisector() {
+    // The block's lower left corner at the ground's upper right one, and likewise on the other side.
+    for (x, normal) in [
+        (0.0, core::f64::consts::FRAC_1_SQRT_2),
+        (-3.0, -core::f64::consts::FRAC_1_SQRT_2),
+    ] {
+        let scene = scene(
+            vec![rectangle(-2.0, -1.0, 2.0, 1.0)],
+            vec![rectangle(x, 0.0, 1.0, 1.0)],
+        );
+        let found = Interfaces::of(&scene).all;
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert!(near(found[0].normal, [normal, normal.abs()]), "{found:?}");
+    }
+}
+
+#[test]
+fn corners_of_an_edge_that_touches_are_no_contacts_of_their_own_and_others_are() {
+    let floor = || vec![rectangle(-20.0, -1.0, 40.0, 1.0)];
+    let alone = Interfaces::of(&scene(floor(), vec![rectangle(0.0, 0.0, 2.0, 1.0)])).all;
+    let kinds: Vec<ContactKind> = alone.iter().map(|i| i.kind).collect();
+    assert_eq!(kinds, [ContactKind::Edge]);
+    // A table with a flat leg and a pointed one, 2 m away from it.
+    let table = odd(&[
+        [0.0, 0.0],
+        [1.0, 0.0],
+        [1.0, 2.0],
+        [2.5, 2.0],
+        [3.0, 0.0],
+        [3.5, 3.0],
+        [0.0, 3.0],
+    ]);
+    let mut found = Interfaces::of(&scene(floor(), vec![table])).all;
+    found.sort_by_key(|i| i.kind == ContactKind::Corner);
+    assert_eq!(found.len(), 2, "{found:?}");
+    assert_eq!(found[0].kind, ContactKind::Edge);
+    assert!((found[0].length() - ODD).abs() < 1e-9);
+    assert_eq!(found[1].kind, ContactKind::Corner);
+    assert!((found[1].ends[0].x - 3.0 * ODD).abs() < 1e-9);
+    assert!(near(found[1].normal, [0.0, 1.0]));
+}
+
+#[test]
+fn interfaces_stand_in_the_order_of_bodies_and_of_places() {
+    // A bridge on five piers, with two feet on each: places of a pair from left to right, pairs by number.
+    let mut outline = vec![[0.0, 3.0]];
+    for k in 0..10 {
+        let x = 2.0 * f64::from(k);
+        outline.extend([[x, 1.0], [x + 1.0, 1.0], [x + 1.0, 2.0], [x + 2.0, 2.0]]);
+    }
+    outline.pop();
+    outline.pop();
+    outline.push([19.0, 3.0]);
+    let mut blocks: Vec<Vec<Pair>> = (0..5)
+        .rev()
+        .map(|k| rectangle(4.0 * f64::from(k), 0.0, 3.5, 1.0))
+        .collect();
+    blocks.push(odd(&outline));
+    let scene = scene(vec![rectangle(-5.0, -1.0, 40.0, 1.0)], blocks);
+    let found = Interfaces::of(&scene).all;
+    assert_eq!(found.len(), 15);
+    let order = |i: &Interface| (i.bodies, i.ends[0].x);
+    assert!(found.windows(2).all(|w| order(&w[0]) < order(&w[1])));
+    for i in &found {
+        assert!(near(i.normal, [0.0, 1.0]) && i.ends[0].x > i.ends[1].x);
+    }
+}
+
+#[test]
+fn edges_meet_within_the_tolerance_and_beyond_it_are_told_apart() {
+    let at = |apart: f64, more: f64| {
+        let ground = vec![rectangle(-2.0, -1.0, 3.0, 1.0)];
+        let mut block = rectangle(-0.75, 0.0, 4.0, 2.0);
+        block.iter_mut().for_each(|p| p[1] += apart);
+        let mut other = rectangle(-9.0, 0.0, 1.0, 1.0);
+        other.iter_mut().for_each(|p| p[1] += more);
+        let under = rectangle(-9.5, -1.0, 2.0, 1.0);
+        scene([ground, vec![under]].concat(), vec![block, other])
+    };
+    let gap = gap(&at(0.0, 0.0), BodyId::Ground(0));
+    let found = Interfaces::of(&at(0.9 * gap, 0.0));
+    assert_eq!((found.all.len(), found.near.len()), (2, 0));
+    assert!(found.notices.is_empty(), "{:?}", found.notices);
+    // The shared stretch, from x = −0.75 to 1, half way up the gap.
+    let stretch = &found.all[0];
+    assert!((stretch.length() - 1.75 * ODD).abs() < 1e-9);
+    assert!((stretch.middle().x - 0.125 * ODD).abs() < 1e-9);
+    assert!((stretch.middle().y - 0.45 * gap).abs() < 1e-12);
+
+    let apart = Interfaces::of(&at(29.0 * gap, 0.0));
+    assert_eq!((apart.all.len(), apart.near.len()), (1, 1));
+    let miss = apart.near[0];
+    assert_eq!(miss.bodies, [FIRST, BodyId::Ground(0)]);
+    assert!((miss.distance - 29.0 * gap).abs() < 1e-12);
+    assert!((miss.at.x - 0.125 * ODD).abs() < 1e-9 && (miss.at.y - 29.0 * gap).abs() < 1e-12);
+    let words = format!(
+        "0 and ground nearly touch, {:.1e} m apart, more than the {gap:.1e} m that count as contact",
+        29.0 * gap
+    );
+    assert_eq!(apart.notices.len(), 1);
+    assert_eq!(apart.notices[0], words);
+    let both = Interfaces::of(&at(29.0 * gap, 20.0 * gap));
+    assert_eq!(
+        both.notices,
+        [words + ", and so do 1 other pair(s) of edges"]
+    );
+    // Farther apart is told without a notice, and beyond a hundredth of the block not at all.
+    let apart = Interfaces::of(&at(31.0 * gap, 0.0));
+    assert_eq!((apart.near.len(), apart.notices.len()), (1, 0));
+    let size = crate::scene::size(&at(0.0, 0.0).body(FIRST).polygon);
+    for (share, seen) in [(0.0099, 1), (0.0101, 0)] {
+        assert_eq!(Interfaces::of(&at(share * size, 0.0)).near.len(), seen);
+    }
+}
+
+#[test]
+fn a_stretch_too_short_to_count_is_told_with_its_length() {
+    // Two bricks on a floor, the second half a brick higher: what they share at their sides is all of it, what the third
+    // shares with the second by reaching over it is 10⁻⁷ m.
+    let scene = scene(
+        vec![rectangle(-5.0, -1.0, 10.0, 1.0)],
+        vec![
+            rectangle(0.0, 0.0, 2.0, 1.0),
+            rectangle(-2.0 + 1e-7, 1.0, 2.0, 1.0),
+        ],
+    );
+    let limit = scene.tolerance_between(FIRST, SECOND).stretch;
+    let found = Interfaces::of(&scene);
+    let short = format!(
+        "1 contact(s) up to 1.0e-7 m long are shorter than {limit:.1e} m and count as touching corners, which carry no force"
+    );
+    assert_eq!(found.notices, [short]);
+    let edges = |list: &[Interface]| {
+        let edges = list.iter().filter(|i| i.kind == ContactKind::Edge);
+        edges.map(|i| i.bodies).collect::<Vec<_>>()
+    };
+    assert_eq!(edges(&found.all), [[FIRST, BodyId::Ground(0)]]);
+}
+
+/// A short edge may lie askew by as much as puts its ends off by a gap each; a long one by no more.
+#[test]
+fn short_edges_face_each_other_askew_and_long_ones_do_not() {
+    let at = |width: f64, rise: f64| {
+        let block = odd(&[[0.0, 0.0], [width, 0.0], [1.0, 1.0], [-1.0, 1.0]]);
+        let mut block = block;
+        block[1][1] += rise;
+        scene(vec![rectangle(-5.0, -1.0, 10.0, 1.0)], vec![block])
+    };
+    let gap = gap(&at(0.5, 0.0), BodyId::Ground(0));
+    let edges = |scene: &Scene| {
+        let all = Interfaces::of(scene).all;
+        all.iter().filter(|i| i.kind == ContactKind::Edge).count()
+    };
+    for width in [0.5, 0.01] {
+        assert_eq!(edges(&at(width, 0.9 * gap)), 1, "{width}");
+        assert_eq!(edges(&at(width, 3.0 * gap)), 0, "{width}");
+    }
+}
+
+#[test]
+fn a_corner_set_into_a_straight_edge_changes_nothing() {
+    let floor = odd(&[
+        [-5.0, -1.0],
+        [5.0, -1.0],
+        [5.0, 0.0],
+        [2.5, 0.0],
+        [1.0, 0.0],
+        [0.25, 0.0],
+        [-5.0, 0.0],
+    ]);
+    let scene = scene(vec![floor], vec![rectangle(0.0, 0.0, 2.0, 1.0)]);
+    let found = Interfaces::of(&scene).all;
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!((found[0].length() - 2.0 * ODD).abs() < 1e-9);
+    assert!(near(found[0].normal, [0.0, 1.0]));
+}
+
+#[test]
+fn runs_of_unit_edges_of_a_lattice_are_one_interface_each() {
+    // Two rows of three cells far from the origin, the upper shifted by one; a column beside both.
+    let cells = |list: [(f64, f64); 3]| list.map(|(x, y)| CellEntry::Square(x, y));
+    let row = |x: f64, y: f64| cells([(x, y), (x + 1.0, y), (x + 2.0, y)]);
+    let scene = Scene::builder()
+        .grid(GridKind::Square, 2.0)
+        .friction(0.5)
+        .ground(GroundEntry::default().cells(row(3.0, 4.0)))
+        .block(BlockEntry::new("low").cells(row(3.0, 5.0)))
+        .block(BlockEntry::new("high").cells(row(4.0, 6.0)))
+        .block(BlockEntry::new("beside").cells(cells([(2.0, 5.0), (2.0, 6.0), (3.0, 6.0)])))
+        .build()
+        .expect("a sound scene");
+    let found = Interfaces::of(&scene).all;
+    let block = |n: usize| BodyId::Block(BlockId(n));
+    let expected = [
+        ([block(0), BodyId::Ground(0)], 6.0, [0.0, 1.0], [9.0, 10.0]),
+        ([block(1), block(0)], 4.0, [0.0, 1.0], [10.0, 12.0]),
+        ([block(2), block(0)], 2.0, [-1.0, 0.0], [6.0, 11.0]),
+        ([block(2), block(0)], 2.0, [0.0, 1.0], [7.0, 12.0]),
+        ([block(2), block(1)], 2.0, [-1.0, 0.0], [8.0, 13.0]),
+    ];
+    assert_eq!(found.len(), expected.len(), "{found:?}");
+    for (one, (bodies, length, normal, middle)) in found.iter().zip(expected) {
+        assert_eq!(one.bodies, bodies);
+        assert!((one.length() - length).abs() < 1e-12, "{one:?}");
+        assert!(near(one.normal, normal), "{one:?}");
+        assert!((one.middle() - Point::new(middle[0], middle[1])).norm() < 1e-12);
+    }
+}

@@ -1,0 +1,173 @@
+//! What is told of forces: totals, weights, resultants, shares of friction and of limits.
+
+use serde_json::json;
+
+use super::{cross, dot, less, list, number, pair, structures, told};
+use crate::structure::{block, on_floor, rectangle};
+
+#[test]
+fn totals_are_the_sums_of_what_is_listed() {
+    let mut falling = 0;
+    for told in structures() {
+        let frame = &told.json["frames"][0];
+        let mut sum = 0.0;
+        for interface in list(&frame["interfaces"]) {
+            let normal = pair(&interface["normal_forces"]);
+            sum += normal[0] + normal[1] + number(&interface["friction_force"]).abs();
+        }
+        for robot in list(&frame["robots"]) {
+            let force = pair(&robot["force"]);
+            sum += force[0].abs() + force[1].abs() + number(&robot["torque"]).abs() / told.length;
+        }
+        let total = number(&frame["total_force"]);
+        assert!(
+            (sum - total).abs() <= 1e-9 * sum.max(1e-9),
+            "{sum} {total}: {}",
+            told.file
+        );
+        let missing: f64 = list(&frame["failures"])
+            .iter()
+            .map(|f| match f["torque"].is_null() {
+                true => number(&f["amount"]),
+                false => number(&f["amount"]) / told.length,
+            })
+            .sum();
+        let sticking = number(&frame["total_sticking"]);
+        let size = number(&frame["weight"]).max(sticking).max(total);
+        assert!(
+            (missing - sticking).abs() <= 1e-6 * size,
+            "{missing} {sticking}: {}",
+            told.file
+        );
+        falling += usize::from(missing > 0.0);
+        for failure in list(&frame["failures"]) {
+            let amount = number(&failure["amount"]);
+            let own = match failure["kind"].as_str().expect("a kind") {
+                "robot_torque" => number(&failure["torque"]).abs(),
+                "robot_force" => pair(&failure["force"]).iter().map(|v| v.abs()).sum(),
+                _ => dot(pair(&failure["force"]), pair(&failure["force"])).sqrt(),
+            };
+            assert!((amount - own).abs() <= 1e-9 * own, "{failure}");
+        }
+    }
+    assert!(falling > 5, "some fall");
+}
+
+#[test]
+fn the_weight_is_that_of_the_placed_blocks() {
+    let file = on_floor(
+        0.7,
+        vec![
+            block("a", rectangle(0.0, 0.0, 1.0, 1.0), 5.0),
+            block("b", rectangle(0.0, 1.0, 1.0, 1.0), 7.5),
+            json!({ "id": "c", "polygon": rectangle(3.0, 0.0, 2.0, 0.5), "density": 200 }),
+        ],
+    );
+    let told = told(&file);
+    let weight = number(&told.json["frames"][0]["weight"]);
+    assert!(
+        (weight - (12.5 + 200.0 * 9.81)).abs() < 1e-9 * weight,
+        "{weight}"
+    );
+}
+
+#[test]
+fn resultants_replace_the_forces_at_both_points() {
+    for told in structures() {
+        for interface in list(&told.json["frames"][0]["interfaces"]) {
+            let normal = pair(&interface["normal"]);
+            let tangent = [-normal[1], normal[0]];
+            let forces = pair(&interface["normal_forces"]);
+            let friction = number(&interface["friction_force"]);
+            let points = [
+                pair(&interface["application_points"][0]),
+                pair(&interface["application_points"][1]),
+            ];
+            let (at, force) = (
+                pair(&interface["resultant"]["at"]),
+                pair(&interface["resultant"]["force"]),
+            );
+            let sum = forces[0] + forces[1];
+            let size = sum + friction.abs();
+            for ((n, t), force) in normal.iter().zip(tangent).zip(force) {
+                assert!(
+                    (n * sum + t * friction - force).abs() <= 1e-9 * size,
+                    "{interface}"
+                );
+            }
+            // The same moment about the first point, where friction has none.
+            let span = less(points[1], points[0]);
+            let moment = cross(span, normal.map(|n| n * forces[1]));
+            let of_resultant = cross(less(at, points[0]), force);
+            let reach = dot(span, span).sqrt();
+            assert!(
+                (moment - of_resultant).abs() <= 1e-6 * size * reach,
+                "{interface}"
+            );
+        }
+    }
+}
+
+#[test]
+fn contact_forces_press_and_friction_is_told_as_its_share() {
+    for told in structures() {
+        for interface in list(&told.json["frames"][0]["interfaces"]) {
+            let forces = pair(&interface["normal_forces"]);
+            assert!(forces[0] >= 0.0 && forces[1] >= 0.0, "{interface}");
+            let most = number(&interface["mu"]) * (forces[0] + forces[1]);
+            let friction = number(&interface["friction_force"]).abs();
+            let share = number(&interface["friction_used"]);
+            assert!(friction <= most * (1.0 + 1e-12), "{interface}");
+            assert!(
+                (share * most - friction).abs() <= 1e-9 * most,
+                "{interface}"
+            );
+            assert!(most > 0.0 || share == 0.0, "{interface}");
+        }
+    }
+}
+
+#[test]
+fn a_robot_gives_no_more_than_it_may_and_tells_the_largest_share() {
+    let mut limited = 0;
+    for told in structures() {
+        for robot in list(&told.json["frames"][0]["robots"]) {
+            let listed = list(&told.file["robots"])
+                .iter()
+                .find(|r| r["id"] == robot["id"]);
+            let limits = &listed.expect("a robot of the file")["limits"];
+            let limit = |key: &str| {
+                limits[key].as_f64().or_else(|| match key {
+                    "torque" => None,
+                    _ => limits["force"].as_f64(),
+                })
+            };
+            let [x, y] = pair(&robot["force"]);
+            let given = [
+                (x, limit("fx")),
+                (y, limit("fy")),
+                // Without a limit of its own a robot gives no torque.
+                (
+                    number(&robot["torque"]),
+                    Some(limit("torque").unwrap_or(0.0)),
+                ),
+            ];
+            let mut most: f64 = 0.0;
+            for (amount, limit) in given {
+                let Some(limit) = limit else { continue };
+                assert!(
+                    amount.abs() <= limit * (1.0 + 1e-9),
+                    "{robot} {}",
+                    told.file
+                );
+                if limit > 0.0 {
+                    most = most.max(amount.abs() / limit);
+                    limited += 1;
+                }
+            }
+            let share = number(&robot["limit_used"]);
+            assert!((share - most).abs() <= 1e-9, "{robot} {most} {limits}");
+        }
+    }
+    assert!(limited > 5);
+}

@@ -1,0 +1,107 @@
+//! What is told of structures that stand only by wedging.
+
+use drystone::analysis::{Ask, Options};
+use serde_json::{Value, json};
+
+use super::{Told, list, number, told, told_with};
+use crate::structure::{block, harmonic, rectangle, wall};
+
+/// `only_by_wedging` is absent where nobody asked and where the frame falls, and says in its effect what shows it.
+#[test]
+fn wedging_is_told_with_what_shows_it() {
+    let asked = Options::default().wedging(Ask::Yes);
+    let between = json!({ "drystone": 1, "friction": 0.7,
+        "ground": [{ "polygon": rectangle(-2.0, -2.0, 2.0, 4.0) }, { "polygon": rectangle(3.0, -2.0, 2.0, 4.0) }],
+        "blocks": [block("bar", rectangle(0.0, 0.0, 3.0, 0.5), 7.0)] });
+    let frame = |told: &Told| told.json["frames"][0].clone();
+    let why = |frame: &Value| {
+        let effect = list(&frame["effects"])
+            .iter()
+            .find(|e| e["effect"] == "wedging");
+        effect.expect("every effect is told")["why"]
+            .as_str()
+            .expect("words")
+            .to_string()
+    };
+    assert!(frame(&told(&between)).get("only_by_wedging").is_none());
+    let wedged = frame(&told_with(&between, &asked));
+    assert_eq!(wedged["only_by_wedging"], json!(true));
+    // Friction of 0.7 must carry 7 N, so both faces together press with 10 N at least.
+    assert!(why(&wedged).contains("1.000e1 N"), "{}", why(&wedged));
+    assert!(
+        why(&wedged).contains("bar moves and presses nothing"),
+        "{}",
+        why(&wedged)
+    );
+    let stands = frame(&told_with(&wall(2, 2), &asked));
+    assert_eq!(stands["only_by_wedging"], json!(false));
+    let falls = frame(&told_with(&harmonic(4, 1.1), &asked));
+    assert!(falls.get("only_by_wedging").is_none());
+}
+
+/// What shows that a frame stands only by wedging is checked from the result alone: its interfaces, their forces, two motions.
+#[test]
+fn the_certificate_of_wedging_is_checked_from_the_result_alone() {
+    let asked = Options::default().wedging(Ask::Yes);
+    let walls = json!([{ "polygon": rectangle(-2.0, -2.0, 2.0, 4.0) }, { "polygon": rectangle(3.0, -2.0, 2.0, 4.0) }]);
+    // Friction of μ must carry the weight, so both faces together press with weight/μ at least.
+    for (mu, weight) in [(0.7, 7.0), (0.25, 3.0)] {
+        let least = weight / mu;
+        let file = json!({ "drystone": 1, "friction": mu, "ground": walls,
+            "blocks": [block("bar", rectangle(0.0, 0.0, 3.0, 0.5), weight)] });
+        let told = told_with(&file, &asked);
+        let frame = &told.json["frames"][0];
+        assert_eq!(frame["only_by_wedging"], json!(true));
+        let wedging = &frame["wedging"];
+        let at_least = number(&wedging["normal_force_at_least"]);
+        assert!((at_least - least).abs() < 1e-6 * least, "{wedging}");
+        let interfaces = list(&frame["interfaces"]);
+        let mut must = vec![false; interfaces.len()];
+        for face in list(&wedging["must_press"]) {
+            let k = face["interface"].as_u64().expect("a number") as usize;
+            assert_eq!(face["bodies"], interfaces[k]["bodies"]);
+            must[k] = true;
+        }
+        let pair = |v: &Value| [number(&v[0]), number(&v[1])];
+        let velocity = |motion: &Value, body: &Value, at: [f64; 2]| {
+            let of = list(motion).iter().find(|m| m["block"] == *body);
+            of.map_or([0.0, 0.0], |m| {
+                let ([x, y], [u, v], spin) =
+                    (pair(&m["at"]), pair(&m["velocity"]), number(&m["spin"]));
+                [u - spin * (at[1] - y), v + spin * (at[0] - x)]
+            })
+        };
+        // How fast a face opens and slides at an application point.
+        let apart = |motion: &Value, face: &Value, point: usize| {
+            let at = pair(&face["application_points"][point]);
+            let [on, from] = [0, 1].map(|side| velocity(motion, &face["bodies"][side], at));
+            let ([x, y], [u, v]) = (pair(&face["normal"]), [on[0] - from[0], on[1] - from[1]]);
+            (x * u + y * v, x * v - y * u)
+        };
+        let (mut power, mut pressed) = (0.0, 0.0);
+        for (face, must) in interfaces.iter().zip(&must) {
+            let normal = [0, 1].map(|k| number(&face["normal_forces"][k]));
+            for (point, normal) in normal.into_iter().enumerate() {
+                // As springs give way only the faces named come apart, and none is pressed.
+                let (opens, slides) = apart(&wedging["gives_way"], face, point);
+                assert!(opens > -1e-5, "{face}");
+                assert!(*must || opens.abs().max(slides.abs()) < 1e-5, "{face}");
+                // Along the bound no other face takes work, and these no more than 1 for each newton.
+                let (opens, slides) = apart(&wedging["bound"], face, point);
+                let taken = number(&face["mu"]) * slides.abs() - opens;
+                assert!(taken < f64::from(u8::from(*must)) + 1e-6, "{taken} {face}");
+                power -= normal * opens;
+            }
+            let (_, slides) = apart(&wedging["bound"], face, 0);
+            power -= number(&face["friction_force"]) * slides;
+            pressed += if *must { normal[0] + normal[1] } else { 0.0 };
+        }
+        assert_eq!(wedging["presses_nothing"], json!(true));
+        // What the loads give is what these forces take: in any balance the faces press with as much at least.
+        assert!(
+            (power - at_least).abs() < 1e-5 * at_least,
+            "{power} {at_least}"
+        );
+        assert!(pressed > (1.0 - 1e-6) * at_least, "{pressed} {at_least}");
+    }
+}

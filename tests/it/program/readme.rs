@@ -1,0 +1,76 @@
+//! The README's list of commands, run as it is typed.
+
+use std::fs;
+
+use super::Bench;
+
+const README: &str = include_str!("../../../README.md");
+
+/// The first fenced block of this language that holds these words.
+fn fenced(language: &str, words: &str) -> &'static str {
+    let mark = format!("```{language}\n");
+    let blocks = README.split(mark.as_str()).skip(1);
+    let mut blocks = blocks.filter_map(|rest| rest.split("```").next());
+    blocks
+        .find(|block| block.contains(words))
+        .expect("the README has it")
+}
+
+/// In a folder with the scene above them, a second version of it, and a drawing.
+#[test]
+fn every_command_of_the_readme_does_its_work() {
+    let bench = Bench::new();
+    let scene = fenced("json", "\"steps\"");
+    let other = scene.replace("\"friction\": 0.6", "\"friction\": 0.5");
+    assert_ne!(scene, other);
+    fs::create_dir(bench.path("scenes")).expect("writable");
+    let line = |text: &str| format!("{}\n", text.replace('\n', " "));
+    for (name, text) in [
+        ("scene.json", scene),
+        ("a.json", scene),
+        ("old.json", scene),
+        ("b.json", &other),
+        ("new.json", &other),
+        ("scenes/one.json", scene),
+        ("scenes/two.json", &other),
+        ("corpus.ndjson", &(line(scene) + &line(&other))),
+        (
+            "drawing.svg",
+            include_str!("../../../assets/import/doorway.svg"),
+        ),
+    ] {
+        fs::write(bench.path(name), text).expect("writable");
+    }
+    let commands = fenced("sh", "drystone check scene.json").lines();
+    let mut seen = 0;
+    for command in commands {
+        let typed = command.split(" # ").next().expect("a part").trim();
+        // One ends when somebody ends it, and one talks with mdBook.
+        if typed.contains("--watch") || typed.ends_with("mdbook") {
+            continue;
+        }
+        let (typed, into) = match typed.split_once(" > ") {
+            Some((typed, file)) => (typed, Some(file)),
+            None => (typed, None),
+        };
+        let ran = match typed.strip_prefix("cat scene.json | drystone ") {
+            Some(line) => bench.run_with(line, scene.as_bytes()),
+            None => bench.run(typed.strip_prefix("drystone ").expect("ours")),
+        };
+        // Without references there is something for a person to look at.
+        let expected = i32::from(typed.contains("snapshot"));
+        assert_eq!(ran.code, expected, "{typed}\n{}{}", ran.out, ran.err);
+        if let Some(file) = into {
+            fs::write(bench.path(file), ran.out).expect("writable");
+        }
+        let mut words = typed.split_whitespace();
+        if words.any(|word| word == "-o") {
+            let name = words.next().expect("an output");
+            let pages = name.replace(".pdf", "-1.pdf");
+            let made = name == "-" || bench.path(name).exists() || bench.path(&pages).exists();
+            assert!(made, "{typed} wrote no {name}");
+        }
+        seen += 1;
+    }
+    assert!(seen > 25, "{seen}");
+}
