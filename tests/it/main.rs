@@ -43,6 +43,7 @@ mod scenes;
 mod session;
 mod sinks;
 mod small;
+mod source;
 mod starters;
 mod snapshot;
 mod statics;
