@@ -77,7 +77,7 @@ pub(crate) fn classes<'d>(items: &'d [Item], wanted: &[&str]) -> Vec<&'d Group> 
 }
 
 /// The straight pieces of a group's own paths, curves as their control polygons.
-fn pieces(group: &Group) -> Vec<[PagePoint; 2]> {
+pub(crate) fn pieces(group: &Group) -> Vec<[PagePoint; 2]> {
     let mut pieces = Vec::new();
     for item in &group.items {
         let Item::Path(path) = item else { continue };
@@ -106,7 +106,7 @@ fn pieces(group: &Group) -> Vec<[PagePoint; 2]> {
 }
 
 /// Whether a line runs through a box: cut to the box's slabs, something of it is left.
-fn through([a, b]: [PagePoint; 2], bounds: Box4) -> bool {
+pub(crate) fn through([a, b]: [PagePoint; 2], bounds: Box4) -> bool {
     let (mut from, mut to) = (0.0_f64, 1.0_f64);
     for (start, along, low, high) in [
         (a.x, b.x - a.x, bounds[0], bounds[2]),

@@ -26,6 +26,7 @@ mod keys;
 mod kinds;
 mod laws;
 mod layers;
+mod leaders;
 mod lines;
 mod notes;
 mod oracle;

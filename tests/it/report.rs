@@ -168,6 +168,53 @@ fn the_same_scenes_give_the_same_bytes_and_times_only_where_asked_for() {
     assert!(!folder.text("a.json").contains("\"seconds\""));
     folder.done("report in -o t.json --timing");
     assert!(folder.text("t.json").contains("\"seconds\""));
+    // Effects share one program: time is reported stage by stage.
+    folder.done("report in/a.json -o t.md --timing --margins");
+    let timed = folder.text("t.md");
+    let row = |name: &str| {
+        let mut rows = timed
+            .lines()
+            .filter(|l| l.starts_with(&format!("| {name}")));
+        rows.next().unwrap_or_default().to_owned()
+    };
+    assert!(timed.contains("| unknowns | time |"), "{timed}");
+    for stage in ["posing", "solving and proving", "margins:"] {
+        let time = row(stage);
+        assert!(time.ends_with(" ms |") || time.ends_with(" s |"), "{time}");
+    }
+    assert!(row("friction:").ends_with("| shared |") && row("wedging:").ends_with("| none |"));
+    assert!(!folder.text("a.md").contains("| time |"));
+}
+
+#[test]
+fn the_largest_force_is_that_of_steps_that_stand_and_may_be_a_robots() {
+    let held = r#"{ "drystone": 1, "title": "Held", "robots": [{ "id": "r", "holds": "a", "limits": { "force": 100 } }],
+        "blocks": [{ "id": "a", "polygon": [[0, 0], [1, 0], [1, 1], [0, 1]], "weight": 40 }] }"#;
+    let alone = r#"{ "drystone": 1, "title": "Alone",
+        "blocks": [{ "id": "a", "polygon": [[0, 0], [1, 0], [1, 1], [0, 1]], "weight": 40 }] }"#;
+    let folder = Folder::new(&[
+        ("in/a.json", held),
+        ("in/b.json", alone),
+        ("in/c.json", FALLS),
+    ]);
+    folder.done("report in -o r.md");
+    let text = folder.text("r.md");
+    let row = |title: &str| {
+        let mut rows = text
+            .lines()
+            .filter(|l| l.starts_with(&format!("| [{title}]")));
+        rows.next().unwrap_or_default().to_owned()
+    };
+    assert!(row("Held").contains("| 40 N |"), "{text}");
+    assert!(
+        row("Alone").contains("| none stands | 1 | none stands |"),
+        "{text}"
+    );
+    // Its first step falls; the second, which is held, has forces of its own.
+    assert!(
+        row("Half a lintel").contains(" N |") && !row("Half a lintel").contains("none stands"),
+        "{text}"
+    );
 }
 
 #[test]
@@ -265,7 +312,7 @@ fn a_comparison_tells_what_changed_and_marks_it_in_both_figures() {
         "2 comparisons: no verdict changed; 2 stand, 0 fall",
         "Both stand; changed: ",
         "Only in the first folder: only.json",
-        "changed: lintel and right",
+        "changed: right and lintel",
         "weight 11 N → 22 N",
         "centroid moved by (-1, 0) m",
         "the same blocks in the same places",
