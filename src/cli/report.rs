@@ -317,7 +317,7 @@ impl Report {
             name: &names[i],
             text: &read[i].1,
         };
-        let told = |analyses: &[Analysis]| match analyses {
+        let described = |analyses: &[Analysis]| match analyses {
             [was, is] => {
                 let side = |i: usize, analysis| Side {
                     file: file(i),
@@ -328,7 +328,7 @@ impl Report {
             [one, ..] => Some(Entry::of(file(0), one, wanted)),
             [] => None,
         };
-        let Some(mut entry) = told(&analyses) else {
+        let Some(mut entry) = described(&analyses) else {
             return Ok(Err(Vec::new()));
         };
         if form == Form::Markdown {
@@ -340,7 +340,7 @@ impl Report {
                 for analysis in &mut drawn {
                     analysis.scene = script::legible(&analysis.scene, &fonts).into();
                 }
-                let steps = told(&drawn).map_or(Vec::new(), |entry| entry.steps);
+                let steps = described(&drawn).map_or(Vec::new(), |entry| entry.steps);
                 for (step, drawn) in entry.steps.iter_mut().zip(steps) {
                     step.plates = drawn.plates;
                 }
