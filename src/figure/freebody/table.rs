@@ -231,8 +231,8 @@ impl Table {
             }
             y += ROW * size;
         }
-        // Down to the last row's base line, and the room of a row below it.
-        (group, y - top - 0.2 * size)
+        // From there on half a row of room.
+        (group, y - top - 0.9 * size)
     }
 }
 
