@@ -187,7 +187,7 @@ pub(super) fn bars(chart: &Bars, svg: &mut String) -> Drawn {
     let top = libm::ceil(most / step) * step;
     let mut axes = ChartBuilder::on(&area)
         .margin(8 * FINE)
-        .margin_right(14 * FINE)
+        .margin_right(20 * FINE)
         .x_label_area_size(38 * FINE)
         .y_label_area_size(48 * FINE)
         .build_cartesian_2d(first..last, 0.0..top)?;

@@ -50,7 +50,7 @@ pub(crate) struct Check {
     /// Say below the tables what their words mean
     #[arg(long, conflicts_with = "json")]
     explain: bool,
-    /// Examine one frame only, by number from 1 or by its letter in the strip
+    /// Examine one frame only, by number from 1, by its letter in the strip, or last
     #[arg(long, value_name = "N")]
     frame: Option<FrameChoice>,
     #[command(flatten)]

@@ -188,7 +188,7 @@ impl Import {
             scale: self.scale,
             flatten: self.flatten,
             gap: self.gap,
-            frame: self.frame.map(FrameChoice::number),
+            frame: self.frame.and_then(FrameChoice::number),
             scene: SceneFile {
                 title: self.title.clone(),
                 friction: self.friction,

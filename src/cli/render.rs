@@ -112,7 +112,7 @@ pub(crate) struct Render {
     /// Draw again whenever a scene or the style file is saved, until the program is stopped
     #[arg(long)]
     watch: bool,
-    /// Draw one frame only, by number from 1 or by its letter in the strip
+    /// Draw one frame only, by number from 1, by its letter in the strip, or last
     #[arg(long, value_name = "N")]
     frame: Option<FrameChoice>,
     /// End with 1 or 3, as check does, where something is unstable or undecided

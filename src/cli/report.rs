@@ -73,7 +73,7 @@ impl Report {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
         let form = self.form().map_err(|c| vec![c])?;
         let theme = self.look.theme().map_err(|c| vec![c])?;
-        let (tasks, notes) = self.tasks()?;
+        let (tasks, mut notes) = self.tasks()?;
         let inputs: Vec<&Path> = tasks.iter().flat_map(Task::paths).collect();
         let main = match form {
             Form::Split => self.output.join("index.html"),
@@ -135,6 +135,10 @@ impl Report {
         }
         if pieces.is_empty() && !complaints.is_empty() {
             return Err(complaints);
+        }
+        if self.compare && pieces.len() > 1 {
+            let words = "In the table margins, friction, blocks and largest forces are those of the second scenes.";
+            notes.push(words.to_owned());
         }
         for complaint in &complaints {
             terminal.complain(&complaint.page());
@@ -297,8 +301,8 @@ impl Report {
         if !wrong.is_empty() {
             return Ok(Err(wrong));
         }
-        if matches!(form, Form::Markdown | Form::Pdf) {
-            // Their words are drawn here, in our fonts.
+        if form == Form::Pdf {
+            // Its words are drawn here, in our fonts.
             for (source, _) in &mut read {
                 source.scene = script::legible(&source.scene, &Fonts::default());
             }
@@ -313,17 +317,35 @@ impl Report {
             name: &names[i],
             text: &read[i].1,
         };
-        let mut entry = match analyses.as_slice() {
+        let described = |analyses: &[Analysis]| match analyses {
             [was, is] => {
                 let side = |i: usize, analysis| Side {
                     file: file(i),
                     analysis,
                 };
-                compared([side(0, was), side(1, is)], wanted)
+                Some(compared([side(0, was), side(1, is)], wanted))
             }
-            [one, ..] => Entry::of(file(0), one, wanted),
-            [] => return Ok(Err(Vec::new())),
+            [one, ..] => Some(Entry::of(file(0), one, wanted)),
+            [] => None,
         };
+        let Some(mut entry) = described(&analyses) else {
+            return Ok(Err(Vec::new()));
+        };
+        if form == Form::Markdown {
+            // Of Markdown only the figures are drawn here, in our fonts; its words are set by whoever shows it.
+            let fonts = Fonts::default();
+            let lacks = |analysis: &Analysis| script::lacks(&analysis.scene, &fonts);
+            if analyses.iter().any(lacks) {
+                let mut drawn = analyses;
+                for analysis in &mut drawn {
+                    analysis.scene = script::legible(&analysis.scene, &fonts).into();
+                }
+                let steps = described(&drawn).map_or(Vec::new(), |entry| entry.steps);
+                for (step, drawn) in entry.steps.iter_mut().zip(steps) {
+                    step.plates = drawn.plates;
+                }
+            }
+        }
         if self.accuracy_study {
             let mut scene = read[0].0.scene.clone();
             if scene.title.is_empty() {

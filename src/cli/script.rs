@@ -29,6 +29,11 @@ pub(crate) fn warn(sources: &[Source], fonts: &Fonts, terminal: &Terminal) {
     }
 }
 
+/// Whether a scene has characters that no font has.
+pub(crate) fn lacks(scene: &Scene, fonts: &Fonts) -> bool {
+    !fonts.lacking(&words(scene).join(" ")).is_empty()
+}
+
 /// The words of a scene that figures show.
 fn words(scene: &Scene) -> Vec<&str> {
     let blocks = scene.blocks.iter().map(|b| b.id.as_str());

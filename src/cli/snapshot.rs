@@ -36,7 +36,7 @@ pub(crate) struct Snapshot {
     /// The same also where CI is set
     #[arg(long)]
     accept_in_ci: bool,
-    /// Only scenes whose path contains this, or fits it where it has a *
+    /// Only scenes whose path contains this, or fits it where it has a *; the one scene whose path it is, without .json
     #[arg(long, value_name = "FILTER")]
     only: Option<String>,
     /// Write a page to look at: expected, difference and found beside each other. Without a file: ask here, one by one

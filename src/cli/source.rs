@@ -32,7 +32,10 @@ impl Source {
     /// The scene cut down to one of its frames.
     fn only_frame(&mut self, choice: FrameChoice) -> Result<(), Complaint> {
         let count = self.scene.frames.len();
-        let FrameChoice(number) = choice;
+        let number = match choice {
+            FrameChoice::Number(number) => number,
+            FrameChoice::Last => count - 1,
+        };
         if number >= count {
             let has = if count == 1 {
                 "one frame".into()
@@ -51,27 +54,38 @@ impl Source {
     }
 }
 
-/// A frame asked for, counted from 0.
+/// A frame asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct FrameChoice(usize);
+pub(crate) enum FrameChoice {
+    /// By its number, from 0.
+    Number(usize),
+    /// The last, whatever its number.
+    Last,
+}
 
 impl FrameChoice {
-    /// The frame's number, from 0.
-    pub(crate) fn number(self) -> usize {
-        self.0
+    /// The frame's number, from 0; `None` for the last.
+    pub(crate) fn number(self) -> Option<usize> {
+        match self {
+            FrameChoice::Number(number) => Some(number),
+            FrameChoice::Last => None,
+        }
     }
 }
 
 impl FromStr for FrameChoice {
     type Err = String;
 
-    /// `1`, `2`, … or `a`, `b`, … `z`, `aa`, …, as the strip letters its panels.
+    /// `1`, `2`, … or `a`, `b`, … `z`, `aa`, …, as the strip letters its panels, or `last`.
     fn from_str(typed: &str) -> Result<FrameChoice, String> {
+        if typed == "last" {
+            return Ok(FrameChoice::Last);
+        }
         let number = match typed.parse::<usize>() {
             Ok(number) => Some(number),
             Err(_)
                 if typed.is_empty()
-                    || typed.len() > 4
+                    || typed.len() > 3
                     || !typed.bytes().all(|b| b.is_ascii_lowercase()) =>
             {
                 None
@@ -83,8 +97,8 @@ impl FromStr for FrameChoice {
             ),
         };
         match number {
-            Some(number) if number > 0 => Ok(FrameChoice(number - 1)),
-            _ => Err("give a frame's number, from 1, or its letter".into()),
+            Some(number) if number > 0 => Ok(FrameChoice::Number(number - 1)),
+            _ => Err("give a frame's number, from 1, its letter, or last".into()),
         }
     }
 }
@@ -231,9 +245,11 @@ mod tests {
             ("aa", 26),
             ("ab", 27),
         ] {
-            assert_eq!(typed.parse(), Ok(FrameChoice(number)), "{typed}");
+            assert_eq!(typed.parse(), Ok(FrameChoice::Number(number)), "{typed}");
         }
-        for typed in ["0", "", "-1", "A", "1.5", "abcde", "é"] {
+        assert_eq!("last".parse(), Ok(FrameChoice::Last));
+        // A word is no number of some hundred thousand.
+        for typed in ["0", "", "-1", "A", "1.5", "abcde", "é", "next", "first"] {
             assert!(typed.parse::<FrameChoice>().is_err(), "{typed}");
         }
     }

@@ -58,6 +58,30 @@ pub struct PageRect {
     pub height: f64,
 }
 
+impl PageRect {
+    /// The part of a line that lies in the rectangle; `None` where none does.
+    pub(crate) fn part_of(self, [from, to]: [PagePoint; 2]) -> Option<[PagePoint; 2]> {
+        let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
+        let along = (to.x - from.x, to.y - from.y);
+        for (start, step, low, size) in [
+            (from.x, along.0, self.at.x, self.width),
+            (from.y, along.1, self.at.y, self.height),
+        ] {
+            if step == 0.0 {
+                if start < low || start > low + size {
+                    return None;
+                }
+                continue;
+            }
+            let (a, b) = ((low - start) / step, (low + size - start) / step);
+            enters = enters.max(a.min(b));
+            leaves = leaves.min(a.max(b));
+        }
+        let at = |share: f64| from.moved(share * along.0, share * along.1);
+        (enters < leaves).then(|| [at(enters), at(leaves)])
+    }
+}
+
 /// A picture: a page and what is on it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drawing {

@@ -12,6 +12,8 @@ use crate::geometry::{Bounds, Point, Vector};
 const PARALLEL: f64 = 0.12;
 /// Room between two arrows set side by side, in widths of the wider shaft.
 const ROOM: f64 = 0.4;
+/// A free place for an arrow is looked for beside those so many of its widths off, and beside all where none is found there.
+const NEAR: f64 = 24.0;
 /// Above so many arrows in a frame they are texture, and stay where they are.
 const MOST: usize = 4000;
 
@@ -23,6 +25,8 @@ pub(crate) fn apart(marks: &mut Marks) {
     }
     let original = arrows.clone();
     let mut boxes: Vec<Bounds> = original.iter().map(around).collect();
+    let mut by_place: Vec<(f64, usize)> = original.iter().map(|a| a.at.x).zip(0..).collect();
+    by_place.sort_by(|a, b| a.0.total_cmp(&b.0));
     for i in 0..arrows.len() {
         let Some(across) = across(&original[i]) else {
             continue;
@@ -32,7 +36,7 @@ pub(crate) fn apart(marks: &mut Marks) {
             ..original[i]
         };
         // An arrow and its opposite keep their true line between them.
-        let opposite = (0..arrows.len()).find(|j| opposite(&original[i], &original[*j]));
+        let opposite = opposites(&by_place, &original, i);
         let ideal = opposite.map_or(0.0, |_| -0.5 * (1.0 + ROOM) * original[i].width);
         let clear = |place: &f64| {
             let there = moved(*place);
@@ -46,20 +50,31 @@ pub(crate) fn apart(marks: &mut Marks) {
             boxes[i] = around(&arrows[i]);
             continue;
         }
-        let mut places = vec![ideal, 0.0];
-        for other in &arrows[..i] {
-            // Just clear of one of those before it, on either side.
-            let aside = |at: Point| (at - other.at).dot(&across);
-            if let Some((needed, _)) = side_by_side(&original[i], other) {
-                let now = aside(original[i].at);
-                places.extend([needed - now, -needed - now]);
-            }
-        }
         // To a millionth of a shaft: of two places as far as each other noise of the forces must not choose.
         let shafts = |far: f64| (far / original[i].width * 1e6).round();
         let far = |place: &f64| shafts((place - ideal).abs());
-        places.sort_by(|a, b| far(a).total_cmp(&far(b)).then(b.total_cmp(a)));
-        let place = places.iter().copied().find(clear);
+        let nearest = |within: Option<Bounds>| {
+            let mut places = vec![ideal, 0.0];
+            for (other, its) in arrows[..i].iter().zip(&boxes) {
+                if within.is_some_and(|within| !within.meets(*its)) {
+                    continue;
+                }
+                // Just clear of one of those before it, on either side.
+                let aside = |at: Point| (at - other.at).dot(&across);
+                if let Some((needed, _)) = side_by_side(&original[i], other) {
+                    let now = aside(original[i].at);
+                    places.extend([needed - now, -needed - now]);
+                }
+            }
+            places.sort_by(|a, b| far(a).total_cmp(&far(b)).then(b.total_cmp(a)));
+            places.into_iter().find(clear)
+        };
+        // Places beside arrows that are farther off than the one that is found are farther off themselves.
+        let width = original[i].width;
+        let near = nearest(Some(around(&original[i]).grown(NEAR * width)));
+        let place = near
+            .filter(|place| place.abs() < 0.5 * NEAR * width)
+            .or_else(|| nearest(None));
         arrows[i] = moved(place.unwrap_or(ideal));
         boxes[i] = around(&arrows[i]);
     }
@@ -73,6 +88,18 @@ fn around(arrow: &ForceArrow) -> Bounds {
         max: arrow.at.sup(&tip),
     };
     ends.grown((HEAD_WIDTH + 2.0 * ROOM) * arrow.width)
+}
+
+/// The first of the arrows that begins where arrow `i` does and points the opposite way; `by_place` are their places from
+/// left to right.
+fn opposites(by_place: &[(f64, usize)], arrows: &[ForceArrow], i: usize) -> Option<usize> {
+    let (x, far) = (arrows[i].at.x, 0.5 * arrows[i].width);
+    let from = by_place.partition_point(|place| place.0 < x - far);
+    let near = by_place[from..]
+        .iter()
+        .take_while(|place| place.0 <= x + far);
+    let found = near.filter(|(_, j)| opposite(&arrows[i], &arrows[*j]));
+    found.map(|(_, j)| *j).min()
 }
 
 /// Whether two arrows begin at one place and point opposite ways.

@@ -47,6 +47,8 @@ const MOST_LINES: usize = 3;
 const PITCH: f64 = 1.1;
 /// … and keeps so far from the sides of its block, pixels.
 const INSET: f64 = 4.0;
+/// How a character is spelled out that no font has.
+const SPELLED: &str = "U+";
 /// Height of a line of letters, in sizes.
 const HIGH: f64 = 0.96;
 
@@ -234,16 +236,21 @@ fn label(words: String, face: Face, size: f64, class: &'static str, wish: Wish) 
     }
 }
 
-/// A name of several words in lines that fit across its block, where one line does not and few do.
+/// A name of several words in lines that fit across its block, where one line does not and few do. What is spelled out in
+/// code points for want of a font may be broken between any two of them.
 fn broken(label: Label, across: f64) -> Label {
     let name = label.lines.concat();
     if label.wish.size.0 <= across {
         return label;
     }
-    let lines = text::balanced(&name, label.face, label.size, across, MOST_LINES + 1);
+    let (name, most) = match name.contains(SPELLED) {
+        true => (name.replace(text::NO_BREAK, " "), 2 * MOST_LINES),
+        false => (name, MOST_LINES),
+    };
+    let lines = text::balanced(&name, label.face, label.size, across, most + 1);
     // A word broken in two is no name any more.
     let whole = lines.join(" ").split(' ').eq(name.split_whitespace());
-    if !whole || lines.len() > MOST_LINES {
+    if !whole || lines.len() > most {
         return label;
     }
     let widths = lines.iter().map(|l| text::width(l, label.face, label.size));
@@ -311,9 +318,12 @@ fn robots(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
             roams: Some(f64::INFINITY),
         };
         let id = scene.robots[hold.robot.0].id.clone();
+        let block = scene.blocks[hold.block.0].body.polygon.bounds();
+        let across = pen.camera.length(block.width()) - 2.0 * INSET;
+        let label = label(id, Face::Sans, size, "robot-name", wish);
         Label {
             of: Some(hold.block),
-            ..label(id, Face::Sans, size, "robot-name", wish)
+            ..broken(label, across)
         }
     };
     let zoomed = pen.stage.options.zoom.is_some();
@@ -427,8 +437,10 @@ fn drawn(pen: &Pen<'_>, label: &Label, placed: Placed) -> Group {
     let theme = &pen.stage.options.theme;
     let mut group = Group::of_class(label.class);
     if let Some(leader) = placed.leader {
-        let line = Path::stroked(Outline::line(leader), Stroke::new(theme.faint, 0.6));
-        group = group.with(line.with_opacity(0.8));
+        // A thin grey line on a dark fill would be lost: a seam of the page's colour carries it.
+        let seam = Path::stroked(Outline::line(leader), Stroke::new(theme.page, 2.0));
+        let line = Path::stroked(Outline::line(leader), Stroke::new(theme.faint, 0.7));
+        group = group.with(seam.with_opacity(0.7)).with(line);
     }
     // A label lies on no outline, so it lies on one fill or on the page.
     let below = pen.below(middle(placed.rect));

@@ -272,8 +272,15 @@ const MISSING: &str = "missing force, without which it falls";
 const TURNING: &str = "turning loads by their amounts, small ones drawn larger";
 const BAR: f64 = 120.0;
 
+/// How the key names a robot: one that is called `robot` or `Robot 2` says already what it is.
 fn robot(id: &str) -> String {
-    format!("robot {id}")
+    match id
+        .get(..5)
+        .is_some_and(|start| start.eq_ignore_ascii_case("robot"))
+    {
+        true => id.to_owned(),
+        false => format!("robot {id}"),
+    }
 }
 
 /// An arrow that tells the scale of a panel of which one unit edge, `unit` pixels, is `newtons` N; `None` for no force.

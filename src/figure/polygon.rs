@@ -229,9 +229,17 @@ pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Ca
         }
     }
     let parts = vec![pen.arrows(false), pen.arrows(true), polygon];
-    let mut picture = composed(&pen, view, pen.blocks(), parts, ink);
-    // The polygon stands on nothing: ground ends beside it.
+    // The polygon stands on nothing: ground ends beside it, and no name runs on from there.
     let shown = view::ground_shown(&stage.analysis.scene, unit(&stage.analysis.scene, None));
+    if let Some(shown) = shown {
+        let mut beyond = camera.rect(shown);
+        let right = beyond.at.x + beyond.width;
+        let page = camera.rect(view);
+        beyond.at.x = right;
+        beyond.width = (page.at.x + page.width - right).max(0.0);
+        ink.rect(beyond);
+    }
+    let mut picture = composed(&pen, view, pen.blocks(), parts, ink);
     for item in &mut picture.items {
         if let (Item::Group(group), Some(shown)) = (item, shown)
             && group.class == "ground"

@@ -11,7 +11,7 @@ use super::panel::composed;
 use super::pen::Pen;
 use super::stage::Stage;
 use super::verdict;
-use super::words::{ALL, percent, quantity};
+use super::words::{ALL, counted, percent, quantity};
 use crate::analysis::{Contact, FrameAnalysis, Verdict};
 use crate::drawing::{Camera, Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
 use crate::geometry::Bounds;
@@ -135,10 +135,22 @@ fn most_used(scene: &Scene, found: &FrameAnalysis) -> String {
             ));
         }
     }
-    let robots = found.robots.iter().filter(|r| limited(scene, r.robot.0));
-    if let Some(robot) = robots.max_by(|a, b| a.limit_used.total_cmp(&b.limit_used)) {
-        let (id, share) = (&scene.robots[robot.robot.0].id, percent(robot.limit_used));
-        stated.push(format!("robot\u{a0}{id} gives {share} of its limit"));
+    let robots = || found.robots.iter().filter(|r| limited(scene, r.robot.0));
+    let most = robots().map(|r| r.limit_used).reduce(f64::max);
+    // Those that give as much but for rounding are told together: the noise of a solution names none of them.
+    let giving = most.map(|most| robots().filter(move |r| percent(r.limit_used) == percent(most)));
+    let giving: Vec<_> = giving.into_iter().flatten().collect();
+    match giving.as_slice() {
+        [] => {}
+        [robot] => {
+            let (id, share) = (&scene.robots[robot.robot.0].id, percent(robot.limit_used));
+            stated.push(format!("robot\u{a0}{id} gives {share} of its limit"));
+        }
+        [robot, ..] => stated.push(format!(
+            "{} give {} of their limits",
+            counted(giving.len(), "robot"),
+            percent(robot.limit_used)
+        )),
     }
     if stated.is_empty() {
         "nothing is limited".to_owned()

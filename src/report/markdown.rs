@@ -6,7 +6,7 @@ use super::entry::{Chart, Entry, Grid, Step};
 use super::html::slug;
 use super::page::{Made, Report, Unwritable};
 use crate::output::svg::{self, Options, Words};
-use crate::text::{self, markdown};
+use crate::text::{self, markdown, markdown_cell};
 use crate::wording::verdict::plain;
 
 /// The folder of a report's figures, beside it.
@@ -71,7 +71,11 @@ pub(super) fn head(report: &Report, summary: &str) -> String {
                 line.cells.remove(2);
             }
         }
-        table(&mut out, &grid);
+        // The names are links to their scenes.
+        table(&mut out, &grid, &|place, words| match place {
+            (line, 0) => format!("[{words}](#scene-{})", line + 1),
+            _ => words,
+        });
     }
     out
 }
@@ -93,7 +97,14 @@ pub(super) fn section(
     let place = format!("{}/{number:04}-{}", folder(stem), slug(&row.title));
     push(
         &mut out,
-        &format!("## {}: {}\n", markdown(&row.title), plain(row.verdict)),
+        &format!(
+            "<a id=\"scene-{number}\"></a>\n\n## {}: {}\n",
+            markdown(&row.title),
+            match row.before {
+                Some(before) => format!("{} → {}", plain(before), plain(row.verdict)),
+                None => plain(row.verdict).to_owned(),
+            }
+        ),
     );
     push(&mut out, &format!("File: {}\n", markdown(&row.name)));
     for remark in &entry.remarks {
@@ -171,10 +182,10 @@ fn step(
         for bullet in &step.bullets {
             grid.add("", [bullet.name.clone(), bullet.words.clone()]);
         }
-        table(out, &grid);
+        table(out, &grid, &|_, words| words);
     }
     for grid in &step.grids {
-        table(out, grid);
+        table(out, grid, &|_, words| words);
     }
     if !step.proof.is_empty() {
         push(out, &format!("{}\n", markdown(&step.proof)));
@@ -202,11 +213,11 @@ fn chart(out: &mut String, files: &mut Vec<Made>, chart: &Chart, name: &str) {
     files.push((format!("{name}.svg"), svg.into_bytes()));
 }
 
-fn table(out: &mut String, grid: &Grid) {
+fn table(out: &mut String, grid: &Grid, cell: &dyn Fn((usize, usize), String) -> String) {
     if !grid.caption.is_empty() {
         push(out, &format!("**{}**\n", markdown(&grid.caption)));
     }
-    let heads: Vec<String> = grid.heads.iter().map(|h| markdown(&h.0)).collect();
+    let heads: Vec<String> = grid.heads.iter().map(|h| markdown_cell(&h.0)).collect();
     push(out, &format!("| {} |", heads.join(" | ")));
     let rules: Vec<&str> = grid
         .heads
@@ -214,8 +225,11 @@ fn table(out: &mut String, grid: &Grid) {
         .map(|h| if h.1 { "---:" } else { "---" })
         .collect();
     push(out, &format!("|{}|", rules.join("|")));
-    for line in &grid.lines {
-        let cells: Vec<String> = line.cells.iter().map(|c| markdown(c)).collect();
+    for (number, line) in grid.lines.iter().enumerate() {
+        let cells = line.cells.iter().enumerate();
+        let cells: Vec<String> = cells
+            .map(|(i, words)| cell((number, i), markdown_cell(words)))
+            .collect();
         push(out, &format!("| {} |", cells.join(" | ")));
     }
     out.push('\n');

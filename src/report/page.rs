@@ -11,6 +11,7 @@ use crate::analysis::Verdict;
 use crate::output::pdf::PdfError;
 use crate::scene::Problem;
 use crate::text;
+use crate::wording::number::counted;
 
 /// What a report is written as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -144,7 +145,8 @@ impl Report {
         }
     }
 
-    /// `12 scenes: 9 stand, 2 fall, 1 is undecided; 1 file is no scene`.
+    /// `12 scenes: 9 stand, 2 fall, 1 is undecided; 1 file is no scene`; of comparisons how many verdicts changed, and how
+    /// the second scenes came out.
     pub fn summary(&self) -> String {
         let counts = self.counts();
         let what = if self.compares { "comparison" } else { "scene" };
@@ -160,11 +162,16 @@ impl Report {
         if counts.undecided > 0 {
             parts.push(verb(counts.undecided, "is undecided", "are undecided"));
         }
-        let mut words = format!(
-            "{}: {}",
-            crate::wording::number::counted(number, what),
-            parts.join(", ")
-        );
+        let mut words = format!("{}: ", counted(number, what));
+        if self.compares {
+            let rows = self.pieces.iter().map(|p| &p.row);
+            let changed = rows.filter(|r| r.before.is_some_and(|b| b != r.verdict));
+            words.push_str(&match changed.count() {
+                0 => "no verdict changed; ".to_owned(),
+                changed => format!("{} changed; now ", counted(changed, "verdict")),
+            });
+        }
+        words.push_str(&parts.join(", "));
         if counts.refused > 0 {
             let refused = verb(counts.refused, "file is no scene", "files are no scenes");
             words.push_str(&format!("; {refused}"));
@@ -248,7 +255,7 @@ impl Refused {
             let help = if problem.help.is_empty() {
                 String::new()
             } else {
-                format!(". {}", problem.help)
+                format!(" ({})", problem.help)
             };
             text::line(&format!("{place}{}{help}", problem.message))
         });

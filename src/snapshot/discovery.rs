@@ -155,7 +155,8 @@ pub fn parts(base: &Path, settings: &Settings) -> Vec<Part> {
 /// Every scene under some folders, and every reference that has none. A path to a scene file stands for itself.
 ///
 /// A scene is a `.json` file that has the key `"drystone"`, in a folder that is neither hidden nor a cache. `only` leaves those
-/// whose name contains it, or fits it where it has a `*`.
+/// whose name contains it, or fits it where it has a `*`; where it is a scene's whole name, that scene alone: what is accepted
+/// of `arch` must not take `arch2` with it.
 ///
 /// # Errors
 /// Everything that is wrong with any of them.
@@ -168,8 +169,20 @@ pub fn discover(places: &[PathBuf], only: Option<&str>) -> Result<Found, Vec<Fau
             Err(error) => search.unread(place, &error),
         }
     }
+    let is_whole = |filter: &str| {
+        let mut names = search.candidates.iter().map(|(_, base)| shown(base));
+        names.any(|name| name == filter)
+    };
+    let whole = only.filter(|filter| is_whole(filter)).map(str::to_owned);
     let wanted = |name: &str| match only {
         None => true,
+        Some(_) if whole.is_some() => {
+            // Its references have an ending more.
+            let rest = whole
+                .as_ref()
+                .and_then(|whole| name.strip_prefix(whole.as_str()));
+            rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+        }
         Some(filter) if filter.contains('*') => fits(filter, name),
         Some(filter) => name.contains(filter),
     };

@@ -79,18 +79,31 @@ pub fn xml(text: &str) -> String {
 pub fn markdown(text: &str) -> String {
     let line = line(text);
     let text = line.trim();
-    let mut out = String::with_capacity(text.len());
-    // A list or a heading begins at the beginning of a line only.
     let number = text.len() - text.trim_start_matches(|c: char| c.is_ascii_digit()).len();
+    // A list or a heading begins at the beginning of a line only.
+    let begins = |place: usize, c: char| match c {
+        '-' | '+' | '=' => place == 0,
+        _ => matches!(c, '.' | ')') && place == number && number > 0,
+    };
+    escaped(text, begins)
+}
+
+/// Text as a cell of a table of Markdown, where no line begins: as [`markdown`], but `64.7 kN` and `-3` stay as they are.
+pub fn markdown_cell(text: &str) -> String {
+    escaped(line(text).trim(), |_, _| false)
+}
+
+/// Text with a backslash before what Markdown would act on, and before what `more` says of a character at its place.
+fn escaped(text: &str, more: impl Fn(usize, char) -> bool) -> String {
+    let mut out = String::with_capacity(text.len());
     for (place, c) in text.char_indices() {
         let rest = &text[place..];
         let begins = match c {
-            '-' | '+' | '=' => place == 0,
-            '.' | ')' => place == number && number > 0 || text[..place].ends_with("www"),
+            '.' if text[..place].ends_with("www") => true,
             ':' => rest.starts_with(":/"),
             _ => "\\`*_[]<>#|~@&$^".contains(c),
         };
-        if begins {
+        if begins || more(place, c) {
             out.push('\\');
         }
         out.push(c);
@@ -202,6 +215,8 @@ mod tests {
         ] {
             assert_eq!(markdown(text), written);
         }
+        assert_eq!(markdown_cell("64.7 kN"), "64.7 kN");
+        assert_eq!(markdown_cell("-3 | 1. `a`"), "-3 \\| 1. \\`a\\`");
     }
 
     #[test]

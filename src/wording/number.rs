@@ -169,6 +169,23 @@ pub fn digits(x: f64) -> String {
     }
 }
 
+/// A unit for numbers up to `largest` of it, with a prefix that keeps them short, and by what to multiply them.
+///
+/// ```
+/// use drystone::wording::number::prefixed;
+/// assert_eq!(prefixed(184_439.0, "N"), ("kN".to_owned(), 1e-3));
+/// assert_eq!(prefixed(60.0, "N"), ("N".to_owned(), 1.0));
+/// ```
+pub fn prefixed(largest: f64, unit: &str) -> (String, f64) {
+    let (prefix, factor) = match largest {
+        x if x >= 2e9 => ("G", 1e-9),
+        x if x >= 2e6 => ("M", 1e-6),
+        x if x >= 2e3 => ("k", 1e-3),
+        _ => ("", 1.0),
+    };
+    (format!("{prefix}{unit}"), factor)
+}
+
 /// One digit, enough to see how small a number is: `3e-12`.
 pub fn rough(x: f64) -> String {
     if x == 0.0 {

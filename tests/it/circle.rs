@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
-use crate::layers::{bare, collect};
+use crate::source::{bare, collect};
 
 /// Which files of `figure/` each of its files uses, by their names; a folder counts as the file it belongs to.
 fn figure_files() -> BTreeMap<String, BTreeSet<String>> {

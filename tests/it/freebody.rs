@@ -2,11 +2,13 @@
 
 use drystone::Analysis;
 use drystone::analysis::Verdict;
+use drystone::drawing::Group;
 use drystone::figure::{self, Corners, Options};
 use drystone::scene::BlockId;
 
+use crate::labels::{COLUMN, hidden, ink, texts};
 use crate::lines::brought;
-use crate::pictures::gallery;
+use crate::pictures::{gallery, scene};
 
 /// A row of the list: name, and x, y and moment as they are printed.
 struct Row {
@@ -117,4 +119,82 @@ fn loads_what_is_missing_and_the_step_are_told() {
     let drawing = figure::freebody(&analysis, 1, BlockId(0), &options).expect("placed");
     let svg = drystone::output::svg::write(&drawing);
     assert!(svg.contains("step (b) of 6"), "{svg}");
+}
+
+#[test]
+fn every_name_of_a_free_body_is_legible() {
+    let mut count = 0;
+    let column = Options::default().width(COLUMN);
+    let corners = Options::default().corners(figure::Corners::All);
+    for (name, scene) in gallery().into_iter().chain(brought()) {
+        let analysis = Analysis::of(&scene);
+        for (frame, found) in scene.frames().iter().enumerate().take(3) {
+            for block in &found.placed {
+                for options in [&Options::default(), &column, &corners] {
+                    let drawing = figure::freebody(&analysis, frame, *block, options)
+                        .expect("the block is placed");
+                    let (labels, complaints) = hidden(
+                        &drawing.items,
+                        &["name"],
+                        &["force", "block", "guides", "values", "axes"],
+                    );
+                    count += labels;
+                    assert!(
+                        complaints.is_empty(),
+                        "{name}, block {block:?}: {complaints:?}"
+                    );
+                    let page = Group {
+                        items: drawing.items,
+                        ..Group::default()
+                    };
+                    for text in texts(&page) {
+                        let [left, top, right, bottom] = ink(&text);
+                        let inside = left >= 0.0
+                            && top >= 0.0
+                            && right <= drawing.width
+                            && bottom <= drawing.height;
+                        assert!(inside, "{name}, {block:?}: {} is cut", text.words);
+                    }
+                }
+            }
+        }
+    }
+    assert!(count > 2000, "only {count} names were looked at");
+}
+
+#[test]
+fn the_free_body_of_the_slope_names_and_tells_every_force() {
+    let scene = scene("assets/thesis/figure-1.json");
+    let analysis = Analysis::of(&scene);
+    let all = Options::default().corners(figure::Corners::All);
+    let drawing = figure::freebody(&analysis, 0, BlockId(0), &all).expect("placed");
+    for name in ["F_s1", "F_fl1", "F_fr1", "F_s2", "F_fl2", "F_fr2"] {
+        assert!(
+            drawing
+                .description
+                .contains(&format!("force {name} on block a")),
+            "{name}"
+        );
+    }
+    // 6 N on a slope of 20°: friction holds 6·sin 20° back, up the slope and to the right of ŝ.
+    for said in [
+        "mg = 6.000 N: (0.000; −6.000) N",
+        "F_fl1 = 0.000 N: (0.000; 0.000) N",
+        "sum: (0.000; 0.000) N, moment 0.000 N·m",
+        "s = (−0.342; 0.94)",
+    ] {
+        assert!(
+            drawing.description.contains(said),
+            "{said}: {}",
+            drawing.description
+        );
+    }
+    assert_eq!(
+        figure::freebody(&analysis, 1, BlockId(0), &Options::default()),
+        None
+    );
+    assert_eq!(
+        figure::freebody(&analysis, 0, BlockId(1), &Options::default()),
+        None
+    );
 }

@@ -77,7 +77,7 @@ pub(crate) fn classes<'d>(items: &'d [Item], wanted: &[&str]) -> Vec<&'d Group> 
 }
 
 /// The straight pieces of a group's own paths, curves as their control polygons.
-fn pieces(group: &Group) -> Vec<[PagePoint; 2]> {
+pub(crate) fn pieces(group: &Group) -> Vec<[PagePoint; 2]> {
     let mut pieces = Vec::new();
     for item in &group.items {
         let Item::Path(path) = item else { continue };
@@ -106,7 +106,7 @@ fn pieces(group: &Group) -> Vec<[PagePoint; 2]> {
 }
 
 /// Whether a line runs through a box: cut to the box's slabs, something of it is left.
-fn through([a, b]: [PagePoint; 2], bounds: Box4) -> bool {
+pub(crate) fn through([a, b]: [PagePoint; 2], bounds: Box4) -> bool {
     let (mut from, mut to) = (0.0_f64, 1.0_f64);
     for (start, along, low, high) in [
         (a.x, b.x - a.x, bounds[0], bounds[2]),
@@ -126,7 +126,7 @@ fn through([a, b]: [PagePoint; 2], bounds: Box4) -> bool {
 }
 
 /// Every label of a drawing whose ink lies on another label, or on a path of one of these classes.
-fn hidden(items: &[Item], labels: &[&str], barred: &[&str]) -> (usize, Vec<String>) {
+pub(crate) fn hidden(items: &[Item], labels: &[&str], barred: &[&str]) -> (usize, Vec<String>) {
     let mut labelled: Vec<(String, Box4)> = Vec::new();
     for label in classes(items, labels) {
         let all = texts(label);
@@ -430,83 +430,5 @@ fn a_hidden_label_is_found() {
     assert!(
         complaints.iter().any(|c| c.starts_with("hidden lies on")),
         "{complaints:?}"
-    );
-}
-
-#[test]
-fn every_name_of_a_free_body_is_legible() {
-    let mut count = 0;
-    let column = Options::default().width(COLUMN);
-    let corners = Options::default().corners(figure::Corners::All);
-    for (name, scene) in gallery().into_iter().chain(crate::lines::brought()) {
-        let analysis = Analysis::of(&scene);
-        for (frame, found) in scene.frames().iter().enumerate().take(3) {
-            for block in &found.placed {
-                for options in [&Options::default(), &column, &corners] {
-                    let drawing = figure::freebody(&analysis, frame, *block, options)
-                        .expect("the block is placed");
-                    let (labels, complaints) = hidden(
-                        &drawing.items,
-                        &["name"],
-                        &["force", "block", "guides", "values", "axes"],
-                    );
-                    count += labels;
-                    assert!(
-                        complaints.is_empty(),
-                        "{name}, block {block:?}: {complaints:?}"
-                    );
-                    let page = Group {
-                        items: drawing.items,
-                        ..Group::default()
-                    };
-                    for text in texts(&page) {
-                        let [left, top, right, bottom] = ink(&text);
-                        let inside = left >= 0.0
-                            && top >= 0.0
-                            && right <= drawing.width
-                            && bottom <= drawing.height;
-                        assert!(inside, "{name}, {block:?}: {} is cut", text.words);
-                    }
-                }
-            }
-        }
-    }
-    assert!(count > 2000, "only {count} names were looked at");
-}
-
-#[test]
-fn the_free_body_of_the_slope_names_and_tells_every_force() {
-    let scene = scene("assets/thesis/figure-1.json");
-    let analysis = Analysis::of(&scene);
-    let all = Options::default().corners(figure::Corners::All);
-    let drawing = figure::freebody(&analysis, 0, BlockId(0), &all).expect("placed");
-    for name in ["F_s1", "F_fl1", "F_fr1", "F_s2", "F_fl2", "F_fr2"] {
-        assert!(
-            drawing
-                .description
-                .contains(&format!("force {name} on block a")),
-            "{name}"
-        );
-    }
-    // 6 N on a slope of 20°: friction holds 6·sin 20° back, up the slope and to the right of ŝ.
-    for said in [
-        "mg = 6.000 N: (0.000; −6.000) N",
-        "F_fl1 = 0.000 N: (0.000; 0.000) N",
-        "sum: (0.000; 0.000) N, moment 0.000 N·m",
-        "s = (−0.342; 0.94)",
-    ] {
-        assert!(
-            drawing.description.contains(said),
-            "{said}: {}",
-            drawing.description
-        );
-    }
-    assert_eq!(
-        figure::freebody(&analysis, 1, BlockId(0), &Options::default()),
-        None
-    );
-    assert_eq!(
-        figure::freebody(&analysis, 0, BlockId(1), &Options::default()),
-        None
     );
 }

@@ -5,7 +5,9 @@
 //! is as bad a neighbour as any other code.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
+
+use crate::source::{bare, collect, names_crate, rooms_used};
 
 /// What each room may use, itself apart. A room that is not listed here has no place in the house.
 const ROOMS: &[(&str, &[&str])] = &[
@@ -250,21 +252,6 @@ fn every_arrow_points_the_right_way_and_every_crate_has_one_door() {
     );
 }
 
-pub(crate) fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
-    let mut entries: Vec<PathBuf> = fs::read_dir(folder)
-        .expect("readable")
-        .map(|e| e.expect("readable").path())
-        .collect();
-    entries.sort();
-    for entry in entries {
-        if entry.is_dir() {
-            collect(&entry, files);
-        } else if entry.extension().is_some_and(|e| e == "rs") {
-            files.push(entry);
-        }
-    }
-}
-
 /// Everything that is wrong with one source file, `path` given below `src`.
 fn faults_of(path: &str, text: &str) -> Vec<String> {
     let mut faults = Vec::new();
@@ -328,133 +315,6 @@ fn faults_of(path: &str, text: &str) -> Vec<String> {
         }
     }
     faults
-}
-
-/// The rooms named in `crate::room` and `crate::{room::…, room::…}`.
-fn rooms_used(code: &str) -> Vec<String> {
-    let mut rooms = Vec::new();
-    for (at, _) in code.match_indices("crate::") {
-        let rest = &code[at + "crate::".len()..];
-        match rest.strip_prefix('{') {
-            None => rooms.extend(word_at(rest)),
-            Some(group) => {
-                let mut depth = 0;
-                let mut begin = true;
-                for (i, c) in group.char_indices() {
-                    match c {
-                        '{' => depth += 1,
-                        '}' if depth == 0 => break,
-                        '}' => depth -= 1,
-                        ',' if depth == 0 => begin = true,
-                        c if begin && c.is_alphabetic() => {
-                            rooms.extend(word_at(&group[i..]));
-                            begin = false;
-                        }
-                        _ => {}
-                    }
-                }
-            }
-        }
-    }
-    rooms.sort();
-    rooms.dedup();
-    rooms
-}
-
-fn word_at(text: &str) -> Option<String> {
-    let word: String = text
-        .chars()
-        .take_while(|c| c.is_alphanumeric() || *c == '_')
-        .collect();
-    (!word.is_empty()).then_some(word)
-}
-
-/// Whether the code names a foreign crate: as the head of a path, or in a `use` of the bare name.
-///
-/// A module of ours may have the crate's name, as `output::png` has; a file that imports it means that one.
-fn names_crate(code: &str, name: &str) -> bool {
-    let ours = [";", "::{self", ",", "}"].map(|end| format!("::{name}{end}"));
-    if ours.iter().any(|import| code.contains(import)) {
-        return false;
-    }
-    code.match_indices(name).any(|(at, _)| {
-        let before = code[..at].chars().next_back().unwrap_or(' ');
-        let before_is_head = !(before.is_alphanumeric() || before == '_')
-            && (before != ':' || code[..at].ends_with(" ::") || code[..at].ends_with("(::"));
-        let after = &code[at + name.len()..];
-        let used = code[..at].trim_end().ends_with("use") && after.starts_with([';', ' ']);
-        before_is_head && (after.starts_with("::") || used)
-    })
-}
-
-/// The code without comments, strings and character literals.
-pub(crate) fn bare(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    let bytes: Vec<char> = text.chars().collect();
-    let mut i = 0;
-    let at = |i: usize| bytes.get(i).copied().unwrap_or('\0');
-    while i < bytes.len() {
-        let c = bytes[i];
-        if c == '/' && at(i + 1) == '/' {
-            while i < bytes.len() && bytes[i] != '\n' {
-                i += 1;
-            }
-        } else if c == '/' && at(i + 1) == '*' {
-            let mut depth = 0;
-            loop {
-                if at(i) == '/' && at(i + 1) == '*' {
-                    depth += 1;
-                    i += 2;
-                } else if at(i) == '*' && at(i + 1) == '/' {
-                    depth -= 1;
-                    i += 2;
-                } else {
-                    i += 1;
-                }
-                if depth == 0 || i >= bytes.len() {
-                    break;
-                }
-            }
-        } else if c == 'r' && (at(i + 1) == '"' || at(i + 1) == '#') && !ends_in_word(&out) {
-            let hashes = bytes[i + 1..].iter().take_while(|c| **c == '#').count();
-            if at(i + 1 + hashes) != '"' {
-                out.push(c);
-                i += 1;
-                continue;
-            }
-            let close: Vec<char> = std::iter::once('"')
-                .chain(std::iter::repeat_n('#', hashes))
-                .collect();
-            i += 2 + hashes;
-            while i < bytes.len() && !bytes[i..].starts_with(&close) {
-                i += 1;
-            }
-            i += close.len();
-        } else if c == '"' {
-            i += 1;
-            while i < bytes.len() && bytes[i] != '"' {
-                i += if bytes[i] == '\\' { 2 } else { 1 };
-            }
-            i += 1;
-        } else if c == '\'' && (at(i + 2) == '\'' || at(i + 1) == '\\') {
-            // A character; a lifetime has no quote behind its one letter.
-            i += if at(i + 1) == '\\' { 3 } else { 2 };
-            while i < bytes.len() && bytes[i] != '\'' {
-                i += 1;
-            }
-            i += 1;
-        } else {
-            out.push(c);
-            i += 1;
-        }
-    }
-    out
-}
-
-fn ends_in_word(text: &str) -> bool {
-    text.chars()
-        .next_back()
-        .is_some_and(|c| c.is_alphanumeric() || c == '_')
 }
 
 #[test]

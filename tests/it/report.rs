@@ -168,6 +168,53 @@ fn the_same_scenes_give_the_same_bytes_and_times_only_where_asked_for() {
     assert!(!folder.text("a.json").contains("\"seconds\""));
     folder.done("report in -o t.json --timing");
     assert!(folder.text("t.json").contains("\"seconds\""));
+    // Effects share one program: time is reported stage by stage.
+    folder.done("report in/a.json -o t.md --timing --margins");
+    let timed = folder.text("t.md");
+    let row = |name: &str| {
+        let mut rows = timed
+            .lines()
+            .filter(|l| l.starts_with(&format!("| {name}")));
+        rows.next().unwrap_or_default().to_owned()
+    };
+    assert!(timed.contains("| unknowns | time |"), "{timed}");
+    for stage in ["posing", "solving and proving", "margins:"] {
+        let time = row(stage);
+        assert!(time.ends_with(" ms |") || time.ends_with(" s |"), "{time}");
+    }
+    assert!(row("friction:").ends_with("| shared |") && row("wedging:").ends_with("| none |"));
+    assert!(!folder.text("a.md").contains("| time |"));
+}
+
+#[test]
+fn the_largest_force_is_that_of_steps_that_stand_and_may_be_a_robots() {
+    let held = r#"{ "drystone": 1, "title": "Held", "robots": [{ "id": "r", "holds": "a", "limits": { "force": 100 } }],
+        "blocks": [{ "id": "a", "polygon": [[0, 0], [1, 0], [1, 1], [0, 1]], "weight": 40 }] }"#;
+    let alone = r#"{ "drystone": 1, "title": "Alone",
+        "blocks": [{ "id": "a", "polygon": [[0, 0], [1, 0], [1, 1], [0, 1]], "weight": 40 }] }"#;
+    let folder = Folder::new(&[
+        ("in/a.json", held),
+        ("in/b.json", alone),
+        ("in/c.json", FALLS),
+    ]);
+    folder.done("report in -o r.md");
+    let text = folder.text("r.md");
+    let row = |title: &str| {
+        let mut rows = text
+            .lines()
+            .filter(|l| l.starts_with(&format!("| [{title}]")));
+        rows.next().unwrap_or_default().to_owned()
+    };
+    assert!(row("Held").contains("| 40 N |"), "{text}");
+    assert!(
+        row("Alone").contains("| none stands | 1 | none stands |"),
+        "{text}"
+    );
+    // Its first step falls; the second, which is held, has forces of its own.
+    assert!(
+        row("Half a lintel").contains(" N |") && !row("Half a lintel").contains("none stands"),
+        "{text}"
+    );
 }
 
 #[test]
@@ -199,12 +246,34 @@ fn markdown_has_its_figures_beside_it_and_its_words_do_nothing() {
     // Each of four steps has its forces, the falling one its motion, and two steps one chart.
     assert_eq!(figures, 6, "{text}");
     for event in Parser::new_ext(&text, Options::all()) {
-        assert!(
-            !matches!(event, Event::Html(_) | Event::InlineHtml(_)),
-            "{event:?}"
-        );
+        // The only markup is ours: what the names in the table of all scenes lead to.
+        let is_ours = |html: &str| html.starts_with("<a id=\"scene-") || html == "</a>";
+        let (Event::Html(html) | Event::InlineHtml(html)) = &event else {
+            continue;
+        };
+        assert!(is_ours(html), "{event:?}");
     }
     assert!(!text.contains('\u{202e}'));
+    assert!(text.contains("](#scene-1) | ") && text.contains("<a id=\"scene-1\"></a>"));
+}
+
+#[test]
+fn markdown_keeps_names_that_our_fonts_lack_and_spells_them_in_its_figures() {
+    let named = STANDS.replace("\"lintel\"", "\"石\"");
+    let folder = Folder::new(&[("in/a.json", &named)]);
+    folder.done("report in -o r.md");
+    let text = folder.text("r.md");
+    assert!(
+        text.contains("| 石 and ") || text.contains(" and 石 |"),
+        "{text}"
+    );
+    assert!(!text.contains("U+77F3"), "{text}");
+    let figure = text.split("](<").nth(1).expect("a figure");
+    let name = figure.split(">)").next().expect("closed");
+    assert!(
+        folder.text(name).contains("U+77F3"),
+        "the figure's own words"
+    );
 }
 
 #[test]
@@ -240,8 +309,10 @@ fn a_comparison_tells_what_changed_and_marks_it_in_both_figures() {
     folder.done("report --compare a b -o r.html");
     let page = folder.text("r.html");
     for words in [
+        "2 comparisons: no verdict changed; 2 stand, 0 fall",
+        "Both stand; changed: ",
         "Only in the first folder: only.json",
-        "changed: lintel and right",
+        "changed: right and lintel",
         "weight 11 N → 22 N",
         "centroid moved by (-1, 0) m",
         "the same blocks in the same places",
@@ -261,6 +332,45 @@ fn a_comparison_tells_what_changed_and_marks_it_in_both_figures() {
             .as_str()
             .is_some_and(|said| said.contains("right")),
         "{pair}"
+    );
+}
+
+#[test]
+fn a_comparison_tells_of_loads_and_robots_and_of_steps_that_one_scene_has() {
+    let blocks = "{ \"id\": \"a\", \"polygon\": [[0,0],[2,0],[2,1],[0,1]], \"friction\": 0.7 },
+        { \"id\": \"b\", \"polygon\": [[2,0],[4,0],[4,1],[2,1]], \"friction\": 0.7 }";
+    let scene = |force: f64, more: &str| {
+        format!(
+            "{{ \"drystone\": 1, \"ground\": [{{ \"polygon\": [[-1,-1],[9,-1],[9,0],[-1,0]] }}], \"blocks\": [{blocks}], \
+             \"loads\": [{{ \"block\": \"a\", \"force\": [0, {force}], \"at\": [1, 1] }}]{more} }}"
+        )
+    };
+    let first = scene(-60.0, "");
+    let lighter = scene(-30.0, ", \"kernel\": 0.2").replace("0.7", "0.5");
+    let steps = ", \"steps\": [{ \"title\": \"One\", \"place\": [\"a\"] }, { \"title\": \"Both\", \"place\": [\"b\"] }]";
+    let folder = Folder::new(&[
+        ("a.json", &first),
+        ("b.json", &lighter),
+        ("c.json", &scene(-60.0, steps)),
+    ]);
+    folder.done("report --compare a.json b.json -o b.html");
+    let page = folder.text("b.html");
+    for words in [
+        "otherwise: safety kernel and load on a",
+        "(0, -60) N at (1, 1) m",
+        "(0, -30) N at (1, 1) m",
+        // Said once of both blocks.
+        "friction coefficient 0.7 → 0.5",
+        "a and b",
+    ] {
+        assert!(page.contains(words), "{words}");
+    }
+    assert_eq!(page.matches("friction coefficient 0.7 → 0.5").count(), 1);
+    folder.done("report --compare c.json a.json -o c.html");
+    let page = folder.text("c.html");
+    assert!(
+        page.contains("(a) ") && !page.contains("() <bdi>"),
+        "{page}"
     );
 }
 

@@ -1,6 +1,7 @@
 //! Snapshots: what is caught and by which layer, what is let pass, and what happens to files.
 
 mod assertion;
+mod disk;
 mod file;
 mod line;
 mod mutation;
@@ -135,4 +136,12 @@ fn the_plates_are_as_their_references_say() {
             path.display()
         );
     }
+}
+
+/// A folder with one scene, accepted.
+fn accepted() -> Folder {
+    let folder = Folder::with(&[("a/arch.json", lintel("A lintel", 1.0))]);
+    let ran = folder.run(&["a", "--accept"]);
+    assert_eq!(ran.code, 0, "{}{}", ran.out, ran.err);
+    folder
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use crate::layers::{bare, collect};
+use crate::source::{bare, collect};
 
 /// A word that is no name here, and what is written in its place.
 const REPLACED: &[(&str, &str)] = &[

@@ -180,3 +180,22 @@ pub(super) fn around_arrows(shown: &PageRect, arrows: &[Arrow], camera: &Camera)
     }
     pads
 }
+
+/// Whether a point lies outside of the view, on a side to which a body runs on.
+pub(super) fn runs_on(at: Point, view: Bounds, body: Bounds) -> bool {
+    at.x < view.min.x && body.min.x <= view.min.x
+        || at.x > view.max.x && body.max.x >= view.max.x
+        || at.y < view.min.y && body.min.y <= view.min.y
+        || at.y > view.max.y && body.max.y >= view.max.y
+}
+
+/// Coordinates are reported where they stay readable: of a block on one edge, held by nobody.
+pub(super) fn guided(
+    analysis: &Analysis,
+    frame: usize,
+    block: BlockId,
+    contacts: &[&Contact],
+) -> bool {
+    let holds = &analysis.scene.frames[frame].holds;
+    contacts.len() == 1 && !holds.iter().any(|h| h.block == block)
+}

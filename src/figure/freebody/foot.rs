@@ -67,10 +67,9 @@ impl Sheet<'_> {
         }
         y += 12.0;
         let table = self.table();
-        group
-            .items
-            .push(table.draw(middle, y, room, AMOUNT, theme).into());
-        y += table.height(AMOUNT) + 6.0;
+        let (list, height) = table.draw(middle, y, room, AMOUNT, theme);
+        group.items.push(list.into());
+        y += height + 6.0;
         if self.guides() {
             let values = value::places(self.analysis, self.block, &self.contacts);
             for row in rows(&values, AMOUNT, room) {

@@ -16,7 +16,7 @@ mod heading;
 mod table;
 mod value;
 
-use around::{around_arrows, corners, distinct, neighbours, view};
+use around::{around_arrows, corners, distinct, guided, neighbours, runs_on, view};
 use force::{Arrow, Force, arrows, forces};
 use heading::heading;
 
@@ -225,15 +225,15 @@ impl<'a> Sheet<'a> {
                 let ring = |ring: &Vec<Point>| ring.iter().map(|p| self.camera.place(*p)).collect();
                 let rings: Vec<Vec<PagePoint>> = polygon.rings().iter().map(ring).collect();
                 let hatching = hatch(&rings, page, HATCH);
-                for [from, to] in &hatching {
-                    ink.line(*from, *to, 0.8);
+                for [from, to] in hatching.iter().filter_map(|line| page.part_of(*line)) {
+                    ink.line(from, to, 0.8);
                 }
                 drawn = drawn.with(Path::stroked(
                     lines(&hatching),
                     Stroke::new(theme.faint, 0.8),
                 ));
             }
-            self.bar(ink, polygon);
+            self.bar(ink, polygon, page);
             drawn = drawn.with(Path::stroked(outline, Stroke::new(theme.ink, 1.3)));
             group.items.push(drawn.into());
         }
@@ -242,18 +242,20 @@ impl<'a> Sheet<'a> {
 
     fn body(&self, ink: &mut Ink) -> Group {
         let theme = &self.options.theme;
-        self.bar(ink, self.polygon());
+        self.bar(ink, self.polygon(), self.camera.rect(self.view));
         let outline = self.camera.polygon(self.polygon());
         Group::of_class("block")
             .titled(format!("Block {}", self.name()))
             .with(Path::filled(outline, theme.page).with_stroke(Stroke::new(theme.ink, 1.8)))
     }
 
-    /// Keeps names off an outline.
-    fn bar(&self, ink: &mut Ink, polygon: &Polygon) {
+    /// Keeps names off what is seen of an outline.
+    fn bar(&self, ink: &mut Ink, polygon: &Polygon, seen: PageRect) {
         for edge in polygon.edges() {
-            let (from, to) = (self.camera.place(edge.from), self.camera.place(edge.to));
-            ink.line(from, to, 1.8);
+            let line = [edge.from, edge.to].map(|p| self.camera.place(p));
+            if let Some([from, to]) = seen.part_of(line) {
+                ink.line(from, to, 1.8);
+            }
         }
     }
 
@@ -450,7 +452,10 @@ impl<'a> Sheet<'a> {
                 let at = rect.at.moved(rect.width / 2.0, rect.height / 2.0);
                 let at = self.camera.back(at);
                 let mut others = others.iter().filter(|other| **other != body);
-                others.any(|other| scene.body(*other).polygon.contains(at))
+                others.any(|other| {
+                    let polygon = &scene.body(*other).polygon;
+                    polygon.contains(at) || runs_on(at, self.view, polygon.bounds())
+                })
             };
             match place_where(ink, room, &[wish], &abroad)[0].filter(|p| !p.disliked) {
                 Some(placed) => {
@@ -487,10 +492,4 @@ impl<'a> Sheet<'a> {
         places.sort_by(|a, b| (a - middle).norm().total_cmp(&(b - middle).norm()));
         places.into_iter().map(|p| self.camera.place(p)).collect()
     }
-}
-
-/// Coordinates are reported where they stay readable: of a block on one edge, held by nobody.
-fn guided(analysis: &Analysis, frame: usize, block: BlockId, contacts: &[&Contact]) -> bool {
-    let holds = &analysis.scene.frames[frame].holds;
-    contacts.len() == 1 && !holds.iter().any(|h| h.block == block)
 }

@@ -14,6 +14,10 @@ use crate::geometry::{Point, Vector};
 const BETWEEN: f64 = 14.0;
 /// Height of a row in sizes of its letters.
 const ROW: f64 = 1.6;
+/// A name too long for its column has at most so many lines …
+const MOST_LINES: usize = 4;
+/// … so far apart, in sizes.
+const PITCH: f64 = 1.15;
 /// Significant digits of the largest amount of a column.
 const DIGITS: i32 = 4;
 /// A moment below this share of the largest force times the block's size is nothing.
@@ -142,13 +146,15 @@ impl Table {
         self.rows.iter().map(row).collect()
     }
 
-    /// How high it is at this size of letters, pixels.
-    pub(super) fn height(&self, size: f64) -> f64 {
-        (self.rows.len() + 2) as f64 * ROW * size
-    }
-
-    /// The table with its upper edge at `top`, centred about `middle`, at most `room` pixels wide.
-    pub(super) fn draw(&self, middle: f64, top: f64, room: f64, size: f64, theme: &Theme) -> Group {
+    /// The table with its upper edge at `top`, centred about `middle`, at most `room` pixels wide; and how high it is, pixels.
+    pub(super) fn draw(
+        &self,
+        middle: f64,
+        top: f64,
+        room: f64,
+        size: f64,
+        theme: &Theme,
+    ) -> (Group, f64) {
         let wide = |words: &str| text::width(words, Face::Serif, size);
         let named = |symbol: &Symbol| symbol.size(size).0;
         let first = self.rows.iter().filter_map(|r| r.symbol.as_ref());
@@ -218,17 +224,24 @@ impl Table {
                 }
             }
             if !row.from.is_empty() && from > 0.0 {
-                // A name that is longer than its column ends in an ellipsis.
-                let lines = match wide(&row.from) > from + 0.5 {
-                    true => vec![row.from.clone(), String::new()],
-                    false => vec![row.from.clone()],
-                };
-                let cut = text::cut(lines, 1, Face::Serif, size, from + 0.5);
-                let cut = cut.iter().map(|line| words(last, y, line, Anchor::Start));
-                group.items.extend(cut);
+                for (number, line) in in_lines(&row.from, from + 0.5, size).iter().enumerate() {
+                    y += if number > 0 { PITCH * size } else { 0.0 };
+                    group.items.push(words(last, y, line, Anchor::Start));
+                }
             }
             y += ROW * size;
         }
-        group
+        // From there on half a row of room.
+        (group, y - top - 0.9 * size)
     }
+}
+
+/// A name in lines of its column: broken between words, between code points, and where even these are too long, cut.
+fn in_lines(name: &str, room: f64, size: f64) -> Vec<String> {
+    if text::width(name, Face::Serif, size) <= room {
+        return vec![name.to_owned()];
+    }
+    let words = name.replace(text::NO_BREAK, " ");
+    let lines = text::wrap(&words, Face::Serif, size, room);
+    text::cut(lines, MOST_LINES, Face::Serif, size, room)
 }

@@ -7,6 +7,7 @@ use crate::drawing::{
 };
 use crate::output::svg::{self, Words, WordsError};
 use crate::study::{DEFAULT_TOLERANCE, Method, Summary};
+use crate::wording::number::counted;
 
 const WIDTH: f64 = 860.0;
 /// Height of a row.
@@ -115,7 +116,8 @@ impl Page<'_> {
             22.0,
             theme.ink,
         );
-        let under = format!("{frames} frames, drystone {}", env!("CARGO_PKG_VERSION"));
+        let frames = counted(frames, "frame");
+        let under = format!("{frames}, drystone {}", env!("CARGO_PKG_VERSION"));
         let mut items: Vec<Item> = vec![
             title.into(),
             self.words(PagePoint::new(24.0, 56.0), &under, Face::Sans, 12.0),

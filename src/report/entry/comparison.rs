@@ -1,8 +1,11 @@
 //! [`compared`]: two scenes side by side, and what changed from one to the other.
 //!
 //! Blocks are the same where their ids are, interfaces where their bodies are and they lie in one place; steps are compared
-//! in their order. A force has changed where it differs by more than a twentieth of the larger one. What the second scene
-//! has more or otherwise is marked in both figures.
+//! in their order. A force has changed where it differs by more than a twentieth of the larger one. Blocks that differ, or
+//! are loaded or held otherwise, and forces that changed are marked in both figures.
+
+mod setting;
+mod shape;
 
 use std::collections::BTreeMap;
 
@@ -12,23 +15,21 @@ use super::step::{self, Step};
 use super::touch::onto_scene;
 use super::{Entry, Figure, File, Grid, Row, Wanted};
 use crate::analysis::{Analysis, Contact, FrameAnalysis, Verdict};
-use crate::drawing::{Camera, Colour, Drawing, Group, Outline, Path, Stroke};
+use crate::drawing::{Camera, Colour, Drawing, Group, Outline, PagePoint, Path, Stroke};
 use crate::figure::{self, Kind};
 use crate::geometry::Point;
-use crate::scene::{Block, Scene};
+use crate::scene::Scene;
 use crate::text::line;
-use crate::wording::failure::{pair, shortened};
-use crate::wording::number::{counted, digits, letter, listed, tenths};
+use crate::wording::failure::pair;
+use crate::wording::number::{counted, digits, letter, percent, tenths};
 use crate::wording::verdict::{self, plain};
+use setting::Settings;
+use shape::Shapes;
 
 /// A force, a weight or a margin has changed where it differs by more than this share of the larger one.
 const CHANGED: f64 = 0.05;
-/// Corners differ where they lie farther apart than this share of the scene's reach.
-const MOVED: f64 = 1e-6;
-/// So many blocks are named.
-const MOST_NAMED: usize = 6;
-/// Radius of the ring around a changed force, pixels.
-const RING: f64 = 9.0;
+/// Least and largest radius of the ring around a changed force, pixels.
+const RING: (f64, f64) = (3.0, 9.0);
 
 /// One of two scenes that are compared.
 #[derive(Clone, Copy, Debug)]
@@ -57,14 +58,21 @@ pub fn compared(sides: [Side<'_>; 2], wanted: &Wanted) -> Entry {
     }
     let mut steps = Vec::new();
     let mut stated = Vec::new();
+    let several = counts[0].max(counts[1]) > 1;
     for number in 0..counts[0].max(counts[1]) {
         let drawn = [0, 1].map(|side: usize| figures[side].get_mut(number).and_then(Option::take));
-        let step = match drawn {
+        let mut step = match drawn {
             [Some(a), Some(b)] => both([was, is], number, [a, b], wanted),
             [a, b] => {
                 let (side, drawing) = if a.is_some() { (was, a) } else { (is, b) };
                 alone(side, number, drawing, only_in(counts, number))
             }
+        };
+        // The other scene may have more steps than the one whose step this is.
+        step.letter = if several {
+            letter(number)
+        } else {
+            String::new()
         };
         stated.push(step.sentence.clone());
         steps.push(step);
@@ -121,13 +129,8 @@ fn alone(side: Side<'_>, number: usize, drawing: Option<Drawing>, why: &str) -> 
 }
 
 fn bare(scene: &Scene, number: usize, verdict: Verdict, sentence: String) -> Step {
-    let several = scene.frames.len() > 1;
     Step {
-        letter: if several {
-            letter(number)
-        } else {
-            String::new()
-        },
+        letter: String::new(),
         title: line(&scene.frames[number].title),
         verdict,
         sentence,
@@ -142,7 +145,7 @@ fn bare(scene: &Scene, number: usize, verdict: Verdict, sentence: String) -> Ste
 }
 
 fn plate(side: Side<'_>, found: &FrameAnalysis, drawing: Drawing) -> Figure {
-    let scale = "arrows to its own scale";
+    let scale = "arrows and colours to its own scale";
     let name = line(side.file.name);
     Figure {
         caption: format!("{name}: {}; {scale}.", plain(found.verdict)),
@@ -156,12 +159,21 @@ fn both(sides: [Side<'_>; 2], number: usize, drawings: [Drawing; 2], wanted: &Wa
     let [then, now] = sides.map(|side| &side.analysis.frames[number]);
     let shape = Shapes::of(sides, number);
     let forces = forces(sides, number);
+    let settings = Settings::of(sides, number);
     let mut stated = vec![match (then.verdict, now.verdict) {
-        (a, b) if a == b => format!("both: {}", plain(a)),
-        (a, b) => format!("first: {}; second: {}", plain(a), plain(b)),
+        (Verdict::Stable, Verdict::Stable) => "both stand".to_owned(),
+        (Verdict::Unstable, Verdict::Unstable) => "both fall".to_owned(),
+        (Verdict::Undecided, Verdict::Undecided) => "both are undecided".to_owned(),
+        (a, b) => format!("the first {}, the second {}", verb(a), verb(b)),
     }];
-    stated.extend(shape.stated());
+    let mut differs = shape.stated();
+    if differs.is_empty() {
+        differs.push("the same blocks in the same places".into());
+    }
+    stated.extend(differs);
+    stated.extend(settings.stated());
     stated.push(match forces.iter().filter(|f| f.changed()).count() {
+        _ if forces.is_empty() => "no interface in both".to_owned(),
         0 => "no force changed by over 5 %".to_owned(),
         n => format!(
             "{n} of {} changed by over 5 %",
@@ -186,155 +198,48 @@ fn both(sides: [Side<'_>; 2], number: usize, drawings: [Drawing; 2], wanted: &Wa
         totals(then, now),
         margins(sides, number),
         shape.grid(),
+        settings.grid(),
         grid(&is.analysis.scene, &forces),
     ]
     .into_iter()
     .filter(|g| !g.lines.is_empty())
     .collect();
     let colour = wanted.theme.motion;
-    let outlines = [&shape.gone_or_changed, &shape.new_or_changed];
+    let [loaded, now_loaded] = settings.blocks;
+    let outlines = [
+        [shape.gone_or_changed, loaded].concat(),
+        [shape.new_or_changed, now_loaded].concat(),
+    ];
     let rings = [0, 1].map(|side: usize| {
         let changed = forces.iter().filter(|f| f.changed());
         changed.map(|f| f.at[side]).collect::<Vec<Point>>()
     });
     for (side, (found, mut drawing)) in [then, now].into_iter().zip(drawings).enumerate() {
         let scene = &sides[side].analysis.scene;
-        mark(&mut drawing, scene, outlines[side], &rings[side], colour);
+        mark(&mut drawing, scene, &outlines[side], &rings[side], colour);
         step.plates.push(plate(sides[side], found, drawing));
     }
     let last = step.plates.last_mut();
     if let Some(last) = last {
         last.caption.push_str(
-            " Outlined in both: blocks that only one has or that are shaped, placed or loaded otherwise; ringed: forces \
-             that changed by over 5 %.",
+            " Outlined in both: blocks that only one has, or whose outline, place, weight, friction, load or robot \
+             differs; ringed: forces that changed by over 5 %.",
         );
     }
     step
+}
+
+fn verb(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Undecided => "is undecided",
+        decided => plain(decided),
+    }
 }
 
 fn capital(words: &str) -> String {
     let mut letters = words.chars();
     let first = letters.next().map(|c| c.to_uppercase().to_string());
     first.unwrap_or_default() + letters.as_str()
-}
-
-/// How the blocks of two frames differ.
-#[derive(Default)]
-struct Shapes {
-    /// Blocks of the first, by number, that the second has not or has otherwise.
-    gone_or_changed: Vec<usize>,
-    /// Blocks of the second that the first has not or had otherwise.
-    new_or_changed: Vec<usize>,
-    gone: Vec<String>,
-    new: Vec<String>,
-    changed: Vec<(String, String)>,
-}
-
-impl Shapes {
-    fn of(sides: [Side<'_>; 2], number: usize) -> Shapes {
-        let blocks = |side: Side<'_>| -> BTreeMap<String, usize> {
-            let scene = &side.analysis.scene;
-            let placed = scene.frames[number].placed.iter();
-            placed
-                .map(|id| (scene.blocks[id.0].id.clone(), id.0))
-                .collect()
-        };
-        let [then, now] = sides.map(blocks);
-        let [was, is] = sides.map(|side| &side.analysis.scene);
-        let reach = reach(is).max(reach(was));
-        let mut shapes = Shapes::default();
-        for (id, before) in &then {
-            let Some(after) = now.get(id) else {
-                shapes.gone.push(line(id));
-                shapes.gone_or_changed.push(*before);
-                continue;
-            };
-            let how = differs(&was.blocks[*before], &is.blocks[*after], reach);
-            if !how.is_empty() {
-                shapes.gone_or_changed.push(*before);
-                shapes.new_or_changed.push(*after);
-                shapes.changed.push((line(id), how));
-            }
-        }
-        for (id, after) in &now {
-            if !then.contains_key(id) {
-                shapes.new.push(line(id));
-                shapes.new_or_changed.push(*after);
-            }
-        }
-        shapes
-    }
-
-    fn stated(&self) -> Vec<String> {
-        let changed: Vec<String> = self.changed.iter().map(|c| c.0.clone()).collect();
-        let kinds = [
-            ("gone", &self.gone),
-            ("new", &self.new),
-            ("changed", &changed),
-        ];
-        let described = kinds.into_iter().filter(|k| !k.1.is_empty());
-        let mut stated: Vec<String> = described
-            .map(|(how, names)| format!("{how}: {}", listed(&shortened(names.clone(), MOST_NAMED))))
-            .collect();
-        if stated.is_empty() {
-            stated.push("the same blocks in the same places".into());
-        }
-        stated
-    }
-
-    fn grid(&self) -> Grid {
-        let mut grid = Grid::new("Blocks that differ", &["block", "how"]);
-        for name in &self.gone {
-            grid.add("", [name.clone(), "only in the first".into()]);
-        }
-        for name in &self.new {
-            grid.add("", [name.clone(), "only in the second".into()]);
-        }
-        for (name, how) in &self.changed {
-            grid.add("", [name.clone(), how.clone()]);
-        }
-        grid
-    }
-}
-
-/// The farthest corner from the origin, m.
-fn reach(scene: &Scene) -> f64 {
-    let corners = scene.blocks.iter().flat_map(|b| b.body.polygon.outline());
-    corners
-        .map(|p| p.x.abs().max(p.y.abs()))
-        .fold(0.0, f64::max)
-}
-
-/// How a block differs from what it was; empty where it does not.
-fn differs(was: &Block, is: &Block, reach: f64) -> String {
-    let mut how = Vec::new();
-    let moved = is.centroid - was.centroid;
-    let near = MOVED * reach;
-    let rings = |block: &Block| -> Vec<Vec<Point>> { block.body.polygon.rings().to_vec() };
-    let (before, after) = (rings(was), rings(is));
-    let same_shape = before.len() == after.len()
-        && before.iter().zip(&after).all(|(a, b)| {
-            a.len() == b.len()
-                && a.iter()
-                    .zip(b)
-                    .all(|(p, q)| (q - p - moved).norm() <= 2.0 * near)
-        });
-    if !same_shape {
-        how.push("another outline".to_owned());
-    }
-    if moved.norm() > near {
-        let (x, y) = (digits(moved.x), digits(moved.y));
-        how.push(format!("centroid moved by ({x}, {y}) m"));
-    }
-    if (is.weight - was.weight).abs() > 1e-9 * is.weight.abs().max(was.weight.abs()) {
-        let (a, b) = (digits(was.weight), digits(is.weight));
-        how.push(format!("weight {a} N → {b} N"));
-    }
-    if is.body.friction != was.body.friction {
-        let (a, b) = (digits(was.body.friction), digits(is.body.friction));
-        how.push(format!("friction coefficient {a} → {b}"));
-    }
-    listed(&how)
 }
 
 /// A force that both frames have at one interface.
@@ -386,11 +291,17 @@ fn forces(sides: [Side<'_>; 2], number: usize) -> Vec<Shared> {
 }
 
 fn change(before: f64, after: f64) -> String {
+    if (after - before).abs() <= 1e-9 * before.abs() {
+        return "none".to_owned();
+    }
     if before == 0.0 {
-        return if after == 0.0 { "none" } else { "new" }.to_owned();
+        return "from nothing".to_owned();
     }
     let sign = if after < before { "−" } else { "+" };
-    format!("{sign}{}", tenths((after / before - 1.0).abs()))
+    match (after / before - 1.0).abs() {
+        little if little < 0.0005 => format!("{sign}under 0.1 %"),
+        share => format!("{sign}{}", tenths(share)),
+    }
 }
 
 fn totals(then: &FrameAnalysis, now: &FrameAnalysis) -> Grid {
@@ -443,6 +354,7 @@ fn grid(scene: &Scene, forces: &[Shared]) -> Grid {
             "#first, N",
             "#second, N",
             "#change of the amount",
+            "#change with direction, of the larger",
         ],
     );
     for force in forces.iter().filter(|f| f.changed()) {
@@ -452,10 +364,36 @@ fn grid(scene: &Scene, forces: &[Shared]) -> Grid {
             digits(a),
             digits(b),
             change(a, b),
+            percent(force.difference / a.max(b)),
         ];
         grid.add("", cells);
     }
     grid
+}
+
+/// The radius of rings, smaller where many would lie on each other.
+fn radius(places: &[PagePoint]) -> f64 {
+    let (least, most) = RING;
+    let span = |of: fn(&PagePoint) -> f64| {
+        let (low, high) = places
+            .iter()
+            .map(of)
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+                (low.min(x), high.max(x))
+            });
+        (high - low).max(0.0)
+    };
+    let (width, height) = (span(|p| p.x), span(|p| p.y));
+    let count = places.len() as f64;
+    // How far apart they would lie, spread over a box or along a line.
+    let apart = f64::max(
+        libm::sqrt(width * height / count),
+        width.max(height) / count,
+    );
+    match places.len() {
+        0 | 1 => most,
+        _ => (0.3 * apart).clamp(least, most),
+    }
 }
 
 /// Outlines blocks and rings points of a scene in its drawing.
@@ -475,8 +413,10 @@ fn mark(drawing: &mut Drawing, scene: &Scene, blocks: &[usize], rings: &[Point],
         if !outline.segments.is_empty() {
             group = group.with(Path::stroked(outline, Stroke::new(colour, 3.0)));
         }
-        for ring in rings {
-            let circle = Outline::circle(camera.place(*ring), RING);
+        let places: Vec<PagePoint> = rings.iter().map(|at| camera.place(*at)).collect();
+        let radius = radius(&places);
+        for at in places {
+            let circle = Outline::circle(at, radius);
             group = group.with(Path::stroked(circle, Stroke::new(colour, 1.8)));
         }
         group

@@ -23,13 +23,14 @@ pub use touch::{Touch, touched};
 use std::borrow::Cow;
 
 use crate::analysis::Analysis;
-use crate::chart::{self, Course, Undrawn};
+use crate::chart::{self, Course};
 use crate::drawing::{Drawing, Theme};
+use crate::output::svg::WordsError;
 use crate::report::accuracy;
 use crate::report::result::{Layout, Timing, accuracy_json, to_json_of};
-use crate::study::Study;
+use crate::study::{Study, summary};
 use crate::text;
-use crate::wording::number::letter;
+use crate::wording::number::{letter, prefixed};
 
 /// What a report is asked.
 #[derive(Clone, Debug, PartialEq)]
@@ -136,14 +137,14 @@ impl Entry {
     /// Adds what accuracy costs on the scene.
     ///
     /// # Errors
-    /// Where the chart cannot be drawn.
-    pub fn measured(&mut self, study: &Study) -> Result<(), Undrawn> {
+    /// Where the words of the picture cannot be laid out.
+    pub fn measured(&mut self, study: &Study) -> Result<(), WordsError> {
         self.study = Some(Chart {
             caption: format!(
                 "What accuracy costs on this scene. {}",
                 accuracy::heading(study)
             ),
-            svg: accuracy::svg(study)?,
+            svg: accuracy::picture(&summary(study), study.cases.len())?,
         });
         let measured = accuracy_json(study);
         let compact = measured.lines().map(str::trim).collect::<String>();
@@ -194,23 +195,31 @@ fn courses(analysis: &Analysis) -> Vec<Chart> {
     let steps: Vec<String> = (0..frames.len()).map(letter).collect();
     let blue = [68, 121, 180];
     let red = [168, 0, 0];
+    let totals = frames.iter().map(|f| f.total_force.max(f.total_sticking));
+    let (newtons, factor) = prefixed(totals.fold(0.0, f64::max), "N");
     let mut lines = vec![(
         "forces".to_owned(),
         blue,
-        frames.iter().map(|f| Some(f.total_force)).collect(),
+        frames
+            .iter()
+            .map(|f| Some(f.total_force * factor))
+            .collect(),
     )];
     if frames.iter().any(|f| f.total_sticking > 0.0) {
         lines.push((
             "sticking".to_owned(),
             red,
-            frames.iter().map(|f| Some(f.total_sticking)).collect(),
+            frames
+                .iter()
+                .map(|f| Some(f.total_sticking * factor))
+                .collect(),
         ));
     }
     let caption = match lines.len() {
         1 => "Total force over the steps",
         _ => "Total force over the steps, and what would have to be glued",
     };
-    let mut charts = vec![(caption, "N", lines)];
+    let mut charts = vec![(caption, newtons.as_str(), lines)];
     if frames.iter().any(|f| f.margins.is_some()) {
         let tilt = frames.iter().map(|f| {
             let margins = f.margins.as_ref()?;

@@ -34,8 +34,8 @@ pub struct Row {
     /// The largest share of the friction available that an interface uses, in the steps that stand; `None` where none does:
     /// there missing forces would be counted among those that press and rub.
     pub friction: Option<f64>,
-    /// The largest force at one interface in the steps that stand, N; `None` where none does: there missing forces would be
-    /// counted among those that press and rub.
+    /// The largest force of one interface or robot in the steps that stand, N; `None` where none does: there missing forces
+    /// would be counted among those that press and rub.
     pub largest: Option<f64>,
     /// What fails first, in words; empty where all stands. Of a comparison what changed.
     pub fails: String,
@@ -97,8 +97,11 @@ impl Row {
                 .map(|shares| shares.fold(0.0, f64::max))
                 .reduce(f64::max),
             largest: standing()
-                .map(|f| f.contacts.iter().map(|c| c.resultant.force.norm()))
-                .map(|forces| forces.fold(0.0, f64::max))
+                .map(|f| {
+                    let contacts = f.contacts.iter().map(|c| c.resultant.force.norm());
+                    let robots = f.robots.iter().map(|r| r.force.norm());
+                    contacts.chain(robots).fold(0.0, f64::max)
+                })
                 .reduce(f64::max),
             fails: text::line(&fails),
             thumbnail: thumbnail(analysis, &placed),

@@ -11,7 +11,7 @@ use crate::geometry::Point;
 use crate::interface::ContactKind;
 use crate::scene::{BodyId, Scene};
 use crate::text::line;
-use crate::wording::number::{digits, letter, listed, percent, place};
+use crate::wording::number::{digits, letter, listed, percent, place, prefixed};
 use crate::wording::{failure, proof, verdict};
 
 /// Width of a figure, pixels.
@@ -329,7 +329,9 @@ fn charts(found: &FrameAnalysis) -> Vec<Chart> {
     if found.contacts.len() < FEW {
         return Vec::new();
     }
-    let forces: Vec<f64> = found.contacts.iter().map(size).collect();
+    let largest = found.contacts.iter().map(size).fold(0.0, f64::max);
+    let (unit, factor) = prefixed(largest, "N");
+    let forces: Vec<f64> = found.contacts.iter().map(|c| size(c) * factor).collect();
     let used: Vec<f64> = found
         .contacts
         .iter()
@@ -339,12 +341,12 @@ fn charts(found: &FrameAnalysis) -> Vec<Chart> {
     let kinds = [
         (
             "How many interfaces carry how much force",
-            "force at an interface, N",
+            format!("force at an interface, {unit}"),
             Bars::counted(&forces, None),
         ),
         (
             "How many pressed interfaces use how much of their friction",
-            "friction used, %",
+            "friction used, %".to_owned(),
             Bars::counted(&used, Some(100.0)),
         ),
     ];
@@ -352,7 +354,7 @@ fn charts(found: &FrameAnalysis) -> Vec<Chart> {
         let caption = format!("{caption}{}", of_what(found));
         let chart = Bars {
             title: caption.clone(),
-            x: x.to_owned(),
+            x,
             y: "interfaces".to_owned(),
             ..bars
         };

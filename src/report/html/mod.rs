@@ -155,6 +155,23 @@ fn verdict(verdict: Verdict) -> Markup {
     html! { span.verdict.(class) { span aria-hidden="true" { (sign) } " " (plain(verdict)) } }
 }
 
+/// The verdict, of a comparison both, on one line.
+fn verdicts(row: &Row) -> Markup {
+    html! {
+        span.verdicts {
+            @if let Some(before) = row.before { (verdict(before)) " → " }
+            (verdict(row.verdict))
+        }
+    }
+}
+
+/// A file's path, which may be broken after a folder before it is broken within a name.
+fn path(name: &str) -> Markup {
+    html! {
+        bdi { @for part in name.split_inclusive('/') { (part) wbr; } }
+    }
+}
+
 fn overview(report: &Report, link: &dyn Fn(usize) -> String) -> Markup {
     let rows = || report.pieces.iter().map(|p| &p.row);
     let margins = rows().any(|row| row.closest.is_some());
@@ -199,11 +216,10 @@ fn line(row: &Row, link: &str, margins: bool) -> Markup {
             td.picture { (thumbnail(&row.thumbnail)) }
             th scope="row" {
                 a href=(link) { bdi { (row.title) } }
-                span.file { bdi { (row.name) } }
+                span.file { (path(&row.name)) }
             }
             td data-value=(plain(row.verdict)) {
-                @if let Some(before) = row.before { (verdict(before)) " → " }
-                (verdict(row.verdict))
+                (verdicts(row))
                 @if !steps.is_empty() { span.file { (steps) } }
             }
             @if margins {
@@ -215,7 +231,7 @@ fn line(row: &Row, link: &str, margins: bool) -> Markup {
             td.number data-value=(row.friction.unwrap_or(-1.0)) { (row.friction_words()) }
             td.number data-value=(row.blocks) { (row.blocks) }
             td.number data-value=(row.largest.unwrap_or(-1.0)) { (row.largest_words()) }
-            td.fails { bdi { (row.fails) } }
+            td.fails { bdi dir="ltr" { (row.fails) } }
         }
     }
 }

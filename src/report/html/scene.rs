@@ -2,7 +2,7 @@
 
 use maud::{Markup, PreEscaped, html};
 
-use super::{thumbnail, verdict};
+use super::{path, thumbnail, verdict, verdicts};
 use crate::chart;
 use crate::output::svg::{self, Options};
 use crate::report::entry::{Bullet, Chart, Entry, Figure, Grid, Step, touched};
@@ -38,9 +38,8 @@ pub(crate) fn section(entry: &Entry, number: usize) -> String {
                 (thumbnail(&row.thumbnail))
                 h2 { bdi { (row.title) } }
                 " "
-                @if let Some(before) = row.before { (verdict(before)) " → " }
-                (verdict(row.verdict))
-                span.file { bdi { (row.name) } }
+                (verdicts(row))
+                span.file { (path(&row.name)) }
             }
             noscript { (body) }
         }
@@ -71,8 +70,9 @@ fn step(step: &Step, (number, place): (usize, usize), several: bool) -> Markup {
     html! {
         section.step id=(id) aria-label=(if several { format!("Step {}: {}", step.letter, step.title) } else { step.title.clone() }) {
             @if several { h3 { "(" (step.letter) ") " bdi { (step.title) } " " (verdict(step.verdict)) } }
-            p.sentence { bdi { (step.sentence) } }
-            @for remark in &step.remarks { p.small { bdi { (remark) } } }
+            // Our sentences run from the left, whatever script the first name in them is of.
+            p.sentence { bdi dir="ltr" { (step.sentence) } }
+            @for remark in &step.remarks { p.small { bdi dir="ltr" { (remark) } } }
             div.plates {
                 @for (i, plate) in step.plates.iter().enumerate() {
                     (self::plate(plate, &mark(i), if i == 0 { &step.touches } else { &[] }))
@@ -129,7 +129,7 @@ fn grid(of: &Grid) -> Markup {
                     @for line in &of.lines {
                         tr data-mark=[(!line.mark.is_empty()).then_some(&line.mark)] {
                             @for (i, cell) in line.cells.iter().enumerate() {
-                                td.number[of.heads.get(i).is_some_and(|h| h.1)] { bdi { (cell) } }
+                                td.number[of.heads.get(i).is_some_and(|h| h.1)] { bdi dir="ltr" { (cell) } }
                             }
                         }
                     }
@@ -153,7 +153,7 @@ fn bullets(bullets: &[Bullet]) -> Markup {
                 tbody {
                     @for bullet in bullets {
                         tr {
-                            th scope="row" { bdi { (bullet.name) } }
+                            th scope="row" { bdi dir="ltr" { (bullet.name) } }
                             td { (bar(bullet)) }
                             td { bdi { (bullet.words) } }
                         }

@@ -3,21 +3,10 @@
 use std::fs;
 use std::io::Write;
 use std::process::Stdio;
-use std::thread;
-use std::time::Duration;
 
-use drystone::snapshot::fact::Facts;
 use drystone::snapshot::picture::Picture;
 
-use super::{Folder, lintel, ran};
-
-/// A folder with one scene, accepted.
-fn accepted() -> Folder {
-    let folder = Folder::with(&[("a/arch.json", lintel("A lintel", 1.0))]);
-    let ran = folder.run(&["a", "--accept"]);
-    assert_eq!(ran.code, 0, "{}{}", ran.out, ran.err);
-    folder
-}
+use super::{Folder, accepted, lintel, ran};
 
 #[test]
 fn what_is_new_lies_beside_until_it_is_accepted() {
@@ -147,6 +136,23 @@ fn a_filter_leaves_the_others_alone() {
                 .contains("no scene under . whose path contains \"three\""),
         "{}",
         ran.err
+    );
+}
+
+#[test]
+fn a_whole_name_is_that_scene_alone() {
+    let folder = Folder::with(&[
+        ("arch.json", lintel("One", 1.0)),
+        ("arch2.json", lintel("Two", 1.0)),
+    ]);
+    assert_eq!(folder.run(&[".", "--accept", "--only", "arch"]).code, 0);
+    assert!(folder.path("arch.txt").exists() && !folder.path("arch2.txt").exists());
+    assert_eq!(folder.run(&[".", "--only", "arch"]).code, 0);
+    fs::write(folder.path("arch2.svg"), "<svg/>").expect("writable");
+    assert_eq!(folder.run(&[".", "--accept", "--only", "arc"]).code, 0);
+    assert!(
+        folder.path("arch2.txt").exists(),
+        "a part of a name is of both"
     );
 }
 
@@ -306,105 +312,6 @@ fn references_that_cannot_be_read_have_their_words() {
         fs::write(folder.path(&format!("a/{name}")), kept).expect("writable");
     }
     assert_eq!(folder.run(&["a"]).code, 0);
-}
-
-#[test]
-fn a_place_that_cannot_be_written_changes_no_answer_and_refuses_acceptance() {
-    let folder = accepted();
-    folder.write("a/arch.json", &lintel("A lintel", 1.3));
-    // A folder where a file must go cannot be written by anybody, not even by the superuser.
-    fs::create_dir(folder.path("a/arch.new.txt")).expect("made");
-    let ran = folder.run(&["a"]);
-    assert!(
-        ran.code == 1
-            && ran
-                .err
-                .contains("could not write a/arch.new.txt: it is a folder"),
-        "{}{}",
-        ran.out,
-        ran.err
-    );
-    fs::remove_dir(folder.path("a/arch.new.txt")).expect("there");
-    let before = fs::read(folder.path("a/arch.txt")).expect("there");
-    fs::remove_file(folder.path("a/arch.svg")).expect("there");
-    fs::create_dir(folder.path("a/arch.svg")).expect("made");
-    let ran = folder.run(&["a", "--accept"]);
-    assert_eq!(ran.code, 4, "{}{}", ran.out, ran.err);
-    assert_eq!(
-        fs::read(folder.path("a/arch.txt")).expect("there"),
-        before,
-        "all of a snapshot or nothing"
-    );
-}
-
-fn twelve() -> Folder {
-    let names: Vec<String> = (0..12).map(|k| format!("s{k}.json")).collect();
-    let scenes: Vec<(&str, String)> = names
-        .iter()
-        .enumerate()
-        .map(|(k, n)| (n.as_str(), lintel("One of twelve", 1.0 + k as f64)))
-        .collect();
-    Folder::with(&scenes)
-}
-
-#[test]
-fn runs_at_once_take_turns() {
-    let folder = twelve();
-    let runs: Vec<_> = (0..4)
-        .map(|k| {
-            let mut command = folder.command(if k % 2 == 0 { &["--accept"] } else { &["."] });
-            command.stdout(Stdio::null()).stderr(Stdio::null());
-            command.spawn().expect("starts")
-        })
-        .collect();
-    for mut run in runs {
-        let code = run.wait().expect("ends").code();
-        assert!(matches!(code, Some(0 | 1)), "{code:?}");
-    }
-    let ran = folder.run(&["."]);
-    assert_eq!(ran.code, 0, "{}", ran.out);
-    assert_eq!(folder.files().len(), 12 * 4 + 1, "{:?}", folder.files());
-}
-
-#[test]
-fn an_interrupted_acceptance_leaves_whole_files() {
-    let mut seen = 0;
-    for wait in [0, 1, 3, 8, 20] {
-        let folder = twelve();
-        let mut command = folder.command(&["--accept"]);
-        command.stdout(Stdio::null()).stderr(Stdio::null());
-        let mut run = command.spawn().expect("starts");
-        // From the first reference on, in the midst of writing.
-        let wrote = || folder.files().iter().any(|name| name.ends_with(".txt"));
-        while !wrote() && run.try_wait().expect("known").is_none() {
-            thread::sleep(Duration::from_millis(1));
-        }
-        thread::sleep(Duration::from_millis(wait));
-        // As by the system, without a word to the program.
-        let _ = run.kill();
-        run.wait().expect("ends");
-        for name in folder.files() {
-            let bytes = fs::read(folder.path(&name)).expect("there");
-            let hidden = name.starts_with('.');
-            match name.rsplit_once('.').map(|(_, e)| e) {
-                _ if hidden => continue,
-                Some("png") => assert!(Picture::decode(&bytes).is_ok(), "{name}"),
-                Some("txt") => assert!(
-                    Facts::read(&String::from_utf8_lossy(&bytes)).is_ok(),
-                    "{name}"
-                ),
-                Some("svg") => assert!(bytes.ends_with(b"</svg>\n"), "{name}"),
-                _ => continue,
-            }
-            seen += 1;
-        }
-        assert_eq!(
-            folder.run(&["--accept"]).code,
-            0,
-            "the lock went with the run"
-        );
-    }
-    assert!(seen > 0, "no run wrote anything");
 }
 
 #[test]

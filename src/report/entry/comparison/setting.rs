@@ -1,0 +1,144 @@
+//! [`Settings`]: what two frames are given beside their blocks, and what of it differs: gravity, kernel, loads, robots.
+
+use super::Side;
+use crate::report::entry::Grid;
+use crate::scene::{Limits, Scene};
+use crate::text::line;
+use crate::wording::failure::shortened;
+use crate::wording::number::{digits, listed, place};
+
+/// So many differences are named in a sentence.
+const MOST_NAMED: usize = 4;
+
+/// What one frame is given: by name, in words, and the block it acts on.
+type Given = Vec<(String, String, Option<usize>)>;
+
+/// What differs, beside the blocks.
+pub(super) struct Settings {
+    lines: Vec<[String; 3]>,
+    /// Blocks of the first and of the second, by number, that are loaded or held otherwise.
+    pub blocks: [Vec<usize>; 2],
+}
+
+impl Settings {
+    pub fn of(sides: [Side<'_>; 2], number: usize) -> Settings {
+        let [then, now] = sides.map(|side| given(&side.analysis.scene, number));
+        let mut settings = Settings {
+            lines: Vec::new(),
+            blocks: [Vec::new(), Vec::new()],
+        };
+        let words = |list: &Given, name: &str| {
+            let found = list.iter().find(|g| g.0 == name);
+            found.map_or("none".to_owned(), |g| g.1.clone())
+        };
+        let mut names: Vec<&str> = then.iter().map(|g| g.0.as_str()).collect();
+        for (name, ..) in &now {
+            if !names.contains(&name.as_str()) {
+                names.push(name);
+            }
+        }
+        for name in names {
+            let both = [&then, &now].map(|list| words(list, name));
+            if both[0] == both[1] {
+                continue;
+            }
+            for (list, blocks) in [&then, &now].into_iter().zip(&mut settings.blocks) {
+                let found = list.iter().filter(|g| g.0 == name);
+                blocks.extend(found.filter_map(|g| g.2));
+            }
+            let [a, b] = both;
+            settings.lines.push([name.to_owned(), a, b]);
+        }
+        settings
+    }
+
+    pub fn stated(&self) -> Vec<String> {
+        if self.lines.is_empty() {
+            return Vec::new();
+        }
+        let names = self.lines.iter().map(|l| l[0].clone()).collect();
+        vec![format!(
+            "otherwise: {}",
+            listed(&shortened(names, MOST_NAMED))
+        )]
+    }
+
+    pub fn grid(&self) -> Grid {
+        let mut grid = Grid::new("What else differs", &["what", "first", "second"]);
+        for line in &self.lines {
+            grid.add("", line.clone());
+        }
+        grid
+    }
+}
+
+fn given(scene: &Scene, number: usize) -> Given {
+    let frame = &scene.frames[number];
+    let corners = if scene.corner_contacts {
+        "carry force"
+    } else {
+        "carry none"
+    };
+    let mut given: Given = vec![
+        (
+            "gravity".into(),
+            vector(scene.gravity.x, scene.gravity.y, "m/s²"),
+            None,
+        ),
+        ("safety kernel".into(), digits(scene.kernel), None),
+        ("corners that touch".into(), corners.into(), None),
+    ];
+    for (pair, friction) in &scene.friction_pairs {
+        let [a, b] = pair.map(|i| line(&scene.materials[i].name));
+        given.push((format!("friction of {a} on {b}"), digits(*friction), None));
+    }
+    for block in &frame.placed {
+        let loads = scene.loads.iter().filter(|load| load.block == *block);
+        let words: Vec<String> = loads
+            .map(|load| {
+                let force = vector(load.force.x, load.force.y, "N");
+                let torque = match load.torque {
+                    0.0 => String::new(),
+                    torque => format!(", torque {} N·m", digits(torque)),
+                };
+                format!("{force} at {}{torque}", place(load.at))
+            })
+            .collect();
+        if !words.is_empty() {
+            let name = format!("load on {}", line(&scene.blocks[block.0].id));
+            given.push((name, listed(&words), Some(block.0)));
+        }
+    }
+    for hold in &frame.holds {
+        let robot = &scene.robots[hold.robot.0];
+        let held = line(&scene.blocks[hold.block.0].id);
+        let words = format!(
+            "holds {held} at {}, {}",
+            place(hold.at),
+            limits(robot.limits)
+        );
+        given.push((
+            format!("robot {}", line(&robot.id)),
+            words,
+            Some(hold.block.0),
+        ));
+    }
+    given
+}
+
+fn vector(x: f64, y: f64, unit: &str) -> String {
+    format!("({}, {}) {unit}", digits(x), digits(y))
+}
+
+fn limits(of: Limits) -> String {
+    let limit = |value: f64, unit: &str| match value {
+        value if value.is_finite() => format!("{} {unit}", digits(value)),
+        _ => "any".to_owned(),
+    };
+    format!(
+        "limits {} across, {} up, {} torque",
+        limit(of.fx, "N"),
+        limit(of.fy, "N"),
+        limit(of.torque, "N·m")
+    )
+}

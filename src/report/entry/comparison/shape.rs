@@ -1,0 +1,144 @@
+//! [`Shapes`]: which blocks two frames have, and how those of one name differ.
+
+use std::collections::BTreeMap;
+
+use super::Side;
+use crate::geometry::Point;
+use crate::report::entry::Grid;
+use crate::scene::{Block, Scene};
+use crate::text::line;
+use crate::wording::failure::shortened;
+use crate::wording::number::{digits, listed};
+
+/// Corners differ where they lie farther apart than this share of the scene's reach.
+const MOVED: f64 = 1e-6;
+/// So many blocks are named in a sentence.
+const MOST_NAMED: usize = 6;
+
+/// How the blocks of two frames differ.
+#[derive(Default)]
+pub(super) struct Shapes {
+    /// Blocks of the first, by number, that the second has not or has otherwise.
+    pub gone_or_changed: Vec<usize>,
+    /// Blocks of the second that the first has not or had otherwise.
+    pub new_or_changed: Vec<usize>,
+    gone: Vec<String>,
+    new: Vec<String>,
+    changed: Vec<(String, String)>,
+}
+
+impl Shapes {
+    pub fn of(sides: [Side<'_>; 2], number: usize) -> Shapes {
+        let blocks = |side: Side<'_>| -> Vec<(String, usize)> {
+            let scene = &side.analysis.scene;
+            let mut placed: Vec<usize> =
+                scene.frames[number].placed.iter().map(|id| id.0).collect();
+            placed.sort_unstable();
+            let named = placed.into_iter().map(|i| (scene.blocks[i].id.clone(), i));
+            named.collect()
+        };
+        // In the order of the files, in which v2 comes before v10.
+        let [then, now] = sides.map(blocks);
+        let [before, after] = [&then, &now].map(|list| -> BTreeMap<&str, usize> {
+            list.iter().map(|(id, i)| (id.as_str(), *i)).collect()
+        });
+        let [was, is] = sides.map(|side| &side.analysis.scene);
+        let reach = reach(is).max(reach(was));
+        let mut shapes = Shapes::default();
+        for (id, old) in &then {
+            let Some(new) = after.get(id.as_str()) else {
+                shapes.gone.push(line(id));
+                shapes.gone_or_changed.push(*old);
+                continue;
+            };
+            let how = differs(&was.blocks[*old], &is.blocks[*new], reach);
+            if !how.is_empty() {
+                shapes.gone_or_changed.push(*old);
+                shapes.new_or_changed.push(*new);
+                shapes.changed.push((line(id), how));
+            }
+        }
+        for (id, new) in &now {
+            if !before.contains_key(id.as_str()) {
+                shapes.new.push(line(id));
+                shapes.new_or_changed.push(*new);
+            }
+        }
+        shapes
+    }
+
+    pub fn stated(&self) -> Vec<String> {
+        let changed: Vec<String> = self.changed.iter().map(|c| c.0.clone()).collect();
+        let kinds = [
+            ("gone", &self.gone),
+            ("new", &self.new),
+            ("changed", &changed),
+        ];
+        let described = kinds.into_iter().filter(|k| !k.1.is_empty());
+        described
+            .map(|(how, names)| format!("{how}: {}", listed(&shortened(names.clone(), MOST_NAMED))))
+            .collect()
+    }
+
+    pub fn grid(&self) -> Grid {
+        let mut grid = Grid::new("Blocks that differ", &["block", "how"]);
+        let alone = |names: &[String], how: &str| -> Vec<(String, String)> {
+            let named = names.iter().map(|name| (name.clone(), how.to_owned()));
+            named.collect()
+        };
+        let gone = alone(&self.gone, "only in the first");
+        let new = alone(&self.new, "only in the second");
+        // Blocks that differ in the same way are one line: a friction that changed everywhere is said once.
+        let mut ways: Vec<(&str, Vec<String>)> = Vec::new();
+        for (name, how) in gone.iter().chain(&new).chain(&self.changed) {
+            match ways.iter_mut().find(|way| way.0 == how) {
+                Some((_, names)) => names.push(name.clone()),
+                None => ways.push((how, vec![name.clone()])),
+            }
+        }
+        for (how, names) in ways {
+            grid.add("", [listed(&names), how.to_owned()]);
+        }
+        grid
+    }
+}
+
+/// The farthest corner from the origin, m.
+fn reach(scene: &Scene) -> f64 {
+    let corners = scene.blocks.iter().flat_map(|b| b.body.polygon.outline());
+    corners
+        .map(|p| p.x.abs().max(p.y.abs()))
+        .fold(0.0, f64::max)
+}
+
+/// How a block differs from what it was; empty where it does not.
+fn differs(was: &Block, is: &Block, reach: f64) -> String {
+    let mut how = Vec::new();
+    let moved = is.centroid - was.centroid;
+    let near = MOVED * reach;
+    let rings = |block: &Block| -> Vec<Vec<Point>> { block.body.polygon.rings().to_vec() };
+    let (before, after) = (rings(was), rings(is));
+    let same_shape = before.len() == after.len()
+        && before.iter().zip(&after).all(|(a, b)| {
+            a.len() == b.len()
+                && a.iter()
+                    .zip(b)
+                    .all(|(p, q)| (q - p - moved).norm() <= 2.0 * near)
+        });
+    if !same_shape {
+        how.push("another outline".to_owned());
+    }
+    if moved.norm() > near {
+        let (x, y) = (digits(moved.x), digits(moved.y));
+        how.push(format!("centroid moved by ({x}, {y}) m"));
+    }
+    if (is.weight - was.weight).abs() > 1e-9 * is.weight.abs().max(was.weight.abs()) {
+        let (a, b) = (digits(was.weight), digits(is.weight));
+        how.push(format!("weight {a} N → {b} N"));
+    }
+    if is.body.friction != was.body.friction {
+        let (a, b) = (digits(was.body.friction), digits(is.body.friction));
+        how.push(format!("friction coefficient {a} → {b}"));
+    }
+    listed(&how)
+}

@@ -1,0 +1,244 @@
+//! Names beside what they name, and names in lines: measured on the drawings.
+
+use drystone::Analysis;
+use drystone::drawing::{Drawing, Group, Item, PagePoint};
+use drystone::figure::{self, Kind, Options};
+use drystone::scene::{BlockId, Scene};
+
+use crate::labels::{Box4, COLUMN, classes, ink, pieces, texts, through};
+use crate::lines::brought;
+use crate::pictures::{gallery, scene};
+
+const NAMES: [&str; 3] = ["name", "robot-name", "amount"];
+
+fn drawn(scene: &Scene, kind: Kind, width: f64) -> Drawing {
+    figure::draw(&Analysis::of(scene), kind, &Options::default().width(width))
+}
+
+/// The boxes of a label's lines.
+fn boxes(label: &Group) -> Vec<Box4> {
+    texts(label).iter().map(ink).collect()
+}
+
+fn crosses([a, b]: [PagePoint; 2], [c, d]: [PagePoint; 2]) -> bool {
+    let side = |p: PagePoint, q: PagePoint, r: PagePoint| {
+        (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x)
+    };
+    side(a, b, c) * side(a, b, d) < -1e-6 && side(c, d, a) * side(c, d, b) < -1e-6
+}
+
+/// A leader is drawn twice, first its seam.
+fn leader(label: &Group) -> Option<[PagePoint; 2]> {
+    pieces(label).last().copied()
+}
+
+/// For want of another place a leader may cross: few do, and of those in frames with room none.
+#[test]
+fn leaders_cross_neither_each_other_nor_a_label() {
+    let (mut count, mut complaints) = (0, Vec::new());
+    for (name, scene) in gallery().into_iter().chain(brought()) {
+        for (kind, width) in [
+            (Kind::Forces, COLUMN),
+            (Kind::Forces, 658.0),
+            (Kind::Kernel, COLUMN),
+        ] {
+            let drawing = drawn(&scene, kind, width);
+            for panel in classes(&drawing.items, &["picture"]) {
+                let labels = classes(&panel.items, &NAMES);
+                for (i, label) in labels.iter().enumerate() {
+                    let Some(line) = leader(label) else { continue };
+                    count += 1;
+                    for (j, other) in labels.iter().enumerate().filter(|(j, _)| *j != i) {
+                        let struck = boxes(other).iter().any(|b| through(line, *b));
+                        let crossed = j < i && leader(other).is_some_and(|l| crosses(line, l));
+                        if struck || crossed {
+                            let words = |l: &Group| texts(l)[0].words.clone();
+                            let (a, b) = (words(label), words(other));
+                            complaints.push(format!("{name}, {kind:?}, {width}: {a} over {b}"));
+                        }
+                    }
+                }
+            }
+        }
+    }
+    assert!(count > 100, "only {count} leaders were looked at");
+    let crowded = |complaint: &&String| complaint.starts_with("steps30");
+    let (crowded, others): (Vec<_>, Vec<_>) = complaints.iter().partition(crowded);
+    assert!(others.is_empty(), "{others:?}");
+    assert!(
+        crowded.len() * 20 <= count,
+        "{} of {count}: {crowded:?}",
+        crowded.len()
+    );
+}
+
+/// A name beside its block either is nearest to it by far or has a line to it.
+#[test]
+fn a_name_that_could_be_another_blocks_has_a_leader() {
+    let (mut beside, mut led) = (0, 0);
+    for (name, scene) in brought() {
+        let drawing = drawn(&scene, Kind::Kernel, COLUMN);
+        for (panel, frame) in classes(&drawing.items, &["picture"])
+            .iter()
+            .zip(scene.frames())
+        {
+            let camera = panel.camera.expect("a picture has one");
+            for label in classes(&panel.items, &["name"]) {
+                let lines = texts(label);
+                let words: Vec<&str> = lines.iter().map(|t| t.words.as_str()).collect();
+                let words = words.join(" ");
+                let own = |id: &&BlockId| scene.blocks()[id.0].id == words;
+                let Some(own) = frame.placed.iter().find(own) else {
+                    continue;
+                };
+                let [left, top, right, bottom] =
+                    boxes(label).into_iter().reduce(union).expect("words");
+                let middle = PagePoint::new((left + right) / 2.0, (top + bottom) / 2.0);
+                if scene.blocks()[own.0]
+                    .body
+                    .polygon
+                    .contains(camera.back(middle))
+                {
+                    continue;
+                }
+                beside += 1;
+                if leader(label).is_some() {
+                    led += 1;
+                    continue;
+                }
+                let far = |id: &BlockId| {
+                    let at = camera.place(scene.blocks()[id.0].centroid);
+                    let (x, y) = (at.x.clamp(left, right), at.y.clamp(top, bottom));
+                    libm::hypot(x - at.x, y - at.y)
+                };
+                let others = frame.placed.iter().filter(|id| *id != own);
+                let nearest = others.map(far).fold(f64::INFINITY, f64::min);
+                // The boxes here are those of the ink, a little less than what the placing keeps clear.
+                assert!(
+                    nearest > 1.35 * far(own),
+                    "{name}: {words} could be another block's: {nearest} and {}",
+                    far(own)
+                );
+            }
+        }
+    }
+    assert!(
+        beside > 40 && led > 10,
+        "{beside} beside, {led} of them with a leader"
+    );
+}
+
+fn union(a: Box4, b: Box4) -> Box4 {
+    [
+        a[0].min(b[0]),
+        a[1].min(b[1]),
+        a[2].max(b[2]),
+        a[3].max(b[3]),
+    ]
+}
+
+/// The lines of the name of a block.
+fn lines_of(drawing: &Drawing, wanted: &str) -> Vec<String> {
+    let labels = classes(&drawing.items, &["name"]);
+    let lines = labels.iter().map(|label| {
+        let lines: Vec<String> = texts(label).into_iter().map(|t| t.words).collect();
+        lines
+    });
+    let mut lines = lines.filter(|l| l.concat().replace(' ', "") == wanted.replace(' ', ""));
+    lines.next().unwrap_or_default()
+}
+
+#[test]
+fn a_name_of_several_words_stands_in_lines_where_one_has_no_room() {
+    let posts = drawn(&scene("tests/scenes/loaded.json"), Kind::Kernel, COLUMN);
+    assert_eq!(lines_of(&posts, "left post"), ["left", "post"]);
+    let spelled = "U+4E2D\u{a0}6587\u{a0}77F3\u{a0}5934";
+    let text = format!(
+        r#"{{ "drystone": 1, "ground": [{{ "polygon": [[-6,-1],[8,-1],[8,0],[-6,0]] }}],
+             "blocks": [{{ "id": "{spelled}", "polygon": [[0,0],[3,0],[3,2],[0,2]] }},
+                        {{ "id": "one\u00a0name", "polygon": [[5,0],[5.6,0],[5.6,2],[5,2]] }}] }}"#
+    );
+    let scene = Scene::from_json(&text).expect("sound");
+    let drawing = drawn(&scene, Kind::Kernel, COLUMN);
+    // Between code points, which stand for characters that no font has; not where somebody wrote that nothing may be broken.
+    let lines = lines_of(&drawing, &spelled.replace('\u{a0}', ""));
+    assert!(lines.len() > 1, "{lines:?}");
+    assert_eq!(lines_of(&drawing, "one\u{a0}name"), ["one\u{a0}name"]);
+}
+
+/// Names stood off the lines of ground that the picture has cut away.
+#[test]
+fn both_names_of_level_points_stand_at_the_edge_of_the_picture() {
+    let found = Analysis::of(scene("tests/scenes/one.json"));
+    for width in [COLUMN, 658.0] {
+        let drawing = figure::freebody(&found, 0, BlockId(0), &Options::default().width(width));
+        let drawing = drawing.expect("placed");
+        let page = Group {
+            items: drawing.items,
+            ..Group::default()
+        };
+        let words: Vec<String> = texts(&page).into_iter().map(|t| t.words).collect();
+        assert!(
+            !words.iter().any(|w| w.contains("no room")),
+            "{width}: {words:?}"
+        );
+    }
+}
+
+#[test]
+fn the_list_of_a_free_body_breaks_long_names_and_cuts_none() {
+    let name = "a stone whose name is as long as a stone in a wall of names";
+    let text = format!(
+        r#"{{ "drystone": 1, "ground": [{{ "polygon": [[-1,-1],[4,-1],[4,0],[-1,0]] }}],
+             "blocks": [{{ "id": "{name}", "polygon": [[0,0],[3,0],[3,1],[0,1]] }},
+                        {{ "id": "b", "polygon": [[0,1],[3,1],[3,2],[0,2]] }}] }}"#
+    );
+    let found = Analysis::of(Scene::from_json(&text).expect("sound"));
+    let drawing = figure::freebody(&found, 0, BlockId(1), &Options::default().width(COLUMN));
+    let drawing = drawing.expect("placed");
+    let list = classes(&drawing.items, &["list"]);
+    let texts: Vec<_> = list.iter().flat_map(|group| texts(group)).collect();
+    let words: Vec<&str> = texts.iter().map(|t| t.words.as_str()).collect();
+    let told = words.join(" ");
+    assert!(
+        !told.contains('…') && told.contains("wall of names"),
+        "{told}"
+    );
+    for text in &texts {
+        let [left, top, right, bottom] = ink(text);
+        let on_page =
+            left >= 0.0 && top >= 0.0 && right <= drawing.width && bottom <= drawing.height;
+        assert!(on_page, "{} is cut", text.words);
+    }
+}
+
+#[test]
+fn the_key_does_not_call_a_robot_a_robot_twice() {
+    let text = |id: &str| {
+        format!(
+            r#"{{ "drystone": 1, "blocks": [{{ "id": "a", "polygon": [[0,0],[1,0],[1,1],[0,1]] }}],
+                 "robots": [{{ "id": "{id}", "holds": "a", "limits": {{ "force": 100 }} }}] }}"#
+        )
+    };
+    for (id, entry) in [
+        ("robot", "robot"),
+        ("Robot 2", "Robot 2"),
+        ("r0", "robot r0"),
+    ] {
+        let scene = Scene::from_json(&text(id)).expect("sound");
+        let drawing = drawn(&scene, Kind::Forces, 658.0);
+        let all = |items: &[Item]| {
+            let page = Group {
+                items: items.to_vec(),
+                ..Group::default()
+            };
+            texts(&page)
+        };
+        let found = all(&drawing.items);
+        assert!(found.iter().any(|t| t.words == entry), "{id}");
+        assert!(
+            !found.iter().any(|t| t.words.contains("robot robot")),
+            "{id}"
+        );
+    }
+}
