@@ -71,8 +71,8 @@ impl Force {
 /// One force and its place in the balance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Column {
-    rows: [usize; 6],
-    values: [f64; 6],
+    /// Rows and values, of which the first `count` stand for something.
+    places: [(usize, f64); 6],
     count: usize,
     /// What it costs per unit: the source's weight of 1 per normal, friction or robot unknown.
     pub cost: f64,
@@ -85,20 +85,26 @@ pub struct Column {
 impl Column {
     /// The nonzero entries as (row, value).
     pub fn entries(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
-        let rows = self.rows[..self.count].iter();
-        rows.copied().zip(self.values[..self.count].iter().copied())
+        self.filled().iter().copied()
+    }
+
+    fn filled(&self) -> &[(usize, f64)] {
+        &self.places[..self.count]
     }
 
     /// Whether another column has the same values, in whichever rows, and the same limit.
     pub(crate) fn has_values_of(&self, other: &Column) -> bool {
-        self.values[..self.count] == other.values[..other.count] && self.limit == other.limit
+        let mut pairs = self.filled().iter().zip(other.filled());
+        self.count == other.count
+            && pairs.all(|(own, its)| own.1 == its.1)
+            && self.limit == other.limit
     }
 
     /// The column's product with virtual velocities `y`: the velocity against which the force works.
     pub fn dot(&self, y: &[f64]) -> f64 {
         let mut sum = 0.0;
-        for (row, value) in self.entries() {
-            sum += value * y[row];
+        for (row, value) in self.filled() {
+            sum += value * y[*row];
         }
         sum
     }
@@ -109,8 +115,8 @@ impl Column {
             return 0.0;
         }
         let mut sum = 0.0;
-        for (row, value) in other.entries() {
-            for (own, v) in self.entries() {
+        for (row, value) in other.filled() {
+            for (own, v) in self.filled() {
                 if own == row {
                     sum += v * value;
                 }
@@ -123,7 +129,7 @@ impl Column {
     fn shares_block(&self, other: &Column) -> bool {
         let blocks = |column: &Column| {
             let last = column.count.saturating_sub(1);
-            [column.rows[0], column.rows[last]].map(|row| row / 3)
+            [0, last].map(|place| column.places[place].0 / 3)
         };
         let own = blocks(self);
         blocks(other).iter().any(|block| own.contains(block))
@@ -131,8 +137,8 @@ impl Column {
 
     /// Adds `amount` of the column to `sum`.
     pub fn add_to(&self, sum: &mut [f64], amount: f64) {
-        for (row, value) in self.entries() {
-            sum[row] += amount * value;
+        for (row, value) in self.filled() {
+            sum[*row] += amount * value;
         }
     }
 
@@ -140,12 +146,11 @@ impl Column {
     pub(super) fn less(&self, other: &Column) -> Column {
         let mut difference = Column { count: 0, ..*self };
         let mut put = |row: usize, value: f64| match (0..difference.count)
-            .find(|i| difference.rows[*i] == row)
+            .find(|i| difference.places[*i].0 == row)
         {
-            Some(i) => difference.values[i] += value,
+            Some(i) => difference.places[i].1 += value,
             None => {
-                difference.rows[difference.count] = row;
-                difference.values[difference.count] = value;
+                difference.places[difference.count] = (row, value);
                 difference.count += 1;
             }
         };
@@ -156,8 +161,7 @@ impl Column {
 
     fn new(force: Force, cost: f64, limit: f64) -> Column {
         Column {
-            rows: [0; 6],
-            values: [0.0; 6],
+            places: [(0, 0.0); 6],
             count: 0,
             cost,
             limit,
@@ -169,8 +173,7 @@ impl Column {
     fn enter(&mut self, block: usize, force: Vector, moment: f64) {
         for (offset, value) in [force.x, force.y, moment].into_iter().enumerate() {
             if value != 0.0 {
-                self.rows[self.count] = 3 * block + offset;
-                self.values[self.count] = value;
+                self.places[self.count] = (3 * block + offset, value);
                 self.count += 1;
             }
         }
