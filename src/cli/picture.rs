@@ -284,6 +284,16 @@ impl Picture {
     }
 }
 
+/// A complaint about the size of a figure, with the way out that a figure of several steps has.
+pub(super) fn or_split(complaint: Complaint, steps: usize) -> Complaint {
+    match complaint {
+        Complaint::CommandLine(why) if steps > 1 => Complaint::CommandLine(format!(
+            "{why}; or split its {steps} steps: --pages writes pages, --panels a file for each"
+        )),
+        other => other,
+    }
+}
+
 fn not_drawn(error: &PngError) -> Complaint {
     match error {
         PngError::Size { .. } => Complaint::CommandLine(error.to_string()),

@@ -19,7 +19,7 @@ use crate::cli::destination::{self, Destination};
 use crate::cli::ending::Ending;
 use crate::cli::level::Level;
 use crate::cli::look::Look;
-use crate::cli::picture::{Format, Picture};
+use crate::cli::picture::{Format, Picture, or_split};
 use crate::cli::progress::{Progress, Shown};
 use crate::cli::script;
 use crate::cli::source::{self, FrameChoice, Source};
@@ -330,6 +330,10 @@ impl Render {
         progress.step();
         let mut summary = summary(&analysis);
         let kind = self.kind.panels();
+        let split = |complaint| match kind {
+            Some(_) => or_split(complaint, analysis.frames.len()),
+            None => complaint,
+        };
         if let (Some(kind), Format::Png) = (kind, format)
             && !self.panels
             && !self.pages
@@ -337,7 +341,8 @@ impl Render {
         {
             // What no PNG could hold is refused before it is laid out.
             self.picture
-                .check_png(figure::least_size(&analysis, kind, options))?;
+                .check_png(figure::least_size(&analysis, kind, options))
+                .map_err(split)?;
         }
         let bytes = match (self.animate, kind) {
             (None, Some(kind)) if self.panels || self.pages => {
@@ -359,7 +364,8 @@ impl Render {
                 if kind.is_some() && analysis.frames.len() > 1 && drawing.height > TALL * high {
                     summary.push_str("; taller than an A4 page, --pages splits it");
                 }
-                vec![self.picture.bytes(drawing, format, fonts)?]
+                let bytes = self.picture.bytes(drawing, format, fonts);
+                vec![bytes.map_err(split)?]
             }
         };
         progress.step();

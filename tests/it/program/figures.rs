@@ -246,6 +246,23 @@ fn two_scenes_are_compared_and_what_cannot_be_is_told() {
 }
 
 #[test]
+fn a_strip_too_large_for_a_png_is_refused_with_the_ways_to_split_it() {
+    let bench = Bench::new();
+    let steps = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/scenes/steps30.json");
+    fs::copy(steps, bench.path("steps.json")).expect("copied");
+    for (scene, split) in [
+        ("steps", "; or split its 30 steps: --pages"),
+        ("stands", ""),
+    ] {
+        let ran = bench.run(&format!("render {scene}.json --width 31000 -o {scene}.png"));
+        assert_eq!(ran.code, 2);
+        assert!(ran.err.contains("at most 100 million"), "{}", ran.err);
+        assert!(ran.err.contains(split), "{}", ran.err);
+        assert!(ran.err.contains("split") != split.is_empty(), "{}", ran.err);
+    }
+}
+
+#[test]
 fn a_long_strip_goes_to_pages_and_a_margin_has_a_direction() {
     let bench = Bench::new();
     let steps = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/scenes/steps30.json");
