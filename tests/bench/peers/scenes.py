@@ -4,13 +4,14 @@ import math
 
 
 def scene(title, blocks, gravity=(0, -9.81), friction=0.7):
+    far = max([9999] + [abs(x) + 1 for polygon in blocks for x, _ in polygon])
     return {
         "drystone": 1,
         "title": title,
         "gravity": list(gravity),
         "friction": friction,
         "contact_tolerance": 1e-6,
-        "ground": [{"polygon": [[-9999, -1], [9999, -1], [9999, 0], [-9999, 0]]}],
+        "ground": [{"polygon": [[-far, -1], [far, -1], [far, 0], [-far, 0]]}],
         "blocks": [{"id": f"b{k}", "polygon": polygon, "density": 1000} for k, polygon in enumerate(blocks)],
     }
 
