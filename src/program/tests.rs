@@ -30,6 +30,13 @@ fn example() -> Program {
     held(2.0, f64::INFINITY, 8.0)
 }
 
+fn assert_columns(columns: &[Column], expected: &[&[(usize, f64)]]) {
+    assert_eq!(columns.len(), expected.len());
+    for (column, expected) in columns.iter().zip(expected) {
+        assert_entries(column, expected);
+    }
+}
+
 fn assert_entries(column: &Column, expected: &[(usize, f64)]) {
     let found: Vec<(usize, f64)> = column.entries().collect();
     let same = |(a, b): (&(usize, f64), &(usize, f64))| a.0 == b.0 && (a.1 - b.1).abs() < 1e-15;
@@ -74,12 +81,8 @@ fn columns_are_the_edges_of_friction_cones_and_what_robots_give() {
         &[(2, 1.0)],
         &[(2, -1.0)],
     ];
-    assert_eq!(columns.len(), expected.len());
-    for (column, expected) in columns.iter().zip(expected) {
-        assert_entries(column, expected);
-        assert_eq!(column.cost, 1.0);
-        assert!(!column.force.sticks());
-    }
+    assert_columns(&columns, &expected);
+    assert!(columns.iter().all(|c| c.cost == 1.0 && !c.force.sticks()));
     let limits: Vec<f64> = columns[6..].iter().map(|c| c.limit).collect();
     let free = f64::INFINITY;
     assert_eq!(limits, [1.0, 1.0, free, free, 2.0, 2.0]);
@@ -113,11 +116,8 @@ fn sticking_columns_pull_hold_on_and_go_beyond_limits() {
         &[(2, 1.0)],
         &[(2, -1.0)],
     ];
-    assert_eq!(columns.len(), expected.len());
-    for (column, expected) in columns.iter().zip(expected) {
-        assert_entries(column, expected);
-        assert!(column.force.sticks() && column.limit.is_infinite());
-    }
+    assert_columns(&columns, &expected);
+    assert!((columns.iter()).all(|c| c.force.sticks() && c.limit.is_infinite()));
     let admissible = Count::of(&program, &super::columns(&program));
     let all = admissible.and(Count::of(&program, &columns));
     let sum = Count {

@@ -59,17 +59,18 @@ pub(in crate::analysis) enum Place {
     AtEdge,
 }
 
-/// One program that may decide: the program of the least …
+/// One program that may decide.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Rung {
-    /// … force, of many blocks, given up early.
+    /// Least force of many blocks, given up early.
     FirstLook(SolverSettings),
-    /// … force.
+    /// Least force.
     Force(SolverSettings),
-    /// … of nothing: any balance.
+    /// Any balance, whatever its forces.
     Any,
-    /// … residual.
+    /// Least residual.
     Residual,
+    /// Least sticking.
     Sticking(SolverSettings),
 }
 
