@@ -109,8 +109,8 @@ impl Options {
         };
         let draft = SolverSettings {
             tolerance: Accuracy::LOOSE,
-            conditioning: Conditioning::Plain,
             choice: Choice::Any,
+            ..Conditioning::Plain.into()
         };
         let mut list = vec![SolverSettings::from(Conditioning::Plain), full];
         if self.accuracy == Accuracy::Draft {

@@ -1,7 +1,7 @@
 //! Solving a program: least force where it stands, least sticking where it falls, one unique set of forces to draw.
 //!
 //! Makes [`Balance`] and [`Stuck`] in the program's pure numbers. Neither is a verdict: the forces and the motion go to
-//! [`crate::proof`], which decides. `conic` alone names the solver.
+//! [`crate::proof`], which decides. `conic` alone names the solvers.
 //!
 //! Among several optima the one of least Σ force² is drawn. It is found on the face of optima: an interior-point answer
 //! is strictly complementary, so a column belongs to the face exactly where its amount outweighs its slack.
@@ -13,6 +13,7 @@ mod exact;
 mod factor;
 mod limit;
 mod nearest;
+mod normal;
 mod polish;
 pub(crate) mod ray;
 mod refine;
@@ -416,7 +417,7 @@ fn once_within(
     iterations: usize,
     effort: &mut Effort,
 ) -> Answer {
-    let answer = solve_within(conic, settings.tolerance, settings.conditioning, iterations);
+    let answer = solve_within(conic, settings, iterations);
     *effort = effort.and(Effort {
         iterations: answer.iterations,
         programs: 1,

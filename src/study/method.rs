@@ -326,8 +326,8 @@ fn standing(program: &Program, columns: &[Column], x: &[f64], effort: Effort) ->
 fn settings(tolerance: f64, choice: Choice) -> SolverSettings {
     SolverSettings {
         tolerance,
-        conditioning: Conditioning::Plain,
         choice,
+        ..Conditioning::Plain.into()
     }
 }
 

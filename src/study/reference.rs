@@ -129,8 +129,8 @@ pub(super) fn optimum(
     for tolerance in TOLERANCES {
         let settings = SolverSettings {
             tolerance,
-            conditioning: Conditioning::Full,
             choice: Choice::Any,
+            ..Conditioning::Full.into()
         };
         let solved = dual(loads, columns, settings, &mut Effort::default(), cost);
         if solved.status != Status::Solved {

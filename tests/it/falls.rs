@@ -2,7 +2,11 @@
 
 use drystone::Analysis;
 use drystone::analysis::{Ask, EffectName, Failure, FrameAnalysis, Options, Verdict, verdicts};
+use drystone::internals::effect::{Situation, assemble};
 use drystone::internals::geometry::{Point, Vector, cross};
+use drystone::internals::interface::Interfaces;
+use drystone::internals::program::{Program, Scale, columns, force_form, kinematic, least_left};
+use drystone::internals::solve::{Conditioning, Status, TOLERANCE, solve};
 use drystone::scene::{BodyId, Scene};
 use serde_json::{Value, json};
 
@@ -177,4 +181,47 @@ fn the_verdict_alone_of_a_high_turned_stack_takes_one_program() {
     assert_eq!(frame.verdict, Verdict::Unstable);
     assert!(frame.proof.holds());
     assert_eq!(frame.solve.programs, 1);
+}
+
+/// The program of a structure that hangs together.
+fn program(scene: &Scene) -> Program {
+    let found = Interfaces::of(scene);
+    let frame = &scene.frames()[0];
+    let (assembly, _) = assemble(&Situation {
+        scene,
+        frame,
+        interfaces: &found.in_frame(scene, frame),
+    });
+    Program::of(&assembly, Scale::of_assembly(&assembly))
+}
+
+/// Plain conditioning of so many blocks means the normal equations, full conditioning clarabel.
+#[test]
+fn two_solvers_find_the_same_of_a_thousand_bricks_standing_and_falling() {
+    let file = wall(30, 30);
+    for (degrees, stands) in [(0.0, true), (40.0, false)] {
+        let program = program(&scene(&turned(file.clone(), degrees)));
+        let (loads, all) = (&program.loads, columns(&program));
+        let hard = kinematic(loads, &all, |c| c.cost).0;
+        let any = force_form(loads, &all, |_| 0.0, None);
+        let residual = least_left(loads, &all).0;
+        let wanted = match stands {
+            true => [Status::Solved; 3],
+            false => [Status::Unbounded, Status::Infeasible, Status::Solved],
+        };
+        for (problem, status) in [hard, any, residual].iter().zip(wanted) {
+            let [ours, theirs] = [Conditioning::Plain, Conditioning::Full]
+                .map(|conditioning| solve(problem, TOLERANCE, conditioning));
+            assert_eq!((ours.status, theirs.status), (status, status));
+            assert_ne!(ours.x, theirs.x, "one of two solvers");
+            if status == Status::Solved {
+                let costs = [&ours, &theirs].map(|answer| {
+                    let terms = problem.linear.iter().zip(&answer.x);
+                    terms.map(|(q, x)| q * x).sum::<f64>()
+                });
+                let off = (costs[0] - costs[1]).abs();
+                assert!(off < 1e-6 * costs[1].abs().max(1.0), "{costs:?}");
+            }
+        }
+    }
 }

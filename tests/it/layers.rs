@@ -157,6 +157,7 @@ const DOORS: &[(&str, &[&str])] = &[
     ),
     ("schemars", &["scene/format.rs", "scene/format/"]),
     ("clarabel", &["solve/"]),
+    ("amd", &["solve/normal/panels.rs"]),
     (
         "resvg",
         &[

@@ -1,0 +1,500 @@
+//! Mehrotra's predictor and corrector on the homogeneous self-dual form, with Gondzio's further corrections.
+//!
+//! Unknowns are amounts f ≥ 0, velocities y, slacks z ≥ 0 and the pair τ, κ ≥ 0:
+//!
+//! ```text
+//! Σ f·column = loads·τ,   columnᵀy + z = cost·τ,   loadsᵀy − costᵀf = κ.
+//! ```
+//!
+//! At the end either τ > 0, and f/τ, y/τ are optima, or κ > 0, and y or f shows that there is none. Literature: Andersen and
+//! Andersen 2000; Gondzio 1996.
+
+use std::time::Instant;
+
+use super::Limits;
+use super::cholesky::Cholesky;
+use super::elements::Elements;
+
+/// min Σ cost·amount  s.t.  Σ amount·column = loads, amount ≥ 0.
+pub(super) struct Posed<'a> {
+    pub elements: &'a Elements,
+    pub cost: &'a [f64],
+    /// In the order of elimination, as all velocities here.
+    pub loads: &'a [f64],
+}
+
+/// How it ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Ended {
+    /// With an optimum.
+    Optimal,
+    /// No amounts balance the loads: along y they work, and no column does.
+    NothingBalances,
+    /// Some amounts balance each other and cost less than nothing.
+    CostWithoutEnd,
+}
+
+/// What it ended in.
+pub(super) struct Optimum {
+    /// `None` where it was given up.
+    pub ended: Option<Ended>,
+    pub amounts: Vec<f64>,
+    pub slack: Vec<f64>,
+    pub velocities: Vec<f64>,
+    pub iterations: usize,
+}
+
+/// What is added to the diagonal, so that what nothing holds has a pivot.
+const LEAST_PIVOT: f64 = 1e-12;
+
+/// A certificate may be off by so much, in parts of what it shows.
+const CERTAIN: f64 = 1e-8;
+
+/// The share of the way to the nearest bound that a step goes.
+const NEARLY: f64 = 0.99;
+
+/// How many corrections a direction gets at most. Of walls near their edge 1, 2, 3 and 5 end after 82, 77, 69 and 82
+/// iterations, where none has not ended after 100.
+const CORRECTIONS: usize = 3;
+
+/// A correction aims at a step longer by so much, and stays where it makes it longer by a tenth of that.
+const FURTHER: f64 = 0.3;
+
+/// Products amount·slack within this factor of the mean need no correction.
+const BAND: f64 = 10.0;
+
+/// Steps shorter than this lead nowhere.
+const SHORTEST: f64 = 1e-6;
+
+pub(super) fn solve(posed: Posed, factor: &mut Cholesky, limits: Limits) -> Optimum {
+    let mut run = Run::of(&posed, factor);
+    let mut iterations = 0;
+    let ended = loop {
+        let residual = Residual::of(&posed, &run.at, &mut run.left);
+        if let Some(ended) = residual.ended(&posed, limits.finer) {
+            break Some(ended);
+        }
+        let late = limits.deadline.is_some_and(|end| Instant::now() >= end);
+        let over = iterations == limits.iterations || late || !residual.mean.is_finite();
+        if over || !run.step(&posed, factor, &residual) {
+            break residual.ended(&posed, limits.tolerance);
+        }
+        iterations += 1;
+    };
+    let at = run.at;
+    let by = match ended {
+        Some(Ended::NothingBalances) => 1.0 / product(posed.loads, &at.y),
+        Some(Ended::CostWithoutEnd) => -1.0 / product(posed.cost, &at.f),
+        _ => 1.0 / at.tau,
+    };
+    let scaled = |list: Vec<f64>| -> Vec<f64> { list.into_iter().map(|v| v * by).collect() };
+    Optimum {
+        ended,
+        amounts: scaled(at.f),
+        slack: scaled(at.z),
+        velocities: scaled(at.y),
+        iterations,
+    }
+}
+
+/// Where the method stands, or by how much it goes on.
+struct Point {
+    f: Vec<f64>,
+    z: Vec<f64>,
+    y: Vec<f64>,
+    tau: f64,
+    kappa: f64,
+}
+
+impl Point {
+    fn zero(columns: usize, unknowns: usize) -> Point {
+        Point {
+            f: vec![0.0; columns],
+            z: vec![0.0; columns],
+            y: vec![0.0; unknowns],
+            tau: 0.0,
+            kappa: 0.0,
+        }
+    }
+
+    /// Where amounts and slacks of least squares stand, moved until all are positive.
+    fn first(posed: &Posed, factor: &mut Cholesky) -> Point {
+        let columns = posed.cost.len();
+        factor.factor(posed.elements, &vec![1.0; columns], LEAST_PIVOT);
+        let mut dear = vec![0.0; posed.loads.len()];
+        posed.elements.add(posed.cost, &mut dear);
+        let mut both: Vec<[f64; 2]> = posed
+            .loads
+            .iter()
+            .zip(&dear)
+            .map(|(b, c)| [*b, *c])
+            .collect();
+        factor.solve(&mut both);
+        let mut at = Point {
+            tau: 1.0,
+            kappa: 1.0,
+            ..Point::zero(columns, posed.loads.len())
+        };
+        let list: Vec<f64> = both.iter().map(|v| v[0]).collect();
+        posed.elements.along(&list, &mut at.f);
+        at.y = both.iter().map(|v| v[1]).collect();
+        posed.elements.along(&at.y, &mut at.z);
+        for (z, c) in at.z.iter_mut().zip(posed.cost) {
+            *z = c - *z;
+        }
+        for list in [&mut at.f, &mut at.z] {
+            let least = list.iter().fold(f64::INFINITY, |a, b| a.min(*b));
+            let mean = list.iter().filter(|v| **v > 0.0).sum::<f64>() / columns as f64;
+            let inside = f64::max(1.0, 0.1 * mean);
+            let by = if least < inside {
+                inside - least.min(0.0)
+            } else {
+                0.0
+            };
+            list.iter_mut().for_each(|v| *v += by);
+        }
+        at
+    }
+
+    /// The longest step along a direction that leaves nothing below 0, at most 1/[`NEARLY`].
+    fn longest(&self, direction: &Point) -> f64 {
+        let pair = [(self.tau, direction.tau), (self.kappa, direction.kappa)];
+        let mut longest = 1.0 / NEARLY;
+        let (f, z) = (
+            self.f.iter().zip(&direction.f),
+            self.z.iter().zip(&direction.z),
+        );
+        for (v, d) in f.chain(z) {
+            if v + longest * d < 0.0 {
+                longest = -v / d;
+            }
+        }
+        for (v, d) in pair {
+            if v + longest * d < 0.0 {
+                longest = -v / d;
+            }
+        }
+        longest
+    }
+
+    /// Goes along a direction.
+    fn advance(&mut self, direction: &Point, by: f64) {
+        let lists = [
+            (&mut self.f, &direction.f),
+            (&mut self.z, &direction.z),
+            (&mut self.y, &direction.y),
+        ];
+        for (list, along) in lists {
+            for (v, d) in list.iter_mut().zip(along) {
+                *v += by * d;
+            }
+        }
+        self.tau += by * direction.tau;
+        self.kappa += by * direction.kappa;
+        // Only ratios count: neither of the two may leave the range of numbers.
+        let size = self.tau.max(self.kappa);
+        if !(1e-3..1e3).contains(&size) {
+            let lists = [&mut self.f, &mut self.z, &mut self.y];
+            lists.into_iter().flatten().for_each(|v| *v /= size);
+            self.tau /= size;
+            self.kappa /= size;
+        }
+    }
+}
+
+/// What the equations leave.
+struct Left {
+    /// loads·τ − Σ f·column.
+    balance: Vec<f64>,
+    /// cost·τ − columnᵀy − z.
+    cost: Vec<f64>,
+}
+
+struct Residual {
+    /// κ + costᵀf − loadsᵀy.
+    gap: f64,
+    /// Mean of amount·slack, τκ among them.
+    mean: f64,
+    primal: f64,
+    dual: f64,
+    /// Largest of the balance that is left and of Σ f·column.
+    balance: [f64; 2],
+    /// Largest of the cost that is left and of columnᵀy + z.
+    cost: [f64; 2],
+    /// Largest amount, slack and velocity.
+    size: [f64; 3],
+    tau: f64,
+    kappa: f64,
+}
+
+impl Residual {
+    fn of(posed: &Posed, at: &Point, left: &mut Left) -> Residual {
+        left.balance.fill(0.0);
+        posed.elements.add(&at.f, &mut left.balance);
+        let balanced = largest(&left.balance);
+        for (rest, load) in left.balance.iter_mut().zip(posed.loads) {
+            *rest = load * at.tau - *rest;
+        }
+        posed.elements.along(&at.y, &mut left.cost);
+        let mut priced = 0.0f64;
+        for ((rest, cost), z) in left.cost.iter_mut().zip(posed.cost).zip(&at.z) {
+            let sum = *rest + z;
+            priced = priced.max(sum.abs());
+            *rest = cost * at.tau - sum;
+        }
+        let (primal, dual) = (product(posed.cost, &at.f), product(posed.loads, &at.y));
+        Residual {
+            gap: at.kappa + primal - dual,
+            mean: (product(&at.f, &at.z) + at.tau * at.kappa) / (at.f.len() + 1) as f64,
+            primal,
+            dual,
+            balance: [largest(&left.balance), balanced],
+            cost: [largest(&left.cost), priced],
+            size: [largest(&at.f), largest(&at.z), largest(&at.y)],
+            tau: at.tau,
+            kappa: at.kappa,
+        }
+    }
+
+    fn ended(&self, posed: &Posed, tolerance: f64) -> Option<Ended> {
+        let tau = self.tau;
+        let [f, z, y] = self.size;
+        let (primal, dual) = (self.primal / tau, self.dual / tau);
+        let gap = (primal - dual).abs();
+        let balance = f64::max(1.0, largest(posed.loads) + f / tau);
+        let cost = f64::max(1.0, largest(posed.cost) + (y + z) / tau);
+        let small =
+            self.balance[0] < tolerance * tau * balance && self.cost[0] < tolerance * tau * cost;
+        if small && gap < tolerance * primal.abs().min(dual.abs()).max(1.0) {
+            return Some(Ended::Optimal);
+        }
+        if tau >= self.kappa {
+            return None;
+        }
+        if self.dual > 0.0 && self.cost[1] < CERTAIN * self.dual.min(y + z) {
+            return Some(Ended::NothingBalances);
+        }
+        if self.primal < 0.0 && self.balance[1] < CERTAIN * f64::min(-self.primal, f) {
+            return Some(Ended::CostWithoutEnd);
+        }
+        None
+    }
+}
+
+/// A run of the method, with the room it needs.
+struct Run {
+    at: Point,
+    left: Left,
+    /// amount/slack.
+    weight: Vec<f64>,
+    /// The part of a direction that goes with τ.
+    along_tau: Point,
+    direction: Point,
+    corrected: Point,
+    /// What amount·slack is to change by, to first order.
+    wanted: Vec<f64>,
+    wanted_next: Vec<f64>,
+    room: Vec<f64>,
+}
+
+/// The right-hand sides of a direction beside those of amount·slack.
+#[derive(Clone, Copy)]
+struct Change {
+    /// The share of the residuals to be taken away.
+    residual: f64,
+    /// What τκ is to change by.
+    pair: f64,
+}
+
+impl Run {
+    fn of(posed: &Posed, factor: &mut Cholesky) -> Run {
+        let (columns, unknowns) = (posed.cost.len(), posed.loads.len());
+        Run {
+            at: Point::first(posed, factor),
+            left: Left {
+                balance: vec![0.0; unknowns],
+                cost: vec![0.0; columns],
+            },
+            weight: vec![0.0; columns],
+            along_tau: Point::zero(columns, unknowns),
+            direction: Point::zero(columns, unknowns),
+            corrected: Point::zero(columns, unknowns),
+            wanted: vec![0.0; columns],
+            wanted_next: vec![0.0; columns],
+            room: vec![0.0; columns],
+        }
+    }
+
+    /// One iteration; false where it leads nowhere.
+    fn step(&mut self, posed: &Posed, factor: &mut Cholesky, residual: &Residual) -> bool {
+        for (weight, (f, z)) in self.weight.iter_mut().zip(self.at.f.iter().zip(&self.at.z)) {
+            *weight = f / z;
+        }
+        factor.factor(posed.elements, &self.weight, LEAST_PIVOT);
+        // The predictor goes for the optimum itself.
+        for (wanted, (f, z)) in self.wanted.iter_mut().zip(self.at.f.iter().zip(&self.at.z)) {
+            *wanted = -f * z;
+        }
+        let mut change = Change {
+            residual: 1.0,
+            pair: -self.at.tau * self.at.kappa,
+        };
+        let pivot = self.predict(posed, factor, residual, change);
+        let short = 1.0 - self.at.longest(&self.direction).min(1.0);
+        let target = short * short * short * residual.mean;
+        change = Change {
+            residual: 1.0 - short * short * short,
+            pair: target + change.pair - self.direction.tau * self.direction.kappa,
+        };
+        let along = self.direction.f.iter().zip(&self.direction.z);
+        for (wanted, (f, z)) in self.wanted.iter_mut().zip(along) {
+            *wanted += target - f * z;
+        }
+        self.direct(posed, factor, residual, change, pivot);
+        std::mem::swap(&mut self.direction, &mut self.corrected);
+        let mut longest = self.at.longest(&self.direction);
+        for _ in 0..CORRECTIONS {
+            if longest > 1.0 - 0.1 * FURTHER {
+                break;
+            }
+            let further = f64::min(longest + FURTHER, 1.0);
+            let pair = self.centre(further, target);
+            std::mem::swap(&mut self.wanted, &mut self.wanted_next);
+            let next = Change {
+                pair: change.pair + pair,
+                ..change
+            };
+            self.direct(posed, factor, residual, next, pivot);
+            let now = self.at.longest(&self.corrected);
+            if now < longest + 0.1 * FURTHER {
+                break;
+            }
+            std::mem::swap(&mut self.direction, &mut self.corrected);
+            (longest, change) = (now, next);
+        }
+        let by = f64::min(NEARLY * longest, 1.0);
+        self.at.advance(&self.direction, by);
+        by > SHORTEST
+    }
+
+    /// Brings the products amount·slack after a step that goes further back to about their mean: into `wanted_next`, and
+    /// what τκ is to change by beside.
+    fn centre(&mut self, step: f64, target: f64) -> f64 {
+        let back = |v: f64, dv: f64, w: f64, dw: f64| {
+            let product = (v + step * dv) * (w + step * dw);
+            f64::max(
+                product.clamp(target / BAND, BAND * target) - product,
+                -BAND * target,
+            )
+        };
+        let (at, by) = (&self.at, &self.direction);
+        for (k, next) in self.wanted_next.iter_mut().enumerate() {
+            *next = self.wanted[k] + back(at.f[k], by.f[k], at.z[k], by.z[k]);
+        }
+        back(at.tau, by.tau, at.kappa, by.kappa)
+    }
+
+    /// The first direction of an iteration, and the part that goes with τ, in one go; the pivot of τ.
+    fn predict(
+        &mut self,
+        posed: &Posed,
+        factor: &Cholesky,
+        residual: &Residual,
+        change: Change,
+    ) -> f64 {
+        let mut tau_side = posed.loads.to_vec();
+        for (room, (weight, cost)) in self.room.iter_mut().zip(self.weight.iter().zip(posed.cost)) {
+            *room = weight * cost;
+        }
+        posed.elements.add(&self.room, &mut tau_side);
+        let side = self.side(posed, change);
+        let mut both: Vec<[f64; 2]> = tau_side.iter().zip(&side).map(|(a, b)| [*a, *b]).collect();
+        factor.solve(&mut both);
+        let part = &mut self.along_tau;
+        part.y.iter_mut().zip(&both).for_each(|(y, v)| *y = v[0]);
+        posed.elements.along(&part.y, &mut part.f);
+        let weighted = self.weight.iter().zip(posed.cost);
+        for (f, (weight, cost)) in part.f.iter_mut().zip(weighted) {
+            *f = weight * (*f - cost);
+        }
+        let pivot = product(posed.loads, &part.y) - product(posed.cost, &part.f)
+            + self.at.kappa / self.at.tau;
+        self.corrected
+            .y
+            .iter_mut()
+            .zip(&both)
+            .for_each(|(y, v)| *y = v[1]);
+        self.complete(posed, residual, change, pivot);
+        std::mem::swap(&mut self.direction, &mut self.corrected);
+        pivot
+    }
+
+    /// A direction with the same factor, into `corrected`.
+    fn direct(
+        &mut self,
+        posed: &Posed,
+        factor: &Cholesky,
+        residual: &Residual,
+        change: Change,
+        pivot: f64,
+    ) {
+        let mut side: Vec<[f64; 1]> = self.side(posed, change).into_iter().map(|v| [v]).collect();
+        factor.solve(&mut side);
+        self.corrected
+            .y
+            .iter_mut()
+            .zip(&side)
+            .for_each(|(y, v)| *y = v[0]);
+        self.complete(posed, residual, change, pivot);
+    }
+
+    /// The right-hand side of the velocities; leaves in `room` what completes them.
+    fn side(&mut self, posed: &Posed, change: Change) -> Vec<f64> {
+        for (k, room) in self.room.iter_mut().enumerate() {
+            *room = change.residual * self.left.cost[k] - self.wanted[k] / self.at.f[k];
+        }
+        let mut side: Vec<f64> = self
+            .left
+            .balance
+            .iter()
+            .map(|v| change.residual * v)
+            .collect();
+        let weighted: Vec<f64> = self
+            .weight
+            .iter()
+            .zip(&self.room)
+            .map(|(w, r)| w * r)
+            .collect();
+        posed.elements.add(&weighted, &mut side);
+        side
+    }
+
+    /// Amounts, slacks, τ and κ that belong to the velocities of `corrected`.
+    fn complete(&mut self, posed: &Posed, residual: &Residual, change: Change, pivot: f64) {
+        let (at, tau_part, to) = (&self.at, &self.along_tau, &mut self.corrected);
+        posed.elements.along(&to.y, &mut to.f);
+        for (f, (weight, room)) in to.f.iter_mut().zip(self.weight.iter().zip(&self.room)) {
+            *f = weight * (*f - room);
+        }
+        let gap = change.residual * residual.gap - product(posed.loads, &to.y)
+            + product(posed.cost, &to.f)
+            + change.pair / at.tau;
+        to.tau = gap / pivot;
+        for (y, part) in to.y.iter_mut().zip(&tau_part.y) {
+            *y += part * to.tau;
+        }
+        for (k, f) in to.f.iter_mut().enumerate() {
+            *f += tau_part.f[k] * to.tau;
+            to.z[k] = (self.wanted[k] - at.z[k] * *f) / at.f[k];
+        }
+        to.kappa = (change.pair - at.kappa * to.tau) / at.tau;
+    }
+}
+
+fn product(a: &[f64], b: &[f64]) -> f64 {
+    super::product::dot(a, b)
+}
+
+fn largest(list: &[f64]) -> f64 {
+    list.iter().fold(0.0, |m: f64, v| m.max(v.abs()))
+}

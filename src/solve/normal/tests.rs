@@ -1,0 +1,328 @@
+//! The normal equations against products, conditions of an optimum, and clarabel.
+
+use super::*;
+use crate::solve::{Conditioning, TOLERANCE};
+
+/// Numbers between −1 and 1 that are the same in every run.
+struct Numbers(u64);
+
+impl Numbers {
+    fn next(&mut self) -> f64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+}
+
+/// Columns between neighbours on a lattice of blocks, and to the ground below the first row: five of each pair.
+fn lattice(wide: usize, high: usize, numbers: &mut Numbers) -> (usize, Vec<Vec<(usize, f64)>>) {
+    let mut columns = Vec::new();
+    let mut pair = |blocks: &[usize]| {
+        for _ in 0..5 {
+            let unknowns = blocks.iter().flat_map(|b| [3 * b, 3 * b + 1, 3 * b + 2]);
+            columns.push(unknowns.map(|i| (i, numbers.next())).collect());
+        }
+    };
+    for y in 0..high {
+        for x in 0..wide {
+            let at = y * wide + x;
+            match y {
+                0 => pair(&[at]),
+                _ => pair(&[at - wide, at]),
+            }
+            if x > 0 {
+                pair(&[at - 1, at]);
+            }
+        }
+    }
+    (3 * wide * high, columns)
+}
+
+fn elements(unknowns: usize, columns: &[Vec<(usize, f64)>]) -> Elements {
+    let entries = columns.iter().enumerate();
+    let entries = entries.flat_map(|(k, column)| column.iter().map(move |(i, v)| (k, *i, *v)));
+    Elements::of(unknowns, columns.len(), entries)
+}
+
+/// max loadsᵀy  s.t.  columnᵀy ≤ cost.
+fn kinematic(loads: &[f64], columns: &[Vec<(usize, f64)>], cost: &[f64]) -> Conic {
+    let entries = columns.iter().enumerate();
+    Conic {
+        unknowns: loads.len(),
+        quadratic: Vec::new(),
+        linear: loads.iter().map(|v| -v).collect(),
+        matrix: entries
+            .flat_map(|(k, column)| column.iter().map(move |(i, v)| (k, *i, *v)))
+            .collect(),
+        bound: cost.to_vec(),
+        equalities: 0,
+    }
+}
+
+/// min costᵀamount  s.t.  Σ amount·column = loads, amount ≥ 0.
+fn forces(loads: &[f64], columns: &[Vec<(usize, f64)>], cost: &[f64]) -> Conic {
+    let entries = columns.iter().enumerate();
+    let balance = entries.flat_map(|(k, column)| column.iter().map(move |(i, v)| (*i, k, *v)));
+    let signs = (0..columns.len()).map(|k| (loads.len() + k, k, -1.0));
+    Conic {
+        unknowns: columns.len(),
+        quadratic: Vec::new(),
+        linear: cost.to_vec(),
+        matrix: balance.chain(signs).collect(),
+        bound: [loads, &vec![0.0; columns.len()]].concat(),
+        equalities: loads.len(),
+    }
+}
+
+fn limits() -> Limits {
+    Limits {
+        tolerance: TOLERANCE,
+        finer: TOLERANCE,
+        iterations: 100,
+        deadline: None,
+    }
+}
+
+fn solved(problem: &Conic) -> Answer {
+    solve_where(problem, limits(), 0.0).expect("of this kind")
+}
+
+fn product(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// Ax.
+fn rows(problem: &Conic, x: &[f64]) -> Vec<f64> {
+    let mut rows = vec![0.0; problem.bound.len()];
+    for (row, column, value) in &problem.matrix {
+        rows[*row] += value * x[*column];
+    }
+    rows
+}
+
+/// Aᵀz.
+fn columns(problem: &Conic, z: &[f64]) -> Vec<f64> {
+    let mut sums = vec![0.0; problem.unknowns];
+    for (row, column, value) in &problem.matrix {
+        sums[*column] += value * z[*row];
+    }
+    sums
+}
+
+#[test]
+fn a_factor_solves_what_it_factored_for_one_right_hand_side_and_for_two() {
+    let mut numbers = Numbers(7);
+    for (wide, high) in [(1, 1), (1, 30), (30, 1), (9, 12), (23, 5)] {
+        let (unknowns, columns) = lattice(wide, high, &mut numbers);
+        let mut posed = elements(unknowns, &columns);
+        let plain = posed.clone();
+        let mut factor = Cholesky::of(&mut posed).expect("an order");
+        let weights: Vec<f64> = columns.iter().map(|_| 1.5 + numbers.next()).collect();
+        let mut doubled = weights.clone();
+        doubled.iter_mut().for_each(|w| *w *= 2.0);
+        // A second factoring leaves nothing of the first.
+        factor.factor(&posed, &doubled, 0.0);
+        factor.factor(&posed, &weights, 0.0);
+        let wanted: [Vec<f64>; 2] =
+            std::array::from_fn(|_| (0..unknowns).map(|_| numbers.next()).collect());
+        let ordered = [0, 1].map(|n| factor.in_order(&wanted[n]));
+        let mut both: Vec<[f64; 2]> = (0..unknowns)
+            .map(|k| [ordered[0][k], ordered[1][k]])
+            .collect();
+        let mut one: Vec<[f64; 1]> = ordered[0].iter().map(|v| [*v]).collect();
+        factor.solve(&mut both);
+        factor.solve(&mut one);
+        let found = [
+            both.iter().map(|v| v[0]).collect(),
+            both.iter().map(|v| v[1]).collect(),
+            one.iter().map(|v| v[0]).collect::<Vec<f64>>(),
+        ];
+        for (found, wanted) in found.iter().zip([&wanted[0], &wanted[1], &wanted[0]]) {
+            let x = factor.from_order(found);
+            let mut along = vec![0.0; columns.len()];
+            plain.along(&x, &mut along);
+            along.iter_mut().zip(&weights).for_each(|(a, w)| *a *= w);
+            let mut given = vec![0.0; unknowns];
+            plain.add(&along, &mut given);
+            for (given, wanted) in given.iter().zip(wanted) {
+                assert!(
+                    (given - wanted).abs() < 1e-7,
+                    "{wide} × {high}: {given} for {wanted}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn what_nothing_holds_does_not_move() {
+    // Block 1 of three has no column.
+    let columns = vec![
+        vec![(0, 2.0)],
+        vec![(1, 1.0)],
+        vec![(2, 1.0)],
+        vec![(6, 1.0), (0, 1.0)],
+    ];
+    let mut posed = elements(9, &columns);
+    let mut factor = Cholesky::of(&mut posed).expect("an order");
+    factor.factor(&posed, &[1.0; 4], 0.0);
+    let mut x: Vec<[f64; 1]> = factor.in_order(&[1.0; 9]).iter().map(|v| [*v]).collect();
+    factor.solve(&mut x);
+    let x = factor.from_order(&x.iter().map(|v| v[0]).collect::<Vec<_>>());
+    // (4 + 1)·x₀ + x₆ = 1 and x₀ + x₆ = 1.
+    for (k, wanted) in [(0, 0.0), (1, 1.0), (2, 1.0), (6, 1.0)] {
+        assert!((x[k] - wanted).abs() < 1e-14, "{x:?}");
+    }
+    assert!([3, 4, 5, 7, 8].iter().all(|k| x[*k] == 0.0), "{x:?}");
+}
+
+#[test]
+fn an_optimum_meets_its_conditions_in_both_forms_and_costs_what_clarabel_finds() {
+    let mut numbers = Numbers(11);
+    for (wide, high) in [(6, 4), (13, 9)] {
+        let (unknowns, list) = lattice(wide, high, &mut numbers);
+        // Amounts that balance and velocities within every cost: so there is an optimum.
+        let mut loads = vec![0.0; unknowns];
+        let y: Vec<f64> = (0..unknowns).map(|_| numbers.next()).collect();
+        let mut cost = Vec::new();
+        for column in &list {
+            let amount = numbers.next().max(0.0);
+            column.iter().for_each(|(i, v)| loads[*i] += amount * v);
+            let along: f64 = column.iter().map(|(i, v)| v * y[*i]).sum();
+            cost.push(along + numbers.next().max(0.0));
+        }
+        let problem = kinematic(&loads, &list, &cost);
+        let answer = solved(&problem);
+        assert_eq!(answer.status, Status::Solved);
+        let left = columns(&problem, &answer.z);
+        for (k, sum) in left.iter().enumerate() {
+            assert!(
+                (sum + problem.linear[k]).abs() < 1e-6,
+                "balance of {k}: {sum}"
+            );
+        }
+        for (k, row) in rows(&problem, &answer.x).iter().enumerate() {
+            assert!((row + answer.s[k] - cost[k]).abs() < 1e-6, "row {k}");
+            assert!(answer.s[k] >= 0.0 && answer.z[k] >= 0.0);
+            assert!(answer.s[k] * answer.z[k] < 1e-5, "one of the two of {k}");
+        }
+        let other = crate::solve::solve(&problem, TOLERANCE, Conditioning::Full);
+        let (ours, theirs) = (
+            product(&problem.linear, &answer.x),
+            product(&problem.linear, &other.x),
+        );
+        assert!(
+            (ours - theirs).abs() < 1e-6 * theirs.abs().max(1.0),
+            "{ours} and {theirs}"
+        );
+
+        let problem = forces(&loads, &list, &cost);
+        let answer = solved(&problem);
+        assert_eq!(answer.status, Status::Solved);
+        let sum = product(&problem.linear, &answer.x);
+        assert!(
+            (sum + ours).abs() < 1e-6 * ours.abs().max(1.0),
+            "{sum} and {ours}"
+        );
+        for (k, row) in rows(&problem, &answer.x).iter().enumerate() {
+            assert!(
+                (row + answer.s[k] - problem.bound[k]).abs() < 1e-6,
+                "row {k}"
+            );
+        }
+        for (k, sum) in columns(&problem, &answer.z).iter().enumerate() {
+            assert!((sum + problem.linear[k]).abs() < 1e-6, "column {k}: {sum}");
+        }
+    }
+}
+
+#[test]
+fn where_there_is_no_optimum_a_direction_shows_it() {
+    let mut numbers = Numbers(5);
+    let (unknowns, list) = lattice(7, 5, &mut numbers);
+    let cost: Vec<f64> = list.iter().map(|_| 1.0).collect();
+    // No column pulls at unknown 4, and the load wants it.
+    let pressing: Vec<Vec<(usize, f64)>> = list
+        .iter()
+        .map(|column| {
+            let pressed = |(i, v): &(usize, f64)| (*i, if *i == 4 { v.abs() } else { *v });
+            column.iter().map(pressed).collect()
+        })
+        .collect();
+    let mut loads = vec![0.0; unknowns];
+    loads[4] = -1.0;
+    let problem = kinematic(&loads, &pressing, &cost);
+    let answer = solved(&problem);
+    assert_eq!(answer.status, Status::Unbounded);
+    let power = -product(&problem.linear, &answer.x);
+    assert!((power - 1.0).abs() < 1e-9, "{power}");
+    assert!(rows(&problem, &answer.x).iter().all(|row| *row < 1e-6));
+    let problem = forces(&loads, &pressing, &cost);
+    let answer = solved(&problem);
+    assert_eq!(answer.status, Status::Infeasible);
+    // The multipliers of the balance, with the other sign.
+    assert!((product(&loads, &answer.z[..unknowns]) + 1.0).abs() < 1e-9);
+
+    // Two columns that undo each other and cost less than nothing.
+    let mut both = list.clone();
+    both.push(list[40].iter().map(|(i, v)| (*i, -v)).collect());
+    let mut cheap = cost.clone();
+    cheap.push(-2.0);
+    let answer = solved(&kinematic(&loads, &both, &cheap));
+    assert_eq!(answer.status, Status::Infeasible);
+    let sums = columns(&kinematic(&loads, &both, &cheap), &answer.z);
+    assert!(sums.iter().all(|v| v.abs() < 1e-6));
+    assert!(product(&cheap, &answer.z) < 0.0);
+    assert_eq!(
+        solved(&forces(&loads, &both, &cheap)).status,
+        Status::Unbounded
+    );
+}
+
+#[test]
+fn it_gives_up_after_its_iterations_and_at_its_deadline() {
+    let mut numbers = Numbers(3);
+    let (unknowns, list) = lattice(6, 6, &mut numbers);
+    let loads: Vec<f64> = (0..unknowns).map(|_| numbers.next()).collect();
+    let problem = kinematic(&loads, &list, &vec![1.0; list.len()]);
+    let few = Limits {
+        iterations: 2,
+        ..limits()
+    };
+    let answer = solve_where(&problem, few, 0.0).expect("of this kind");
+    assert_eq!((answer.status, answer.iterations), (Status::Unsolved, 2));
+    let late = Limits {
+        deadline: Some(Instant::now()),
+        ..limits()
+    };
+    let answer = solve_where(&problem, late, 0.0).expect("of this kind");
+    assert_eq!((answer.status, answer.iterations), (Status::Unsolved, 0));
+}
+
+#[test]
+fn other_kinds_of_programs_are_left_to_clarabel() {
+    let mut numbers = Numbers(13);
+    let (unknowns, list) = lattice(5, 5, &mut numbers);
+    let (loads, cost) = (vec![1.0; unknowns], vec![1.0; list.len()]);
+    let plain = kinematic(&loads, &list, &cost);
+    let taken = |problem: &Conic| solve_where(problem, limits(), 0.0).is_some();
+    assert!(taken(&plain) && taken(&forces(&loads, &list, &cost)));
+    assert!(solve(&plain, limits()).is_none(), "too small");
+    assert!(solve_where(&plain, limits(), 1e9).is_none(), "too easy");
+    let mut squared = plain.clone();
+    squared.quadratic.push((0, 0, 1.0));
+    let mut equal = plain.clone();
+    equal.equalities = 1;
+    let mut dense = plain.clone();
+    let row = dense.bound.len();
+    dense.bound.push(1.0);
+    dense.matrix.extend((0..unknowns).map(|i| (row, i, 1.0)));
+    let mut limited = forces(&loads, &list, &cost);
+    limited.matrix.push((limited.bound.len(), 0, 1.0));
+    limited.bound.push(2.0);
+    for problem in [squared, equal, dense, limited] {
+        assert!(!taken(&problem));
+    }
+}
