@@ -6,8 +6,9 @@
 //! Σ f·column = loads·τ,   columnᵀy + z = cost·τ,   loadsᵀy − costᵀf = κ.
 //! ```
 //!
-//! At the end either τ > 0, and f/τ, y/τ are optima, or κ > 0, and y or f shows that there is none. Literature: Andersen and
-//! Andersen 2000; Gondzio 1996.
+//! At the end either τ > 0, and f/τ, y/τ are optima, or κ > 0, and y or f shows that there is none. With squares,
+//! max loadsᵀy − ½|y|², there always is one: τ stays 1, and the first equation has y on its left as well. Literature:
+//! Andersen and Andersen 2000; Gondzio 1996.
 
 use std::time::Instant;
 
@@ -21,6 +22,8 @@ pub(super) struct Posed<'a> {
     pub cost: &'a [f64],
     /// In the order of elimination, as all velocities here.
     pub loads: &'a [f64],
+    /// The factor of ½|y|²: 0 or 1.
+    pub squares: f64,
 }
 
 /// How it ended.
@@ -120,7 +123,11 @@ impl Point {
     /// Where amounts and slacks of least squares stand, moved until all are positive.
     fn first(posed: &Posed, factor: &mut Cholesky) -> Point {
         let columns = posed.cost.len();
-        factor.factor(posed.elements, &vec![1.0; columns], LEAST_PIVOT);
+        factor.factor(
+            posed.elements,
+            &vec![1.0; columns],
+            LEAST_PIVOT + posed.squares,
+        );
         let mut dear = vec![0.0; posed.loads.len()];
         posed.elements.add(posed.cost, &mut dear);
         let mut both: Vec<[f64; 2]> = posed
@@ -132,7 +139,7 @@ impl Point {
         factor.solve(&mut both);
         let mut at = Point {
             tau: 1.0,
-            kappa: 1.0,
+            kappa: 1.0 - posed.squares,
             ..Point::zero(columns, posed.loads.len())
         };
         let list: Vec<f64> = both.iter().map(|v| v[0]).collect();
@@ -204,7 +211,7 @@ impl Point {
 
 /// What the equations leave.
 struct Left {
-    /// loads·τ − Σ f·column.
+    /// loads·τ − Σ f·column, less y with squares.
     balance: Vec<f64>,
     /// cost·τ − columnᵀy − z.
     cost: Vec<f64>,
@@ -232,8 +239,8 @@ impl Residual {
         left.balance.fill(0.0);
         posed.elements.add(&at.f, &mut left.balance);
         let balanced = largest(&left.balance);
-        for (rest, load) in left.balance.iter_mut().zip(posed.loads) {
-            *rest = load * at.tau - *rest;
+        for (rest, (load, y)) in left.balance.iter_mut().zip(posed.loads.iter().zip(&at.y)) {
+            *rest = load * at.tau - *rest - posed.squares * y;
         }
         posed.elements.along(&at.y, &mut left.cost);
         let mut priced = 0.0f64;
@@ -242,7 +249,9 @@ impl Residual {
             priced = priced.max(sum.abs());
             *rest = cost * at.tau - sum;
         }
-        let (primal, dual) = (product(posed.cost, &at.f), product(posed.loads, &at.y));
+        let half = 0.5 * posed.squares * product(&at.y, &at.y);
+        let primal = product(posed.cost, &at.f) + half;
+        let dual = product(posed.loads, &at.y) - half;
         Residual {
             gap: at.kappa + primal - dual,
             mean: (product(&at.f, &at.z) + at.tau * at.kappa) / (at.f.len() + 1) as f64,
@@ -330,7 +339,7 @@ impl Run {
         for (weight, (f, z)) in self.weight.iter_mut().zip(self.at.f.iter().zip(&self.at.z)) {
             *weight = f / z;
         }
-        factor.factor(posed.elements, &self.weight, LEAST_PIVOT);
+        factor.factor(posed.elements, &self.weight, LEAST_PIVOT + posed.squares);
         // The predictor goes for the optimum itself.
         for (wanted, (f, z)) in self.wanted.iter_mut().zip(self.at.f.iter().zip(&self.at.z)) {
             *wanted = -f * z;
@@ -342,9 +351,10 @@ impl Run {
         let pivot = self.predict(posed, factor, residual, change);
         let short = 1.0 - self.at.longest(&self.direction).min(1.0);
         let target = short * short * short * residual.mean;
+        let pair = target + change.pair - self.direction.tau * self.direction.kappa;
         change = Change {
             residual: 1.0 - short * short * short,
-            pair: target + change.pair - self.direction.tau * self.direction.kappa,
+            pair: (1.0 - posed.squares) * pair,
         };
         let along = self.direction.f.iter().zip(&self.direction.z);
         for (wanted, (f, z)) in self.wanted.iter_mut().zip(along) {
@@ -358,7 +368,7 @@ impl Run {
                 break;
             }
             let further = f64::min(longest + FURTHER, 1.0);
-            let pair = self.centre(further, target);
+            let pair = (1.0 - posed.squares) * self.centre(further, target);
             std::mem::swap(&mut self.wanted, &mut self.wanted_next);
             let next = Change {
                 pair: change.pair + pair,
@@ -479,7 +489,7 @@ impl Run {
         let gap = change.residual * residual.gap - product(posed.loads, &to.y)
             + product(posed.cost, &to.f)
             + change.pair / at.tau;
-        to.tau = gap / pivot;
+        to.tau = (1.0 - posed.squares) * gap / pivot;
         for (y, part) in to.y.iter_mut().zip(&tau_part.y) {
             *y += part * to.tau;
         }

@@ -11,6 +11,9 @@
 //! less than half the time of the one with a row per force; and steps that are centred again after they are found end
 //! near the edge of standing where others run out of iterations.
 //!
+//! With squares of the velocities the matrix has 1 on its diagonal beside; and the smallest amounts that undo what is left
+//! unbalanced take one factor.
+//!
 //! It needs no trust: what it says goes to the proof like the answer of clarabel, which is asked where this ends without a
 //! status. How much faster it is, and of what, is measured in [`crate::doc::performance`].
 
@@ -40,6 +43,9 @@ const LEAST_WORK: f64 = 1e3;
 
 /// A column that touches more unknowns than so many would couple them all.
 const MOST_ENTRIES: usize = 12;
+
+/// Times that the smallest amounts are sought for what is left: each gains what the factor has of digits.
+const ROUNDS: usize = 3;
 
 /// What a program is to be solved to.
 #[derive(Clone, Copy, Debug)]
@@ -75,14 +81,63 @@ fn solve_where(problem: &Conic, limits: Limits, least_work: f64) -> Option<Answe
     if factor.operations() < least_work * elements.unknowns() as f64 {
         return None;
     }
+    let loads = factor.in_order(&loads);
+    if form == Form::Smallest {
+        let y = smallest(&elements, &mut factor, &loads, limits.tolerance)?;
+        return Some(smallest_answer(&elements, &factor, y));
+    }
     let posed = Posed {
         elements: &elements,
         cost: &cost,
-        loads: &factor.in_order(&loads),
+        loads: &loads,
+        squares: f64::from(u8::from(form == Form::Shortest)),
     };
     let found = interior::solve(posed, &mut factor, limits);
+    if form == Form::Shortest && found.ended.is_none() {
+        return None;
+    }
     let velocities = factor.from_order(&found.velocities);
     Some(form.answer(problem, found, velocities))
+}
+
+/// The multipliers y of the smallest amounts that give the loads: Σ column·columnᵀ·y = loads; `None` where rounding leaves
+/// more than the tolerance.
+fn smallest(
+    elements: &Elements,
+    factor: &mut Cholesky,
+    loads: &[f64],
+    tolerance: f64,
+) -> Option<Vec<f64>> {
+    let mut amounts = vec![1.0; elements.count()];
+    factor.factor(elements, &amounts, 0.0);
+    let mut y = vec![0.0; loads.len()];
+    let mut left = loads.to_vec();
+    for _ in 0..ROUNDS {
+        let mut change: Vec<[f64; 1]> = left.iter().map(|v| [*v]).collect();
+        factor.solve(&mut change);
+        y.iter_mut().zip(&change).for_each(|(y, d)| *y += d[0]);
+        elements.along(&y, &mut amounts);
+        left.fill(0.0);
+        elements.add(&amounts, &mut left);
+        let loads = loads.iter();
+        left.iter_mut()
+            .zip(loads)
+            .for_each(|(v, load)| *v = load - *v);
+    }
+    let worst = left.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    (worst <= tolerance).then_some(y)
+}
+
+fn smallest_answer(elements: &Elements, factor: &Cholesky, y: Vec<f64>) -> Answer {
+    let mut amounts = vec![0.0; elements.count()];
+    elements.along(&y, &mut amounts);
+    Answer {
+        status: Status::Solved,
+        x: amounts,
+        z: factor.from_order(&y).iter().map(|v| -v).collect(),
+        s: vec![0.0; y.len()],
+        iterations: 1,
+    }
 }
 
 /// Which of the pair is written down.
@@ -92,10 +147,24 @@ enum Form {
     Kinematic,
     /// Amounts are the unknowns: one row = for each velocity, and amount ≥ 0 for each.
     Forces,
+    /// The kinematic one, and ½|velocities|².
+    Shortest,
+    /// The least ½|amounts|² of any sign: one row = for each velocity.
+    Smallest,
 }
 
 impl Form {
     fn of(problem: &Conic) -> Option<Form> {
+        let squares = problem.quadratic.iter().enumerate();
+        let all_squared = problem.quadratic.len() == problem.unknowns
+            && squares.clone().all(|(k, entry)| *entry == (k, k, 1.0));
+        if all_squared && problem.equalities == 0 {
+            return Some(Form::Shortest);
+        }
+        if all_squared && problem.equalities == problem.bound.len() {
+            let plain = problem.linear.iter().all(|q| *q == 0.0);
+            return plain.then_some(Form::Smallest);
+        }
         if !problem.quadratic.is_empty() {
             return None;
         }
@@ -119,7 +188,7 @@ impl Form {
     /// The columns, their costs and the loads.
     fn posed(self, problem: &Conic) -> (Elements, Vec<f64>, Vec<f64>) {
         match self {
-            Form::Kinematic => (
+            Form::Kinematic | Form::Shortest => (
                 Elements::of(
                     problem.unknowns,
                     problem.bound.len(),
@@ -128,7 +197,7 @@ impl Form {
                 problem.bound.clone(),
                 problem.linear.iter().map(|v| -v).collect(),
             ),
-            Form::Forces => (
+            Form::Forces | Form::Smallest => (
                 Elements::of(
                     problem.equalities,
                     problem.unknowns,
@@ -149,14 +218,14 @@ impl Form {
         let status = match (found.ended, self) {
             (None, _) => Status::Unsolved,
             (Some(Ended::Optimal), _) => Status::Solved,
-            (Some(Ended::NothingBalances), Form::Kinematic)
-            | (Some(Ended::CostWithoutEnd), Form::Forces) => Status::Unbounded,
-            (Some(Ended::CostWithoutEnd), Form::Kinematic)
-            | (Some(Ended::NothingBalances), Form::Forces) => Status::Infeasible,
+            (Some(Ended::NothingBalances), Form::Kinematic | Form::Shortest)
+            | (Some(Ended::CostWithoutEnd), Form::Forces | Form::Smallest) => Status::Unbounded,
+            (Some(Ended::CostWithoutEnd), Form::Kinematic | Form::Shortest)
+            | (Some(Ended::NothingBalances), Form::Forces | Form::Smallest) => Status::Infeasible,
         };
         let (x, z, s) = match self {
-            Form::Kinematic => (velocities, found.amounts, found.slack),
-            Form::Forces => {
+            Form::Kinematic | Form::Shortest => (velocities, found.amounts, found.slack),
+            Form::Forces | Form::Smallest => {
                 let signs = velocities.iter().map(|v| -v).chain(found.slack);
                 let nothing = std::iter::repeat_n(0.0, problem.equalities);
                 let s = nothing.chain(found.amounts.iter().copied()).collect();

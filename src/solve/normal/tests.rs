@@ -313,6 +313,8 @@ fn other_kinds_of_programs_are_left_to_clarabel() {
     assert!(solve_where(&plain, limits(), 1e9).is_none(), "too easy");
     let mut squared = plain.clone();
     squared.quadratic.push((0, 0, 1.0));
+    let mut heavy = plain.clone();
+    heavy.quadratic = (0..unknowns).map(|k| (k, k, 2.0)).collect();
     let mut equal = plain.clone();
     equal.equalities = 1;
     let mut dense = plain.clone();
@@ -322,7 +324,46 @@ fn other_kinds_of_programs_are_left_to_clarabel() {
     let mut limited = forces(&loads, &list, &cost);
     limited.matrix.push((limited.bound.len(), 0, 1.0));
     limited.bound.push(2.0);
-    for problem in [squared, equal, dense, limited] {
+    for problem in [squared, heavy, equal, dense, limited] {
         assert!(!taken(&problem));
+    }
+}
+
+#[test]
+fn the_shortest_velocities_and_the_smallest_amounts_are_those_of_clarabel() {
+    let mut numbers = Numbers(17);
+    let (unknowns, list) = lattice(8, 6, &mut numbers);
+    // Some rows hold at y = 0, others push away from it.
+    let y: Vec<f64> = (0..unknowns).map(|_| numbers.next()).collect();
+    let bound = list.iter().map(|column| {
+        let along: f64 = column.iter().map(|(i, v)| v * y[*i]).sum();
+        0.2 * along + 0.5 * numbers.next().abs()
+    });
+    let mut shortest = kinematic(&vec![0.0; unknowns], &list, &bound.collect::<Vec<_>>());
+    shortest.quadratic = (0..unknowns).map(|k| (k, k, 1.0)).collect();
+    assert!(shortest.bound.iter().any(|b| *b < 0.0));
+    let loads: Vec<f64> = (0..unknowns).map(|_| numbers.next()).collect();
+    let mut smallest = forces(&loads, &list, &vec![0.0; list.len()]);
+    smallest.quadratic = (0..list.len()).map(|k| (k, k, 1.0)).collect();
+    smallest.matrix.retain(|entry| entry.0 < unknowns);
+    smallest.bound.truncate(unknowns);
+    for problem in [shortest, smallest] {
+        let ours = solved(&problem);
+        let theirs = crate::solve::solve(&problem, TOLERANCE, Conditioning::Full);
+        assert_eq!(
+            (ours.status, theirs.status),
+            (Status::Solved, Status::Solved)
+        );
+        for (a, b) in ours
+            .x
+            .iter()
+            .zip(&theirs.x)
+            .chain(ours.z.iter().zip(&theirs.z))
+        {
+            assert!((a - b).abs() < 1e-4, "{a} and {b}");
+        }
+        let half = |x: &[f64]| 0.5 * product(x, x);
+        let off = half(&ours.x) - half(&theirs.x);
+        assert!(off.abs() < 1e-7, "{off}");
     }
 }
