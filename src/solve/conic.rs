@@ -156,6 +156,7 @@ pub fn solve_within(problem: &Conic, settings: SolverSettings, iterations: usize
     let SolverSettings {
         tolerance,
         conditioning,
+        finer,
         ..
     } = settings;
     let finite = |list: &[f64]| list.iter().all(|v| v.is_finite());
@@ -168,18 +169,28 @@ pub fn solve_within(problem: &Conic, settings: SolverSettings, iterations: usize
         finite(&problem.linear) && finite(&problem.bound) && entries,
         "a program is made of finite numbers"
     );
-    let deadline = DEADLINE.get();
     if conditioning == Conditioning::Plain {
         let limits = Limits {
             tolerance,
-            finer: settings.finer * tolerance,
+            finer: finer * tolerance,
             iterations,
-            deadline,
+            deadline: DEADLINE.get(),
         };
         if let Some(answer) = normal::solve(problem, limits) {
             return answer;
         }
     }
+    by_clarabel(problem, settings, iterations)
+}
+
+/// Solves a conic problem of finite numbers by clarabel, whatever its size.
+pub fn by_clarabel(problem: &Conic, settings: SolverSettings, iterations: usize) -> Answer {
+    let SolverSettings {
+        tolerance,
+        conditioning,
+        ..
+    } = settings;
+    let finite = |list: &[f64]| list.iter().all(|v| v.is_finite());
     let rows = problem.bound.len();
     let quadratic = compressed(problem.unknowns, problem.unknowns, &problem.quadratic);
     let matrix = compressed(rows, problem.unknowns, &problem.matrix);
@@ -190,7 +201,9 @@ pub fn solve_within(problem: &Conic, settings: SolverSettings, iterations: usize
     if rows > problem.equalities {
         cones.push(SupportedConeT::NonnegativeConeT(rows - problem.equalities));
     }
-    let left = deadline.map(|end| end.saturating_duration_since(Instant::now()));
+    let left = DEADLINE
+        .get()
+        .map(|end| end.saturating_duration_since(Instant::now()));
     if left.is_some_and(|left| left.is_zero()) {
         return Answer::none(problem);
     }

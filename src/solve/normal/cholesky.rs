@@ -89,7 +89,7 @@ impl Cholesky {
     }
 
     /// A list in the order of elimination as it was given.
-    pub fn from_order(&self, list: &[f64]) -> Vec<f64> {
+    pub fn as_given(&self, list: &[f64]) -> Vec<f64> {
         let positions = self.panels.position.iter();
         positions.map(|position| list[*position as usize]).collect()
     }

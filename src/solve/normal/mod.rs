@@ -21,6 +21,7 @@ mod cholesky;
 mod elements;
 mod interior;
 mod panels;
+mod point;
 mod product;
 #[cfg(test)]
 mod tests;
@@ -96,7 +97,7 @@ fn solve_where(problem: &Conic, limits: Limits, least_work: f64) -> Option<Answe
     if form == Form::Shortest && found.ended.is_none() {
         return None;
     }
-    let velocities = factor.from_order(&found.velocities);
+    let velocities = factor.as_given(&found.velocities);
     Some(form.answer(problem, found, velocities))
 }
 
@@ -134,7 +135,7 @@ fn smallest_answer(elements: &Elements, factor: &Cholesky, y: Vec<f64>) -> Answe
     Answer {
         status: Status::Solved,
         x: amounts,
-        z: factor.from_order(&y).iter().map(|v| -v).collect(),
+        z: factor.as_given(&y).iter().map(|v| -v).collect(),
         s: vec![0.0; y.len()],
         iterations: 1,
     }

@@ -253,9 +253,9 @@ impl Group {
         let all = 0.5 * (width * width) as f64 + (width * above.rows) as f64;
         let share = zeros / all;
         let few = match width {
-            ..=6 => true,
-            ..=16 => share < 0.5,
-            ..=48 => share < 0.15,
+            0..=6 => true,
+            7..=16 => share < 0.5,
+            17..=48 => share < 0.15,
             _ => share < 0.05,
         };
         few.then_some(Group {

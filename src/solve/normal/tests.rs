@@ -140,7 +140,7 @@ fn a_factor_solves_what_it_factored_for_one_right_hand_side_and_for_two() {
             one.iter().map(|v| v[0]).collect::<Vec<f64>>(),
         ];
         for (found, wanted) in found.iter().zip([&wanted[0], &wanted[1], &wanted[0]]) {
-            let x = factor.from_order(found);
+            let x = factor.as_given(found);
             let mut along = vec![0.0; columns.len()];
             plain.along(&x, &mut along);
             along.iter_mut().zip(&weights).for_each(|(a, w)| *a *= w);
@@ -170,7 +170,7 @@ fn what_nothing_holds_does_not_move() {
     factor.factor(&posed, &[1.0; 4], 0.0);
     let mut x: Vec<[f64; 1]> = factor.in_order(&[1.0; 9]).iter().map(|v| [*v]).collect();
     factor.solve(&mut x);
-    let x = factor.from_order(&x.iter().map(|v| v[0]).collect::<Vec<_>>());
+    let x = factor.as_given(&x.iter().map(|v| v[0]).collect::<Vec<_>>());
     // (4 + 1)·x₀ + x₆ = 1 and x₀ + x₆ = 1.
     for (k, wanted) in [(0, 0.0), (1, 1.0), (2, 1.0), (6, 1.0)] {
         assert!((x[k] - wanted).abs() < 1e-14, "{x:?}");

@@ -1,0 +1,128 @@
+//! The normal equations beside clarabel, on the same programs of the same walls, upright, beside their edge and falling.
+//!
+//! `cargo bench --bench solvers` prints the rows of `src/doc/performance.md`: iterations and milliseconds of each, and the
+//! ratio. `BLOCKS=10000` takes in the wall of that size.
+
+#![allow(
+    clippy::print_stdout,
+    clippy::unwrap_used,
+    reason = "the table is the result; what cannot be read is a mistake here"
+)]
+
+mod turn;
+
+use std::hint::black_box;
+
+use drystone::internals::effect::{Situation, assemble};
+use drystone::internals::interface::Interfaces;
+use drystone::internals::program::{
+    Column, Conic, Program, Scale, columns, kinematic, least_left, sticking_columns,
+};
+use drystone::internals::solve::{
+    Conditioning, ITERATIONS, SolverSettings, Status, by_clarabel, solve_within,
+};
+use serde_json::{Value, json};
+
+use turn::Turns;
+use turn::structure::{scene, wall};
+
+const TURNS: Turns = Turns {
+    least: 1,
+    most: 5,
+    seconds: 5.0,
+};
+
+fn main() {
+    let most: usize = std::env::var("BLOCKS").map_or(2_100, |text| text.parse().unwrap());
+    println!(
+        "| bricks | turned by | program | unknowns | says | iterations | ms | clarabel says | iterations | ms | ratio |"
+    );
+    println!("|---|---|---|---|---|---|---|---|---|---|---|");
+    for (across, courses) in [(30, 30), (45, 45), (99, 100)] {
+        let file = wall(across, courses);
+        let blocks = file["blocks"].as_array().unwrap().len();
+        if blocks > most {
+            continue;
+        }
+        for angle in [0.0, 26.0, 40.0] {
+            for (name, problem) in problems(&program(&file, angle)) {
+                told(blocks, angle, name, &problem);
+            }
+        }
+    }
+}
+
+fn told(blocks: usize, angle: f64, name: &str, problem: &Conic) {
+    let settings = SolverSettings::from(Conditioning::Plain);
+    let [ours, theirs] =
+        [solve_within, by_clarabel].map(|solver| solver(problem, settings, ITERATIONS));
+    let times = TURNS.medians::<&dyn Fn()>(&[
+        &|| {
+            drop(black_box(solve_within(
+                black_box(problem),
+                settings,
+                ITERATIONS,
+            )))
+        },
+        &|| {
+            drop(black_box(by_clarabel(
+                black_box(problem),
+                settings,
+                ITERATIONS,
+            )))
+        },
+    ]);
+    println!(
+        "| {blocks} | {angle}° | {name} | {} | {} | {} | {:.0} | {} | {} | {:.0} | {:.1} |",
+        problem.unknowns,
+        word(ours.status),
+        ours.iterations,
+        times[0],
+        word(theirs.status),
+        theirs.iterations,
+        times[1],
+        times[1] / times[0],
+    );
+}
+
+fn word(status: Status) -> &'static str {
+    match status {
+        Status::Solved => "solved",
+        Status::Infeasible => "infeasible",
+        Status::Unbounded => "unbounded",
+        Status::Unsolved => "nothing",
+    }
+}
+
+/// The programs that a check poses, each with its name.
+fn problems(program: &Program) -> [(&'static str, Conic); 3] {
+    let all = columns(program);
+    let largest = program.loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    let loads: Vec<f64> = program.loads.iter().map(|v| v / largest).collect();
+    let with_sticking: Vec<Column> = [all.clone(), sticking_columns(program)].concat();
+    let sticks = |c: &Column| f64::from(u8::from(c.force.sticks()));
+    [
+        ("least force", kinematic(&program.loads, &all, |c| c.cost).0),
+        ("least residual", least_left(&loads, &all).0),
+        (
+            "least sticking",
+            kinematic(&loads, &with_sticking, sticks).0,
+        ),
+    ]
+}
+
+/// The program of a wall with gravity turned to the right.
+fn program(file: &Value, degrees: f64) -> Program {
+    let (sin, cos) = libm::sincos(degrees.to_radians());
+    let mut file = file.clone();
+    file["gravity"] = json!([9.81 * sin, -9.81 * cos]);
+    let scene = scene(&file);
+    let found = Interfaces::of(&scene);
+    let frame = &scene.frames()[0];
+    let (assembly, _) = assemble(&Situation {
+        scene: &scene,
+        frame,
+        interfaces: &found.in_frame(&scene, frame),
+    });
+    Program::of(&assembly, Scale::of_assembly(&assembly))
+}
