@@ -38,8 +38,8 @@ const SHORTEST: usize = 8;
 
 /// The table of one scene, for a terminal of so many columns.
 ///
-/// Where the rows would be wider, proofs stand below them, and titles are cut as far as it takes. What is said below the rows
-/// may be wider than the terminal: [`Page::fitted`] breaks it.
+/// Where the rows would be wider, proofs stand below them, and titles are cut as far as it takes; where that is not enough,
+/// every value has a line of its own. What is said below the rows may be wider than the terminal: [`Page::fitted`] breaks it.
 pub(crate) fn of(name: &str, analysis: &Analysis, timing: Timing, width: Option<usize>) -> Page {
     let scene = &analysis.scene;
     let mut page = Page::default();
@@ -66,7 +66,12 @@ pub(crate) fn of(name: &str, analysis: &Analysis, timing: Timing, width: Option<
     };
     let mut widths: [usize; 7] = std::array::from_fn(|column| widest(&rows, column));
     let mut columns = widths.len();
-    if let Some(width) = width.filter(|width| taken(&widths) > *width) {
+    let least: [usize; 7] = std::array::from_fn(|column| match column {
+        0 => widths[0].min(SHORTEST),
+        _ => widths[column],
+    });
+    let is_narrow = width.is_some_and(|width| taken(&least[..columns - 1]) > width);
+    if let Some(width) = width.filter(|width| !is_narrow && taken(&widths) > *width) {
         columns -= 1;
         let beyond = taken(&widths[..columns]).saturating_sub(width);
         let most = widths[0].saturating_sub(beyond).max(SHORTEST);
@@ -76,11 +81,17 @@ pub(crate) fn of(name: &str, analysis: &Analysis, timing: Timing, width: Option<
         widths[0] = widest(&rows, 0);
     }
     let dim = Style::new().dimmed();
-    line(&mut page, &heads, &widths[..columns], [dim; 7]);
+    if !is_narrow {
+        line(&mut page, &heads, &widths[..columns], [dim; 7]);
+    }
     for (frame, cells) in analysis.frames.iter().zip(&rows) {
         let mut styles = [Style::new(); 7];
         styles[1] = style(frame.verdict);
-        line(&mut page, cells, &widths[..columns], styles);
+        if is_narrow {
+            record(&mut page, &heads, cells, styles);
+        } else {
+            line(&mut page, cells, &widths[..columns], styles);
+        }
         if columns < cells.len() {
             page.line(&format!("      proof: {}", cells[columns]));
         }
@@ -127,6 +138,19 @@ fn line(page: &mut Page, cells: &[String; 7], widths: &[usize], styles: [Style; 
         }
     }
     page.end();
+}
+
+/// The same below each other: the frame, and every value behind its name.
+fn record(page: &mut Page, heads: &[String; 7], cells: &[String; 7], styles: [Style; 7]) {
+    page.line(&format!("  {}", cells[0]));
+    let widest = heads.iter().map(|head| seen(head)).max().unwrap_or(0);
+    for ((head, cell), style) in heads.iter().zip(cells).zip(styles).skip(1) {
+        page.words("      ");
+        page.styled(Style::new().dimmed(), head);
+        page.words(&" ".repeat(widest - seen(head) + 2));
+        page.styled(style, cell);
+        page.end();
+    }
 }
 
 /// Words in no more columns than this; what is cut off leaves a mark.
@@ -256,7 +280,7 @@ mod tests {
     use crate::scene::format::{BlockEntry, LimitsEntry, RobotEntry, StepEntry};
 
     fn assert_fits(name: &str, analysis: &Analysis) {
-        for width in [80, 100] {
+        for width in [40, 50, 60, 70, 79, 80, 100] {
             let page = of(name, analysis, Timing::Included, Some(width)).fitted(width);
             for line in page.text().lines() {
                 assert!(seen(line) <= width, "{width}: {line}");
