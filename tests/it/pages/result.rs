@@ -9,7 +9,7 @@ use super::words_of;
 use crate::structure::{block, on_floor, on_slope, rectangle, scene};
 
 fn result(file: &Value, options: &Options) -> Value {
-    let analysis = Analysis::with(&scene(file), options);
+    let analysis = Analysis::with(scene(file), options);
     let json = to_json(&analysis, Timing::LeftOut, Layout::OneLine);
     serde_json::from_str(&json).expect("JSON")
 }
