@@ -189,7 +189,7 @@ impl Check {
                     page.end();
                 }
                 if self.explain {
-                    page.ours(table::LIMITS);
+                    page.append(&table::explained(width));
                 }
             }
             terminal.print(&page)

@@ -9,7 +9,7 @@ use std::ops::Range;
 use ariadne::{Color, Config, Label, Report, ReportKind, Source};
 
 use crate::cli::ending::Ending;
-use crate::cli::page::{Page, seen};
+use crate::cli::page::{Page, broken, seen};
 use crate::drawing::style;
 use crate::scene::{Code, Problem, Problems};
 use crate::text::line;
@@ -275,24 +275,6 @@ fn pointed(name: &str, problem: &Problem, place: &Place, width: Option<usize>) -
         Ok(()) => String::from_utf8_lossy(&bytes).into_owned(),
         Err(_) => plain(name, problem),
     }
-}
-
-/// Words in lines of no more columns than this, as far as they have blanks.
-fn broken(words: &str, most: Option<usize>) -> String {
-    let mut lines = String::new();
-    let mut column = 0;
-    for word in words.split(' ') {
-        if column > 0 && most.is_some_and(|most| column + 1 + seen(word) > most) {
-            lines.push('\n');
-            column = 0;
-        } else if column > 0 {
-            lines.push(' ');
-            column += 1;
-        }
-        lines.push_str(word);
-        column += seen(word);
-    }
-    lines
 }
 
 /// A plain complaint with a piece of a line that is too long to be shown whole.

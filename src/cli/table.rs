@@ -5,7 +5,7 @@ use std::fmt::Write;
 use clap::builder::styling::{AnsiColor, Style};
 
 use crate::analysis::{Analysis, EffectName, FrameAnalysis, Verdict};
-use crate::cli::page::{Page, seen};
+use crate::cli::page::{Page, broken, seen};
 use crate::report::result::Timing;
 use crate::scene::Scene;
 use crate::text::heading;
@@ -14,17 +14,41 @@ use crate::wording::verdict::plain;
 use crate::wording::{failure, margin, proof};
 
 /// What the columns mean, and what a verdict says and what it does not, for under the tables.
-pub(crate) const LIMITS: &str = "\
-stands    some set of admissible forces balances every block. Rigid blocks,
-          laid dry, at rest; a wedged balance counts.
-falls     none does, and a motion shows why.
-forces    sum of all normal, friction and robot forces
-sticking  what would have to be glued to make up for the rest
-friction  most of it that is used anywhere
-robots    most of a limit that is used
-proof     in parts of the forces on each block; of a motion in parts of the
-          loads of what moves
-";
+const LIMITS: [[&str; 2]; 7] = [
+    [
+        "stands",
+        "some set of admissible forces balances every block. Rigid blocks, laid dry, at rest; a wedged balance counts.",
+    ],
+    ["falls", "none does, and a motion shows why."],
+    ["forces", "sum of all normal, friction and robot forces"],
+    [
+        "sticking",
+        "what would have to be glued to make up for the rest",
+    ],
+    ["friction", "most of it that is used anywhere"],
+    ["robots", "most of a limit that is used"],
+    [
+        "proof",
+        "in parts of the forces on each block; of a motion in parts of the loads of what moves",
+    ],
+];
+/// Before the meanings, and in how many columns these are broken into lines on wide terminals.
+const MEANING: [usize; 2] = [10, 68];
+
+/// The words of the table with their meanings, for a terminal of so many columns.
+pub(crate) fn explained(width: Option<usize>) -> Page {
+    let [indent, most] = MEANING;
+    let most = width.map_or(most, |width| most.min(width.saturating_sub(indent)));
+    let mut page = Page::default();
+    for [word, meaning] in LIMITS {
+        let gap = " ".repeat(indent);
+        for (number, line) in broken(meaning, Some(most)).lines().enumerate() {
+            let word = if number == 0 { word } else { "" };
+            page.line(&format!("{word}{}{line}", &gap[word.len()..]));
+        }
+    }
+    page
+}
 
 /// So many failures of a frame are described in words; the figure and the JSON have them all.
 const MOST_LISTED: usize = 12;
@@ -289,6 +313,26 @@ mod tests {
         // A file or another program gets every row whole.
         let page = of(name, analysis, Timing::Included, None);
         assert!(page.text().contains("robots\u{1b}[0m   \u{1b}[2mproof"));
+    }
+
+    #[test]
+    fn words_are_explained_beside_them_at_any_width() {
+        for (width, lines) in [(None, 9), (Some(100), 9), (Some(60), 11), (Some(40), 16)] {
+            let page = explained(width);
+            let found: Vec<&str> = page.text().lines().collect();
+            let widest = found.iter().map(|line| seen(line)).max();
+            assert!(
+                widest <= Some(width.unwrap_or(78).min(78)),
+                "{}",
+                page.text()
+            );
+            assert!(
+                found
+                    .iter()
+                    .all(|line| line.is_char_boundary(10) && !line[9..].starts_with("  "))
+            );
+            assert_eq!(found.len(), lines, "{}", page.text());
+        }
     }
 
     #[test]
