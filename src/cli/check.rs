@@ -176,7 +176,7 @@ impl Check {
             for (number, path, complaint) in &refused {
                 let file = path.to_string_lossy();
                 objects.insert(*number, refusal(&file, &complaint.problems(), layout));
-                terminal.complain(&complaint.page());
+                terminal.refuse(complaint);
             }
             terminal.print_bytes(objects.concat().as_bytes())
         } else {
@@ -189,10 +189,10 @@ impl Check {
                     page.end();
                 }
                 if self.explain {
-                    page.ours(table::LIMITS);
+                    page.append(&table::explained(width));
                 }
             }
-            terminal.print(&width.map_or(page.clone(), |width| page.fitted(width)))
+            terminal.print(&page)
         };
         printed.map_err(|c| vec![c])?;
         let wrong = refused.iter().map(|(.., complaint)| complaint.ending());

@@ -9,17 +9,19 @@ use std::ops::Range;
 use ariadne::{Color, Config, Label, Report, ReportKind, Source};
 
 use crate::cli::ending::Ending;
-use crate::cli::page::Page;
+use crate::cli::page::{Page, broken, seen};
 use crate::drawing::style;
 use crate::scene::{Code, Problem, Problems};
 use crate::text::line;
 
 /// So many problems of one file are shown; a file with more has one cause, and it is among the first.
 const SHOWN: usize = 30;
-/// A longer line, in characters, is shown as a window around the problem.
+/// A longer line, in characters, is shown as a window around the problem; so is one that is wider than the terminal.
 const LONG_LINE: usize = 160;
-/// So many characters before the problem, and twice as many after it, are in that window.
-const WINDOW: usize = 40;
+/// So many columns of a line are in that window, a third of them before the problem; fewer on a narrower terminal.
+const WINDOW: usize = 120;
+/// No window is narrower.
+const NARROWEST: usize = 12;
 
 /// Something that is wrong, and that ends the command.
 #[derive(Debug)]
@@ -102,16 +104,16 @@ impl Complaint {
                 "check the path, and that the file may be read",
             ),
             // No other complaint is about a single scene file.
-            other => alone(Code::NotReadable, other.page().text().to_owned(), ""),
+            other => alone(Code::NotReadable, other.page(None).text().to_owned(), ""),
         }
     }
 
-    /// What a person reads, in colour.
-    pub(crate) fn page(&self) -> Page {
+    /// What a person reads, in colour, on a terminal of so many columns if it is one.
+    pub(crate) fn page(&self, width: Option<usize>) -> Page {
         let mut page = Page::default();
         match self {
             Complaint::Scene { name, problems } => {
-                page.block(&all(name, problems.text.as_deref(), &problems.list));
+                page.block(&all(name, problems.text.as_deref(), &problems.list, width));
                 if problems.list.iter().any(|problem| problem.place.is_some()) {
                     page.line(
                         "drystone render --broken draws its outlines with these problems marked",
@@ -148,7 +150,7 @@ impl Complaint {
     }
 }
 
-fn all(name: &str, text: Option<&str>, problems: &[Problem]) -> String {
+fn all(name: &str, text: Option<&str>, problems: &[Problem], width: Option<usize>) -> String {
     let name = line(name);
     let mut out = String::new();
     for problem in problems.iter().take(SHOWN) {
@@ -156,10 +158,10 @@ fn all(name: &str, text: Option<&str>, problems: &[Problem]) -> String {
             .zip(problem.span.clone())
             .and_then(|(text, span)| Place::of(text, span));
         out += &match place {
-            Some(place) if place.line.chars().count() <= LONG_LINE => {
-                pointed(&name, problem, &place)
+            Some(place) if place.is_shown_whole(problem, width) => {
+                pointed(&name, problem, &place, width)
             }
-            Some(place) => windowed(&name, problem, &place),
+            Some(place) => windowed(&name, problem, &place, width),
             None => plain(&name, problem),
         };
     }
@@ -196,6 +198,35 @@ impl<'a> Place<'a> {
             range: from.min(end)..(from + inside.max(1)).min(end.max(from + 1)),
         })
     }
+
+    /// Whether the line can be read whole, with the place marked and labelled below it.
+    fn is_shown_whole(&self, problem: &Problem, width: Option<usize>) -> bool {
+        if self.line.chars().count() > LONG_LINE {
+            return false;
+        }
+        let before: String = self.line.chars().take(self.range.start).collect();
+        let label = seen(&line(&before)) + ARROW + seen(&label(problem));
+        // What is marked may be long: the arrow to the label starts from its middle.
+        let label = label + self.range.len().div_ceil(2);
+        let columns = margin(problem) + label.max(seen(&line(self.line)) + 1);
+        width.is_none_or(|width| columns <= width)
+    }
+}
+
+/// From the middle of a place to its label, `╰──── `, and a column to spare.
+const ARROW: usize = 8;
+
+/// How many columns stand before the text of a line, with its number.
+fn margin(problem: &Problem) -> usize {
+    problem.line.to_string().len() + 4
+}
+
+/// What stands under the place.
+fn label(problem: &Problem) -> String {
+    match problem.path.as_str() {
+        "" => "here".into(),
+        path => line(path),
+    }
 }
 
 fn headline(problem: &Problem) -> String {
@@ -221,26 +252,23 @@ fn plain(name: &str, problem: &Problem) -> String {
 }
 
 /// The problem under its line. ariadne is handed empty lines in place of those before it, so that it counts right.
-fn pointed(name: &str, problem: &Problem, place: &Place) -> String {
+fn pointed(name: &str, problem: &Problem, place: &Place, width: Option<usize>) -> String {
     let above = problem.line.saturating_sub(1);
     // A blank behind the line gives a problem at its very end, such as a file cut short, something to point at.
     let source = Source::from(format!("{}{} ", "\n".repeat(above), line(place.line)));
     let range = place.range.start + above..place.range.end + above;
-    let label = if problem.path.is_empty() {
-        "here".into()
-    } else {
-        line(&problem.path)
-    };
     let mut report = Report::build(ReportKind::Error, (name, range.clone()))
         .with_config(Config::default())
         .with_message(line(&problem.message))
         .with_label(
             Label::new((name, range))
-                .with_message(label)
+                .with_message(label(problem))
                 .with_color(Color::Red),
         );
     if !problem.help.is_empty() {
-        report = report.with_help(line(&problem.help));
+        // Its later lines stand below its first, behind "Help: ".
+        let room = width.map(|width| width.saturating_sub(margin(problem) + "Help: ".len()));
+        report = report.with_help(broken(&line(&problem.help), room));
     }
     let mut bytes = Vec::new();
     match report.finish().write((name, source), &mut bytes) {
@@ -250,17 +278,37 @@ fn pointed(name: &str, problem: &Problem, place: &Place) -> String {
 }
 
 /// A plain complaint with a piece of a line that is too long to be shown whole.
-fn windowed(name: &str, problem: &Problem, place: &Place) -> String {
-    let from = place.range.start.saturating_sub(WINDOW);
-    let piece: String = place.line.chars().skip(from).take(3 * WINDOW).collect();
-    let marks = place.range.len().min(2 * WINDOW);
+fn windowed(name: &str, problem: &Problem, place: &Place, width: Option<usize>) -> String {
+    // Two blanks, and a mark at either end of the piece.
+    let room = width.map_or(WINDOW, |width| {
+        width.saturating_sub(4).clamp(NARROWEST, WINDOW)
+    });
+    let text = line(place.line);
+    let letters: Vec<char> = text.chars().collect();
+    let start = place.range.start.min(letters.len());
+    let wide = |c: &char| seen(c.encode_utf8(&mut [0; 4]));
+    // Backwards from the place, then on from where that ends, as far as there is room.
+    let fits = |letters: &mut dyn Iterator<Item = &char>, most: usize| {
+        let mut left = most;
+        let fit = letters.take_while(|c| {
+            let fit = wide(c) <= left;
+            left -= wide(c).min(left);
+            fit
+        });
+        fit.count()
+    };
+    let from = start - fits(&mut letters[..start].iter().rev(), room / 3);
+    let to = from + fits(&mut letters[from..].iter(), room);
+    let columns = |from: usize, to: usize| letters[from..to].iter().map(wide).sum::<usize>();
+    let marks = columns(start, place.range.end.clamp(start, to)).max(1);
     let out = plain(name, problem);
     let (first, help) = out.split_once('\n').unwrap_or((&out, ""));
     let lead = if from > 0 { "…" } else { " " };
-    let gap = " ".repeat(place.range.start - from + 1);
-    let piece = line(&piece);
+    let tail = if to < letters.len() { "…" } else { "" };
+    let gap = " ".repeat(columns(from, start) + 1);
+    let piece: String = letters[from..to].iter().collect();
     format!(
-        "{first}\n  {lead}{piece}…\n  {gap}{}\n{help}",
+        "{first}\n  {lead}{piece}{tail}\n  {gap}{}\n{help}",
         "^".repeat(marks)
     )
 }
@@ -291,9 +339,13 @@ mod tests {
     }
 
     fn shown(text: &str, list: &[Problem]) -> String {
+        shown_within(text, list, None)
+    }
+
+    fn shown_within(text: &str, list: &[Problem], width: Option<usize>) -> String {
         let mut plain = String::new();
         let mut escaped = false;
-        for c in all("a.json", Some(text), list).chars() {
+        for c in all("a.json", Some(text), list, width).chars() {
             match (escaped, c) {
                 (false, '\u{1b}') => escaped = true,
                 (true, 'm') => escaped = false,
@@ -332,6 +384,48 @@ mod tests {
             .position(|(i, _)| i == lines[1].find("-3").expect("shown"))
             .expect("there");
         assert_eq!(caret, column, "{shown}");
+    }
+
+    /// Long lines, wide letters, long paths and long help, on terminals of 40 columns and more.
+    #[test]
+    fn a_problem_fits_the_terminal_and_is_marked_where_it_is() {
+        let lines = [
+            "{ \"weight\": -3 }".to_owned(),
+            format!(
+                "{{ \"{}\": 1, \"weight\": -3, \"x\": [{}] }}",
+                "石材".repeat(12),
+                "0, ".repeat(30)
+            ),
+            format!("{}\"weight\": -3", " ".repeat(70)),
+            format!("\"weight\": -3{}", ", \"y\": 2".repeat(500)),
+        ];
+        for text in lines {
+            let text = format!("\n\n{text}\n");
+            let mut wrong = problem(&text, "-3");
+            wrong.path = "steps[12].hold.a robot of many words.at".into();
+            wrong.help = "known keys are ".to_owned() + &"contact_tolerance, ".repeat(12);
+            for width in [40, 60, 79, 200] {
+                let shown = shown_within(&text, std::slice::from_ref(&wrong), Some(width));
+                let mut page = Page::default();
+                page.block(&shown);
+                let lines: Vec<&str> = shown.lines().collect();
+                let piece = lines
+                    .iter()
+                    .position(|l| l.contains("-3") && !l.contains("N"));
+                let piece = piece.unwrap_or_else(|| panic!("{width}: {shown}"));
+                assert!(seen(lines[piece]) <= width, "{width}: {shown}");
+                let place = lines[piece].find("-3").map(|at| seen(&lines[piece][..at]));
+                let mark = lines[piece + 1]
+                    .find(['^', '┬'])
+                    .map(|at| seen(&lines[piece + 1][..at]));
+                let off = mark.zip(place).map(|(mark, place)| mark.abs_diff(place));
+                // ariadne leads the arrow off from the middle of what is marked.
+                assert!(off <= Some(1) && off.is_some(), "{width}: {shown}");
+                for line in page.fitted(width).text().lines() {
+                    assert!(seen(line) <= width, "{width}: {line}");
+                }
+            }
+        }
     }
 
     #[test]

@@ -134,7 +134,8 @@ fn refused(error: &clap::Error, printed: io::Result<()>) -> Ending {
         Ok(()) => Ending::Done,
         Err(complaint) => {
             // Standard error may be as full as standard output; then the exit code alone tells.
-            let _ = write!(io::stderr(), "{}", complaint.page().text());
+            let page = complaint.page(terminal::error_width());
+            let _ = write!(io::stderr(), "{}", page.text());
             complaint.ending()
         }
     }
@@ -142,7 +143,7 @@ fn refused(error: &clap::Error, printed: io::Result<()>) -> Ending {
 
 fn complain(terminal: &Terminal, complaints: &[Complaint]) -> Ending {
     for complaint in complaints {
-        terminal.complain(&complaint.page());
+        terminal.refuse(complaint);
     }
     complaints
         .iter()

@@ -124,6 +124,24 @@ impl Page {
     }
 }
 
+/// Words in lines of no more columns than this, as far as they have blanks.
+pub(crate) fn broken(words: &str, most: Option<usize>) -> String {
+    let mut lines = String::new();
+    let mut column = 0;
+    for word in words.split(' ') {
+        if column > 0 && most.is_some_and(|most| column + 1 + seen(word) > most) {
+            lines.push('\n');
+            column = 0;
+        } else if column > 0 {
+            lines.push(' ');
+            column += 1;
+        }
+        lines.push_str(word);
+        column += seen(word);
+    }
+    lines
+}
+
 /// How many columns of a terminal a text takes that may set colours.
 pub(crate) fn seen(text: &str) -> usize {
     let Some(at) = text.find('\u{1b}') else {

@@ -141,7 +141,7 @@ impl Report {
             notes.push(words.to_owned());
         }
         for complaint in &complaints {
-            terminal.complain(&complaint.page());
+            terminal.refuse(complaint);
         }
         let report = Page {
             title: self.heading(&pieces),

@@ -151,10 +151,12 @@ impl Snapshot {
             .iter()
             .map(|f| f.display().to_string())
             .collect();
-        let filter = self
-            .only
-            .as_ref()
-            .map_or_else(String::new, |f| format!(" whose path contains {f:?}"));
+        let filter = self.only.as_ref().map_or_else(String::new, |f| {
+            format!(
+                " whose path {} {f:?}",
+                if f.contains('*') { "fits" } else { "contains" }
+            )
+        });
         Complaint::CommandLine(format!(
             "there is no scene under {}{filter}: a scene is a .json file with the key \"drystone\"",
             places.join(", ")

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use clap::builder::styling::{AnsiColor, Style};
 
 use crate::analysis::{Analysis, EffectName, FrameAnalysis, Verdict};
-use crate::cli::page::{Page, seen};
+use crate::cli::page::{Page, broken, seen};
 use crate::report::result::Timing;
 use crate::scene::Scene;
 use crate::text::heading;
@@ -14,17 +14,41 @@ use crate::wording::verdict::plain;
 use crate::wording::{failure, margin, proof};
 
 /// What the columns mean, and what a verdict says and what it does not, for under the tables.
-pub(crate) const LIMITS: &str = "\
-stands    some set of admissible forces balances every block. Rigid blocks,
-          laid dry, at rest; a wedged balance counts.
-falls     none does, and a motion shows why.
-forces    sum of all normal, friction and robot forces
-sticking  what would have to be glued to make up for the rest
-friction  most of it that is used anywhere
-robots    most of a limit that is used
-proof     in parts of the forces on each block; of a motion in parts of the
-          loads of what moves
-";
+const LIMITS: [[&str; 2]; 7] = [
+    [
+        "stands",
+        "some set of admissible forces balances every block. Rigid blocks, laid dry, at rest; a wedged balance counts.",
+    ],
+    ["falls", "none does, and a motion shows why."],
+    ["forces", "sum of all normal, friction and robot forces"],
+    [
+        "sticking",
+        "what would have to be glued to make up for the rest",
+    ],
+    ["friction", "most of it that is used anywhere"],
+    ["robots", "most of a limit that is used"],
+    [
+        "proof",
+        "in parts of the forces on each block; of a motion in parts of the loads of what moves",
+    ],
+];
+/// Before the meanings, and in how many columns these are broken into lines on wide terminals.
+const MEANING: [usize; 2] = [10, 68];
+
+/// The words of the table with their meanings, for a terminal of so many columns.
+pub(crate) fn explained(width: Option<usize>) -> Page {
+    let [indent, most] = MEANING;
+    let most = width.map_or(most, |width| most.min(width.saturating_sub(indent)));
+    let mut page = Page::default();
+    for [word, meaning] in LIMITS {
+        let gap = " ".repeat(indent);
+        for (number, line) in broken(meaning, Some(most)).lines().enumerate() {
+            let word = if number == 0 { word } else { "" };
+            page.line(&format!("{word}{}{line}", &gap[word.len()..]));
+        }
+    }
+    page
+}
 
 /// So many failures of a frame are described in words; the figure and the JSON have them all.
 const MOST_LISTED: usize = 12;
@@ -38,8 +62,8 @@ const SHORTEST: usize = 8;
 
 /// The table of one scene, for a terminal of so many columns.
 ///
-/// Where the rows would be wider, proofs stand below them, and titles are cut as far as it takes. What is said below the rows
-/// may be wider than the terminal: [`Page::fitted`] breaks it.
+/// Where the rows would be wider, proofs stand below them, and titles are cut as far as it takes; where that is not enough,
+/// every value has a line of its own. What is said below the rows may be wider than the terminal: [`Page::fitted`] breaks it.
 pub(crate) fn of(name: &str, analysis: &Analysis, timing: Timing, width: Option<usize>) -> Page {
     let scene = &analysis.scene;
     let mut page = Page::default();
@@ -66,7 +90,12 @@ pub(crate) fn of(name: &str, analysis: &Analysis, timing: Timing, width: Option<
     };
     let mut widths: [usize; 7] = std::array::from_fn(|column| widest(&rows, column));
     let mut columns = widths.len();
-    if let Some(width) = width.filter(|width| taken(&widths) > *width) {
+    let least: [usize; 7] = std::array::from_fn(|column| match column {
+        0 => widths[0].min(SHORTEST),
+        _ => widths[column],
+    });
+    let is_narrow = width.is_some_and(|width| taken(&least[..columns - 1]) > width);
+    if let Some(width) = width.filter(|width| !is_narrow && taken(&widths) > *width) {
         columns -= 1;
         let beyond = taken(&widths[..columns]).saturating_sub(width);
         let most = widths[0].saturating_sub(beyond).max(SHORTEST);
@@ -76,11 +105,17 @@ pub(crate) fn of(name: &str, analysis: &Analysis, timing: Timing, width: Option<
         widths[0] = widest(&rows, 0);
     }
     let dim = Style::new().dimmed();
-    line(&mut page, &heads, &widths[..columns], [dim; 7]);
+    if !is_narrow {
+        line(&mut page, &heads, &widths[..columns], [dim; 7]);
+    }
     for (frame, cells) in analysis.frames.iter().zip(&rows) {
         let mut styles = [Style::new(); 7];
         styles[1] = style(frame.verdict);
-        line(&mut page, cells, &widths[..columns], styles);
+        if is_narrow {
+            record(&mut page, &heads, cells, styles);
+        } else {
+            line(&mut page, cells, &widths[..columns], styles);
+        }
         if columns < cells.len() {
             page.line(&format!("      proof: {}", cells[columns]));
         }
@@ -127,6 +162,19 @@ fn line(page: &mut Page, cells: &[String; 7], widths: &[usize], styles: [Style; 
         }
     }
     page.end();
+}
+
+/// The same below each other: the frame, and every value behind its name.
+fn record(page: &mut Page, heads: &[String; 7], cells: &[String; 7], styles: [Style; 7]) {
+    page.line(&format!("  {}", cells[0]));
+    let widest = heads.iter().map(|head| seen(head)).max().unwrap_or(0);
+    for ((head, cell), style) in heads.iter().zip(cells).zip(styles).skip(1) {
+        page.words("      ");
+        page.styled(Style::new().dimmed(), head);
+        page.words(&" ".repeat(widest - seen(head) + 2));
+        page.styled(style, cell);
+        page.end();
+    }
 }
 
 /// Words in no more columns than this; what is cut off leaves a mark.
@@ -256,7 +304,7 @@ mod tests {
     use crate::scene::format::{BlockEntry, LimitsEntry, RobotEntry, StepEntry};
 
     fn assert_fits(name: &str, analysis: &Analysis) {
-        for width in [80, 100] {
+        for width in [40, 50, 60, 70, 79, 80, 100] {
             let page = of(name, analysis, Timing::Included, Some(width)).fitted(width);
             for line in page.text().lines() {
                 assert!(seen(line) <= width, "{width}: {line}");
@@ -265,6 +313,26 @@ mod tests {
         // A file or another program gets every row whole.
         let page = of(name, analysis, Timing::Included, None);
         assert!(page.text().contains("robots\u{1b}[0m   \u{1b}[2mproof"));
+    }
+
+    #[test]
+    fn words_are_explained_beside_them_at_any_width() {
+        for (width, lines) in [(None, 9), (Some(100), 9), (Some(60), 11), (Some(40), 16)] {
+            let page = explained(width);
+            let found: Vec<&str> = page.text().lines().collect();
+            let widest = found.iter().map(|line| seen(line)).max();
+            assert!(
+                widest <= Some(width.unwrap_or(78).min(78)),
+                "{}",
+                page.text()
+            );
+            assert!(
+                found
+                    .iter()
+                    .all(|line| line.is_char_boundary(10) && !line[9..].starts_with("  "))
+            );
+            assert_eq!(found.len(), lines, "{}", page.text());
+        }
     }
 
     #[test]

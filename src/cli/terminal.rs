@@ -3,10 +3,12 @@
 //! The only file that names anstream and terminal_size. Escape codes are written everywhere and taken out here, where a stream
 //! does not want them: because it is no terminal, because `NO_COLOR` is set, or because `--color` says so, which beats both.
 
+use std::borrow::Cow;
 use std::io::{self, IsTerminal, Write};
 
 use anstream::ColorChoice;
 use clap::{Args, ValueEnum};
+use terminal_size::{Height, Width};
 
 use crate::cli::complaint::Complaint;
 use crate::cli::page::Page;
@@ -64,12 +66,12 @@ impl Terminal {
 
     /// How many columns a person sees of standard output; `None` where it goes into a file or to another program.
     pub(crate) fn width(&self) -> Option<usize> {
-        let (width, _) = terminal_size::terminal_size_of(io::stdout())?;
-        Some(usize::from(width.0)).filter(|width| *width > 0)
+        columns(terminal_size::terminal_size_of(io::stdout()))
     }
 
-    /// Writes a result for a person.
+    /// Writes a result for a person, no wider than the terminal.
     pub(crate) fn print(&self, page: &Page) -> Result<(), Complaint> {
+        let page = fitted(page, self.width());
         let mut stream = anstream::stdout().lock();
         written(
             stream
@@ -96,11 +98,34 @@ impl Terminal {
         }
     }
 
+    /// Says what is wrong with what a command was given.
+    pub(crate) fn refuse(&self, complaint: &Complaint) {
+        self.complain(&complaint.page(error_width()));
+    }
+
     /// Says what is wrong.
     pub(crate) fn complain(&self, page: &Page) {
+        let page = fitted(page, error_width());
         let mut stream = anstream::stderr().lock();
         // With standard error gone, only the exit code is left to tell.
         let _ = writeln!(stream, "{}", page.text().trim_end()).and_then(|()| stream.flush());
+    }
+}
+
+/// How many columns a person sees of standard error; `None` where it goes elsewhere.
+pub(crate) fn error_width() -> Option<usize> {
+    columns(terminal_size::terminal_size_of(io::stderr()))
+}
+
+fn columns(size: Option<(Width, Height)>) -> Option<usize> {
+    size.map(|(width, _)| usize::from(width.0))
+        .filter(|width| *width > 0)
+}
+
+fn fitted(page: &Page, width: Option<usize>) -> Cow<'_, Page> {
+    match width {
+        Some(width) => Cow::Owned(page.fitted(width)),
+        None => Cow::Borrowed(page),
     }
 }
 

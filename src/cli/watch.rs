@@ -29,7 +29,7 @@ pub(crate) fn repeat(
         let before = marks(files);
         if let Err(complaints) = run() {
             for complaint in &complaints {
-                terminal.complain(&complaint.page());
+                terminal.refuse(complaint);
             }
         }
         // A change while the command ran is a change; one that is still going on is waited for.

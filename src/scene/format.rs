@@ -39,7 +39,7 @@ pub struct SceneFile {
     /// Title of the scene, for reports and captions.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub title: Option<String>,
-    /// Gravity [x, y] in m/s²; weights act along it. Default [0, -9.81].
+    /// Gravity [x, y] in m/s²; weights act along it, or not at all where it is [0, 0]. Default [0, -9.81].
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(extend("default" = [0.0, -9.81])))]
     pub gravity: Option<Pair>,
@@ -68,7 +68,7 @@ pub struct SceneFile {
     /// The lattice: `at` of bodies becomes a lattice point, shapes may be sets of cells.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub grid: Option<GridEntry>,
-    /// Shapes by name. The triangular lattice also knows up, down, hexagon, linkh, linkr and linkl.
+    /// Shapes by name. The triangular lattice also knows up, down, hexagon, linkh, linkr and linkl, whose names are taken.
     #[serde(default, skip_serializing_if = "Map::is_empty")]
     pub shapes: Map<ShapeEntry>,
     /// Parts of the ground: they carry anything and never move.
@@ -83,7 +83,7 @@ pub struct SceneFile {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub loads: Vec<LoadEntry>,
     /// Edges within this many metres of each other touch, and bodies may overlap by as much; at least 0. Default: estimated
-    /// from how the coordinates are written.
+    /// from how the coordinates are written and how large the scene is.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub contact_tolerance: Option<f64>,
@@ -225,10 +225,10 @@ pub struct ShapeEntry {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(length(min = 3)))]
     pub polygon: Option<Vec<Pair>>,
-    /// Holes in the polygon, each a list of corners in metres.
+    /// Holes in the polygon, each a list of corners in metres; inside it, and none in another.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub holes: Vec<Vec<Pair>>,
-    /// Lattice cells, joined by edges.
+    /// Lattice cells, joined by edges, each listed once.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
     pub cells: Option<Vec<CellEntry>>,
@@ -244,21 +244,22 @@ pub struct GroundEntry {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(length(min = 3)))]
     pub polygon: Option<Vec<Pair>>,
-    /// Holes in the polygon, each a list of corners in metres.
+    /// Holes in the polygon, each a list of corners in metres; inside it, and none in another.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub holes: Vec<Vec<Pair>>,
-    /// Lattice cells, joined by edges.
+    /// Lattice cells, joined by edges, each listed once.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
     pub cells: Option<Vec<CellEntry>>,
     /// Name of a shape.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shape: Option<String>,
-    /// Where its origin goes: metres, or a lattice point where the scene has a grid. Default [0, 0].
+    /// Where its origin goes: metres, or a lattice point where the scene has a grid, for cells a whole one. Default [0, 0].
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(extend("default" = [0.0, 0.0])))]
     pub at: Option<Pair>,
-    /// Turn about its own origin before it is moved, degrees anticlockwise. Default 0.
+    /// Turn about its own origin before it is moved, degrees anticlockwise; for cells a multiple of 60 or, on the square
+    /// lattice, 90. Default 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(extend("default" = 0.0)))]
     pub angle: Option<f64>,
@@ -281,28 +282,29 @@ pub struct GroundEntry {
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct BlockEntry {
-    /// Its name, used once. Default: its number in the list, from 1.
+    /// Its name, used once; neither empty nor `ground`. Default: its number in the list, from 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub id: Option<String>,
     /// Corners [x, y] of the outline in metres, either way round; simple, not necessarily convex.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(length(min = 3)))]
     pub polygon: Option<Vec<Pair>>,
-    /// Holes in the polygon, each a list of corners in metres.
+    /// Holes in the polygon, each a list of corners in metres; inside it, and none in another.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub holes: Vec<Vec<Pair>>,
-    /// Lattice cells, joined by edges.
+    /// Lattice cells, joined by edges, each listed once.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
     pub cells: Option<Vec<CellEntry>>,
     /// Name of a shape.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shape: Option<String>,
-    /// Where its origin goes: metres, or a lattice point where the scene has a grid. Default [0, 0].
+    /// Where its origin goes: metres, or a lattice point where the scene has a grid, for cells a whole one. Default [0, 0].
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(extend("default" = [0.0, 0.0])))]
     pub at: Option<Pair>,
-    /// Turn about its own origin before it is moved, degrees anticlockwise. Default 0.
+    /// Turn about its own origin before it is moved, degrees anticlockwise; for cells a multiple of 60 or, on the square
+    /// lattice, 90. Default 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(extend("default" = 0.0)))]
     pub angle: Option<f64>,
@@ -343,7 +345,7 @@ pub struct RobotEntry {
     /// The block it holds in a scene without steps.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub holds: Option<String>,
-    /// Where it grips the block it `holds`, [x, y] in metres. Default: the block's centroid.
+    /// Where it grips the block it `holds`, [x, y] in metres; nothing without `holds`. Default: the block's centroid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at: Option<Pair>,
     /// What it can give. Default: any force, no torque.

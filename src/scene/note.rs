@@ -27,7 +27,7 @@ codes! {
     DefaultDensity "default_density" "blocks of the default density, 1 kg/m³, beside loads or limits in newtons",
     NoGround "no_ground" "a scene without ground",
     NearMiss "near_miss" "edges that nearly touch, with a gap of up to 1 % of a block",
-    AngleRadians "angle_radians" "an angle in degrees that is a multiple of 15° written in radians",
+    AngleRadians "angle_radians" "an angle that is a multiple of 15°, up to a full turn, in radians with three decimals or more",
 }
 
 /// Something that is allowed, and seldom meant.

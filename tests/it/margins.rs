@@ -191,6 +191,32 @@ fn a_limited_robot_is_turned_to_the_first_edge() {
     assert_eq!(margins(&file).tilt.right, Margin::Unbounded);
 }
 
+/// A block that a robot presses onto the floor and pushes with all it has: W sin θ = f + μ (W cos θ + f).
+#[test]
+fn a_limited_robot_that_pushes_and_presses_is_turned_to_where_the_block_slides() {
+    let friction = 0.7;
+    for weight in [9.81, 10.0, 3.0] {
+        for share in [0.1, 0.2, 0.3, 0.4, 0.5, 0.51, 0.55, 0.6] {
+            let limit = share * weight;
+            for limits in [
+                json!({ "force": limit }),
+                json!({ "force": limit, "torque": 1 }),
+            ] {
+                let mut file = on_floor(
+                    friction,
+                    vec![block("a", rectangle(0.0, 0.0, 1.0, 1.0), weight)],
+                );
+                file["robots"] = json!([{ "id": "r", "holds": "a", "limits": limits }]);
+                let found = margins(&file);
+                let pushed = (limit + friction * limit) / (weight * libm::hypot(1.0, friction));
+                let expected = (libm::atan(friction) + libm::asin(pushed)).to_degrees();
+                near(&found.tilt.left, expected, 5e-5);
+                near(&found.tilt.right, expected, 5e-5);
+            }
+        }
+    }
+}
+
 #[test]
 fn a_squeezed_block_needs_next_to_nothing() {
     let file = json!({ "drystone": 1, "friction": 0.5,

@@ -2,6 +2,9 @@
 //!
 //! Tables stand between marks in `src/doc/format.md` and `src/doc/result.md`. `UPDATE_SNAPSHOTS=1` writes them anew.
 
+mod format;
+mod result;
+
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -10,6 +13,13 @@ use drystone::report::result::key::{KEYS, Key, REFUSAL_KEYS, Type};
 use drystone::report::result::{Layout, Timing, refusal, schema, to_json_of};
 use drystone::scene::{Code, NoteCode, Scene};
 use serde_json::Value;
+
+/// A page's words, each one blank behind the other.
+fn words_of(page: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(page);
+    let text = std::fs::read_to_string(path).expect("the page is there");
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
 
 /// Puts a table between its marks, or fails where another stands there.
 fn table(page: &str, mark: &str, rows: &str) {

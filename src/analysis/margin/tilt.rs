@@ -19,7 +19,7 @@ pub(super) fn tilt(trial: &mut Trial, side: f64, stands: bool, horizontal: &Marg
     let quarters = [(0.0, FRAC_PI_2), (FRAC_PI_2, PI)];
     let exit = quarters
         .into_iter()
-        .find_map(|(from, to)| first_exit(trial, side, from, to));
+        .find_map(|(from, to)| first_exit(trial, side, [from, to], false));
     let setting = |degrees: f64| turned(degrees.to_radians(), 1.0, side);
     let edge = Threshold {
         way: Way::Most,
@@ -90,22 +90,25 @@ fn of_weights(trial: &mut Trial, side: f64, horizontal: &Margin) -> Margin {
 ///
 /// The loads that are carried form a convex set. If it holds both ends of an arc and the point where the tangents at
 /// them meet, it holds the triangle of the three and so the whole arc; otherwise the arc is halved.
-fn first_exit(trial: &mut Trial, side: f64, from: f64, to: f64) -> Option<f64> {
+///
+/// That it does not stand at `to` may be `known`. It is not asked again then: as close to the edge as halving comes,
+/// forces that are remembered from just inside pass for a balance at `to`, too.
+fn first_exit(trial: &mut Trial, side: f64, [from, to]: [f64; 2], known: bool) -> Option<f64> {
     let mut judge = |angle: f64, stretch: f64| trial.judge(&turned(angle, stretch, side)).0;
     let (width, middle) = (to - from, 0.5 * (from + to));
+    let is_beyond = known || judge(to, 1.0) != Verdict::Stable;
     if width < 1e-9 {
-        return (judge(to, 1.0) != Verdict::Stable).then_some(from);
+        return is_beyond.then_some(from);
     }
     let beyond_the_arc = 1.0 / libm::cos(0.5 * width);
-    if judge(to, 1.0) == Verdict::Stable && judge(middle, beyond_the_arc) == Verdict::Stable {
+    if !is_beyond && judge(middle, beyond_the_arc) == Verdict::Stable {
         return None;
     }
     match judge(middle, 1.0) {
-        Verdict::Stable => {
-            first_exit(trial, side, from, middle).or_else(|| first_exit(trial, side, middle, to))
-        }
+        Verdict::Stable => first_exit(trial, side, [from, middle], false)
+            .or_else(|| first_exit(trial, side, [middle, to], is_beyond)),
         // The edge lies there, within what can be decided.
         Verdict::Undecided if width < 1e-2 => Some(from),
-        _ => first_exit(trial, side, from, middle),
+        _ => first_exit(trial, side, [from, middle], true),
     }
 }

@@ -1,5 +1,7 @@
 //! `check`: verdicts, tables, JSON and problems.
 
+use std::fs;
+
 use serde_json::Value;
 
 use super::Bench;
@@ -286,4 +288,60 @@ fn a_folder_stands_for_its_scenes() {
     );
     assert_eq!(bench.run("render . -o out/").code, 0);
     assert!(bench.path("out/falls.svg").exists() && bench.path("out/stands.svg").exists());
+}
+
+/// `src/doc/result.md` on files, folders and standard input.
+#[test]
+fn files_are_answered_in_the_order_of_the_result_page() {
+    let bench = Bench::new();
+    let scene = fs::read(bench.path("stands.json")).expect("readable");
+    for name in [
+        "many/10.json",
+        "many/9.json",
+        "many/deeper/1.json",
+        "one/a.json",
+        "none/a.txt",
+    ] {
+        let path = bench.path(name);
+        fs::create_dir_all(path.parent().expect("a folder")).expect("writable");
+        fs::write(path, &scene).expect("writable");
+    }
+    let files = |line: &str| {
+        let ran = bench.run(&format!("check --json {line}"));
+        let values = serde_json::Deserializer::from_str(&ran.out).into_iter::<Value>();
+        let files: Vec<String> =
+            (values.map(|v| v.expect("JSON")["file"].as_str().expect("text").to_owned())).collect();
+        (ran.code, ran.out.lines().count(), files.join(" "))
+    };
+    let (code, lines, name) = files("stands.json");
+    assert!(
+        code == 0 && lines > 10 && name == "stands.json",
+        "over several lines"
+    );
+    let (code, lines, name) = files("one");
+    assert!(
+        code == 0 && lines > 10 && name == "one/a.json",
+        "a folder's only one, too"
+    );
+    assert_eq!(
+        files("stands.json falls.json"),
+        (1, 2, "stands.json falls.json".into())
+    );
+    assert_eq!(files("many"), (0, 2, "many/10.json many/9.json".into()));
+    assert_eq!(
+        files("stands.json wrong.json falls.json"),
+        (2, 3, "stands.json wrong.json falls.json".into())
+    );
+    assert_eq!(
+        files("-q missing.json stands.json"),
+        (2, 2, "missing.json stands.json".into())
+    );
+    assert_eq!(files("none"), (2, 0, String::new()));
+    let ran = bench.run_with("check --json -", &scene);
+    let result: Value = serde_json::from_str(&ran.out).expect("JSON");
+    assert_eq!(result["file"], "-");
+    // What a program must know before it asks for the verdicts of all frames.
+    let ran = bench.run("check --json -q wrong.json");
+    let refused: Value = serde_json::from_str(&ran.out).expect("JSON");
+    assert!(refused.get("frames").is_none() && !ran.err.is_empty());
 }

@@ -1,0 +1,307 @@
+//! What the page of the scene format says, sentence by sentence, each beside a small scene that shows it.
+//!
+//! A claim is a phrase of the page, so that neither can change without the other.
+
+mod order;
+mod refused;
+mod step;
+
+use drystone::Analysis;
+use drystone::report::result::{Layout, Timing, to_json};
+use drystone::scene::Scene;
+use serde_json::{Value, json};
+
+use super::words_of;
+use crate::structure::rectangle;
+
+/// A square metre on a floor, with other keys of the scene beside or in place of these.
+fn file(keys: Value) -> Value {
+    let mut file = json!({ "drystone": 1, "ground": [{ "polygon": rectangle(-20.0, -1.0, 60.0, 1.0) }],
+        "blocks": [{ "id": "a", "polygon": rectangle(0.0, 0.0, 1.0, 1.0) }] });
+    put(&mut file, keys);
+    file
+}
+
+/// The same, with other keys of its block.
+fn block(keys: Value, scene: Value) -> Value {
+    let mut file = file(scene);
+    put(&mut file["blocks"][0], keys);
+    file
+}
+
+/// Cells on a square lattice of half a metre.
+fn cells(keys: Value) -> Value {
+    let mut file = json!({ "drystone": 1, "grid": { "kind": "square", "side": 0.5 },
+        "ground": [{ "cells": [[0, -1], [1, -1]] }], "blocks": [{ "cells": [[0, 0], [0, 1]] }] });
+    put(&mut file["blocks"][0], keys);
+    file
+}
+
+fn put(object: &mut Value, keys: Value) {
+    for (key, value) in keys.as_object().expect("keys") {
+        object[key] = value.clone();
+    }
+}
+
+/// A phrase of the page, a scene, and what the scene shows.
+struct Claim(&'static str, Value, Shown);
+
+enum Shown {
+    /// Here in the result there is this.
+    Result(&'static str, Value),
+    /// It is refused, with this code alone, and these words in the message or the help.
+    Refused(&'static str, &'static str),
+}
+use Shown::{Refused, Result};
+
+fn is_near(found: &Value, expected: &Value) -> bool {
+    match (found, expected) {
+        (Value::Array(a), Value::Array(b)) => {
+            a.len() == b.len() && a.iter().zip(b).all(|(a, b)| is_near(a, b))
+        }
+        (Value::Number(a), Value::Number(b)) => {
+            let [a, b] = [a, b].map(|x| x.as_f64().unwrap_or(f64::NAN));
+            (a - b).abs() <= 1e-9 * b.abs().max(1.0)
+        }
+        _ => found == expected,
+    }
+}
+
+fn hold(claims: Vec<Claim>) {
+    let page = words_of("src/doc/format.md");
+    for Claim(said, file, shown) in claims {
+        assert!(page.contains(said), "the page does not say: {said}");
+        match (Scene::from_json(&file.to_string()), shown) {
+            (Ok(scene), Result(pointer, expected)) => {
+                let json = to_json(&Analysis::of(&scene), Timing::LeftOut, Layout::OneLine);
+                let result: Value = serde_json::from_str(&json).expect("JSON");
+                let found = result.pointer(pointer).unwrap_or(&Value::Null);
+                assert!(is_near(found, &expected), "{said}\n{file}\n{found}");
+            }
+            (Err(problems), Refused(code, words)) => {
+                let text = problems.to_string();
+                let codes = problems.list.iter().map(|p| p.code.word());
+                assert!(codes.clone().all(|c| c == code), "{said}\n{file}\n{text}");
+                assert!(text.contains(words), "{said}\n{file}\n{text}");
+            }
+            (Ok(_), _) => panic!("{said}\n{file}\nis not refused"),
+            (Err(problems), _) => panic!("{said}\n{file}\n{problems}"),
+        }
+    }
+}
+
+const STANDS: &str = "/frames/0/verdict";
+const WEIGHT: &str = "/frames/0/weight";
+const MU: &str = "/frames/0/interfaces/0/mu";
+const ENDS: &str = "/frames/0/interfaces/0/ends";
+
+fn stands() -> Shown {
+    Result(STANDS, json!("stable"))
+}
+
+#[test]
+fn keys_may_be_left_out_and_unknown_ones_are_errors() {
+    let least = |key: &str| {
+        let mut file = file(json!({}));
+        file.as_object_mut().expect("an object").remove(key);
+        file
+    };
+    hold(vec![
+        Claim(
+            "names the nearest known one",
+            block(json!({ "weigth": 1 }), json!({})),
+            Refused("unknown_key", "the nearest known key is `weight`"),
+        ),
+        Claim(
+            "or all of them where none is near",
+            file(json!({ "zzzzzz": 1 })),
+            Refused(
+                "unknown_key",
+                "known keys are blocks, contact_tolerance, corner_contacts",
+            ),
+        ),
+        Claim(
+            "What has a default may be left out",
+            least("ground"),
+            Result(STANDS, json!("unstable")),
+        ),
+        Claim(
+            "`drystone` | whole number | required",
+            least("drystone"),
+            Refused("missing_key", "drystone"),
+        ),
+        Claim(
+            "`blocks` | list: a block | required",
+            least("blocks"),
+            Refused("missing_key", "blocks"),
+        ),
+        Claim(
+            "`null` counts as leaving a key out",
+            file(json!({ "title": null, "gravity": null, "grid": null,
+            "friction": null, "kernel": null, "contact_tolerance": null, "$schema": null })),
+            stands(),
+        ),
+        Claim(
+            "`null` counts as leaving a key out",
+            block(
+                json!({ "cells": null, "shape": null, "at": null,
+            "weight": null, "fill": null }),
+                json!({ "robots": [{ "id": null, "holds": null, "at": null, "limits": null }] }),
+            ),
+            stands(),
+        ),
+    ]);
+    let lists = [
+        "materials",
+        "friction_pairs",
+        "shapes",
+        "ground",
+        "robots",
+        "loads",
+        "steps",
+        "silence",
+    ];
+    for key in lists.into_iter().chain(["drystone", "blocks"]) {
+        let refused = Refused("wrong_type", "found null");
+        hold(vec![Claim(
+            "there it is an error",
+            file(json!({ key: null })),
+            refused,
+        )]);
+    }
+}
+
+#[test]
+fn defaults_and_units_are_those_of_the_page() {
+    let held = |limits: Value| {
+        let robot = json!({ "holds": "a", "limits": limits });
+        block(
+            json!({ "polygon": rectangle(0.0, 5.0, 1.0, 1.0), "weight": 10 }),
+            json!({ "robots": [robot] }),
+        )
+    };
+    let pushed = |load: Value| block(json!({ "weight": 10 }), json!({ "loads": [load] }));
+    let resultant = "/frames/0/interfaces/0/resultant";
+    hold(vec![
+        Claim(
+            "Default [0, -9.81].",
+            file(json!({})),
+            Result(WEIGHT, json!(9.81)),
+        ),
+        Claim(
+            "Density in kg/m³ of whatever gives none itself, at least 0. Default 1.",
+            file(json!({})),
+            Result(WEIGHT, json!(9.81)),
+        ),
+        Claim(
+            "Thickness of all blocks across the plane in metres, at least 0. Default 1.",
+            file(json!({ "thickness": 2 })),
+            Result(WEIGHT, json!(19.62)),
+        ),
+        Claim(
+            "Friction coefficient μ of whatever gives none itself, at least 0. Default 0.7.",
+            file(json!({})),
+            Result(MU, json!(0.7)),
+        ),
+        Claim(
+            "Safety kernel, 0 to 1: application points move inward by half this share of the contact's length, each. Default 0.",
+            file(json!({ "kernel": 0.2 })),
+            Result(
+                "/frames/0/interfaces/0/application_points",
+                json!([[0.9, 0], [0.1, 0]]),
+            ),
+        ),
+        Claim(
+            "Default 0.",
+            file(json!({})),
+            Result(
+                "/frames/0/interfaces/0/application_points",
+                json!([[1, 0], [0, 0]]),
+            ),
+        ),
+        Claim(
+            "Whether tips that touch edges or tips carry force. Default false.",
+            block(
+                json!({ "polygon": [[0, 0], [1, 1], [0, 2], [-1, 1]] }),
+                json!({}),
+            ),
+            Result(STANDS, json!("unstable")),
+        ),
+        Claim(
+            "Whether tips that touch edges or tips carry force.",
+            block(
+                json!({ "polygon": [[0, 0], [1, 1], [0, 2], [-1, 1]] }),
+                json!({ "corner_contacts": true }),
+            ),
+            Result("/frames/0/interfaces/0/kind", json!("corner")),
+        ),
+        Claim(
+            "Default: its number in the list, from 1.",
+            block(json!({ "id": null }), json!({})),
+            Result("/frames/0/interfaces/0/bodies", json!(["1", "ground"])),
+        ),
+        Claim(
+            "Default: \"r\" and its number in the list, from 0.",
+            file(json!({ "robots": [{ "holds": "a" }] })),
+            Result("/frames/0/robots/0/id", json!("r0")),
+        ),
+        Claim(
+            "nothing without `holds`. Default: the block's centroid.",
+            file(
+                json!({ "robots": [{ "id": "r", "at": [0.25, 0.25] }], "steps": [{ "place": ["a"], "hold": { "r": "a" } }] }),
+            ),
+            Result("/frames/0/robots/0/at", json!([0.5, 0.5])),
+        ),
+        Claim(
+            "What it can give. Default: any force, no torque.",
+            held(json!(null)),
+            stands(),
+        ),
+        Claim(
+            "Default: `force`, else unlimited.",
+            held(json!({ "fx": 0 })),
+            stands(),
+        ),
+        Claim(
+            "Default: `force`, else unlimited.",
+            held(json!({ "force": 9 })),
+            Result(STANDS, json!("unstable")),
+        ),
+        Claim(
+            "Both `fx` and `fy`, where they are not given themselves",
+            held(json!({ "force": 5, "fy": 20 })),
+            Result("/frames/0/robots/0/limit_used", json!(0.5)),
+        ),
+        Claim(
+            "Force [x, y] in newtons. Default [0, 0].",
+            pushed(json!({ "block": "a" })),
+            Result(resultant, json!({ "at": [0.5, 0.0], "force": [0.0, 10.0] })),
+        ),
+        Claim(
+            "Where the force acts, [x, y] in metres. Default: the block's centroid.",
+            pushed(json!({ "block": "a", "force": [0, -10] })),
+            Result(resultant, json!({ "at": [0.5, 0.0], "force": [0.0, 20.0] })),
+        ),
+        Claim(
+            "Where the force acts, [x, y] in metres.",
+            pushed(json!({ "block": "a", "force": [0, -10], "at": [0.75, 9] })),
+            Result("/frames/0/interfaces/0/resultant/at", json!([0.625, 0])),
+        ),
+        Claim(
+            "Torque in N·m, anticlockwise positive. Default 0.",
+            pushed(json!({ "block": "a", "torque": 1 })),
+            Result("/frames/0/interfaces/0/resultant/at", json!([0.4, 0])),
+        ),
+        Claim(
+            "Edge length of a cell in metres, more than 0. Default 1.",
+            json!({ "drystone": 1, "grid": { "kind": "square" },
+            "blocks": [{ "cells": [[0, 0]] }] }),
+            Result(WEIGHT, json!(9.81)),
+        ),
+        Claim(
+            "Title of the scene",
+            file(json!({ "title": "é" })),
+            Result("/scene", json!("é")),
+        ),
+    ]);
+}

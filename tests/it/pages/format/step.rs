@@ -1,0 +1,138 @@
+//! How steps are played.
+
+use serde_json::{Value, json};
+
+use super::Shown::{Refused, Result};
+use super::{Claim, WEIGHT, file, hold};
+use crate::structure::rectangle;
+
+/// Three of them, two on each other and one beside; a robot; and steps.
+fn steps(steps: Value) -> Value {
+    let at = |id: &str, x: f64, y: f64| json!({ "id": id, "polygon": rectangle(x, y, 1.0, 1.0) });
+    file(
+        json!({ "blocks": [at("a", 0.0, 0.0), at("b", 0.0, 1.0), at("c", 3.0, 0.0)],
+        "robots": [{ "id": "r" }, { "id": "q", "holds": "a", "at": [0.25, 0.25] }], "steps": steps }),
+    )
+}
+
+#[test]
+fn steps_are_played_as_the_page_says() {
+    let holding = json!({ "place": ["a", "c"], "hold": { "r": "a" } });
+    let two = json!({ "place": ["a"], "hold": { "r": "a", "q": "a" } });
+    hold(vec![
+        Claim(
+            "Each step makes one frame",
+            steps(json!([{ "title": "t" }, {}, {}])),
+            Result("/frames/2/title", json!("")),
+        ),
+        Claim(
+            "blocks stay placed",
+            steps(json!([{ "place": ["a"] }, {}])),
+            Result("/frames/1/weight", json!(9.81)),
+        ),
+        Claim(
+            "robots keep hold of what they hold",
+            steps(json!([holding, {}])),
+            Result("/frames/1/robots/0/holds", json!("a")),
+        ),
+        Claim(
+            "a robot may let go of one block and take hold of another in the same step",
+            steps(json!([holding, { "release": ["r"], "hold": { "r": "c" } }])),
+            Result("/frames/1/robots/0/holds", json!("c")),
+        ),
+        Claim(
+            "a block that is placed in a step may be held in it",
+            steps(json!([holding])),
+            Result("/frames/0/robots/0/holds", json!("a")),
+        ),
+        Claim(
+            "takes hold of another only after its `release`",
+            steps(json!([holding, { "hold": { "r": "c" } }])),
+            Refused("holds_two", "release"),
+        ),
+        Claim(
+            "of the same block it may take hold anew, with another grip point",
+            steps(json!([holding, { "hold": { "r": { "block": "a", "at": [0.1, 0.1] } } }])),
+            Result("/frames/1/robots/0/at", json!([0.1, 0.1])),
+        ),
+        Claim(
+            "Several robots may hold one block",
+            steps(json!([two])),
+            Result("/frames/0/robots/1/holds", json!("a")),
+        ),
+        Claim(
+            "its `at` is the grip point of that block in steps, too",
+            steps(json!([two])),
+            Result("/frames/0/robots/1/at", json!([0.25, 0.25])),
+        ),
+        Claim(
+            "A robot's `holds` counts in a scene without steps",
+            steps(json!([{ "place": ["a"] }])),
+            Result("/frames/0/robots", json!([])),
+        ),
+        Claim(
+            "where all blocks stand in one frame",
+            steps(json!([])),
+            Result(WEIGHT, json!(3.0 * 9.81)),
+        ),
+        Claim(
+            "each robot holds its `holds`",
+            steps(json!([])),
+            Result("/frames/0/robots/0/id", json!("q")),
+        ),
+        Claim(
+            "may be placed again, in the same step, too",
+            steps(json!([{ "place": ["a"] }, { "remove": ["a"], "place": ["a"] }])),
+            Result("/frames/1/weight", json!(9.81)),
+        ),
+        Claim(
+            "`plan` is drawn in this frame alone and carries no force",
+            steps(json!([{ "place": ["a"], "plan": { "r": "b" } }])),
+            Result(WEIGHT, json!(9.81)),
+        ),
+        Claim(
+            "a step that places a block that is placed",
+            steps(json!([{ "place": ["a"] }, { "place": ["a"] }])),
+            Refused("placed_twice", "steps[1]"),
+        ),
+        Claim(
+            "removes or holds one that is not",
+            steps(json!([{ "place": ["a"], "remove": ["a"] }])),
+            Refused("not_placed", "removed"),
+        ),
+        Claim(
+            "removes or holds one that is not",
+            steps(json!([{ "hold": { "r": "a" } }])),
+            Refused("not_placed", "holds"),
+        ),
+        Claim(
+            "removes one that a robot holds",
+            steps(json!([holding, { "remove": ["a"] }])),
+            Refused("removed_while_held", "release"),
+        ),
+        Claim(
+            "plans one that is placed",
+            steps(json!([{ "place": ["a"], "plan": { "r": "a" } }])),
+            Refused("placed_twice", "plan"),
+        ),
+    ]);
+    let loaded = |steps: Value| {
+        let blocks = json!([{ "id": "a", "polygon": rectangle(0.0, 0.0, 1.0, 1.0) }, { "id": "b", "polygon": rectangle(3.0, 0.0, 1.0, 1.0) }]);
+        file(
+            json!({ "blocks": blocks, "loads": [{ "block": "b", "force": [0, -5] }], "steps": steps }),
+        )
+    };
+    let says = "A load acts in every frame in which its block is placed";
+    let steps = json!([{ "place": ["a"] }, { "place": ["b"] }, {}]);
+    for (pointer, force) in [
+        ("/frames/0/total_force", 9.81),
+        ("/frames/1/total_force", 24.62),
+        ("/frames/2/total_force", 24.62),
+    ] {
+        hold(vec![Claim(
+            says,
+            loaded(steps.clone()),
+            Result(pointer, json!(force)),
+        )]);
+    }
+}

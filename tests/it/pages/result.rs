@@ -1,0 +1,474 @@
+//! What the page of results says, each phrase beside a small scene that shows it.
+
+use drystone::Analysis;
+use drystone::analysis::{Ask, EffectName, MarginKind, MarginKinds, Method, Options};
+use drystone::report::result::{Layout, Timing, to_json};
+use serde_json::{Value, json};
+
+use super::words_of;
+use crate::structure::{block, on_floor, on_slope, rectangle, scene};
+
+fn result(file: &Value, options: &Options) -> Value {
+    let analysis = Analysis::with(scene(file), options);
+    let json = to_json(&analysis, Timing::LeftOut, Layout::OneLine);
+    serde_json::from_str(&json).expect("JSON")
+}
+
+/// A phrase of the page, a scene and how it is examined, a place in the result, and what is there; `None` for nothing.
+struct Claim<'a>(
+    &'static str,
+    &'a Value,
+    &'a Options,
+    &'static str,
+    Option<Value>,
+);
+
+fn hold(claims: Vec<Claim<'_>>) {
+    let page = words_of("src/doc/result.md");
+    for Claim(said, file, options, pointer, expected) in claims {
+        assert!(page.contains(said), "the page does not say: {said}");
+        let result = result(file, options);
+        let found = result.pointer(pointer);
+        let near = match (
+            found.and_then(Value::as_f64),
+            expected.as_ref().and_then(Value::as_f64),
+        ) {
+            (Some(a), Some(b)) => (a - b).abs() <= 1e-9 * b.abs().max(1.0),
+            _ => found == expected.as_ref(),
+        };
+        assert!(near, "{said}\n{file}\n{pointer}: {found:?}");
+    }
+}
+
+/// A block of 3 m by 2 m that hangs in the air.
+fn hanging() -> Value {
+    on_floor(0.7, vec![block("a", rectangle(0.0, 5.0, 3.0, 2.0), 6.0)])
+}
+
+fn held(limits: Value, loads: Value) -> Value {
+    let mut file = on_floor(0.7, vec![block("a", rectangle(0.0, 5.0, 2.0, 2.0), 10.0)]);
+    file["robots"] = json!([{ "id": "idle" }, { "id": "r", "holds": "a", "limits": limits }]);
+    file["loads"] = loads;
+    file
+}
+
+#[test]
+fn sums_lengths_and_shares_are_as_the_page_says() {
+    let plain = Options::default();
+    let beside = |widths: &[f64]| {
+        let blocks = widths.iter().enumerate();
+        let blocks = blocks.map(|(k, width)| {
+            block(
+                &k.to_string(),
+                rectangle(5.0 * k as f64, 0.0, *width, 1.0),
+                1.0,
+            )
+        });
+        on_floor(0.7, blocks.collect())
+    };
+    let mut tip = on_floor(
+        0.7,
+        vec![block("a", json!([[0, 0], [1, 1], [0, 2], [-1, 1]]), 1.0)],
+    );
+    tip["corner_contacts"] = json!(true);
+    let mut smooth = on_floor(0.0, vec![block("a", rectangle(0.0, 0.0, 1.0, 1.0), 1.0)]);
+    let flat = smooth.clone();
+    smooth["loads"] = json!([{ "block": "a", "force": [1, 0] }]);
+    let mut hung = beside(&[1.0]);
+    hung["blocks"].as_array_mut().expect("blocks").push(block(
+        "z",
+        rectangle(0.0, 5.0, 1.0, 1.0),
+        2.0,
+    ));
+    let slides = on_slope(35.0, 2.0, 1.0, 0.5, 0.1);
+    let only = Options::default().verdict_only(Ask::Yes);
+    let (nothing, two, three) = (
+        on_floor(0.7, vec![]),
+        beside(&[3.0, 0.5]),
+        beside(&[3.0, 0.5, 2.0]),
+    );
+    let hanging = hanging();
+    let none = json!([]);
+    let (short, no, side) = (
+        held(json!({ "force": 9 }), none.clone()),
+        held(json!({ "force": 0 }), none.clone()),
+        held(
+            json!({ "force": 20 }),
+            json!([{ "block": "a", "force": [15, 0] }]),
+        ),
+    );
+    let at = |said, file, pointer, value| Claim(said, file, &plain, pointer, Some(value));
+    hold(vec![
+        at(
+            "the median length of the frame's interfaces",
+            &three,
+            "/frames/0/length",
+            json!(2.0),
+        ),
+        at(
+            "of two in the middle the shorter",
+            &two,
+            "/frames/0/length",
+            json!(0.5),
+        ),
+        at(
+            "corner contacts apart",
+            &tip,
+            "/frames/0/length",
+            json!(2f64.sqrt()),
+        ),
+        at(
+            "without any the square root of the median block's area",
+            &hanging,
+            "/frames/0/length",
+            json!(6f64.sqrt()),
+        ),
+        at(
+            "and 1 in an empty frame",
+            &nothing,
+            "/frames/0/length",
+            json!(1.0),
+        ),
+        at(
+            "weight of all blocks placed, whether they stand or not",
+            &hung,
+            "/frames/0/weight",
+            json!(3.0),
+        ),
+        at(
+            "share of the available friction that is used, 0 to 1, and 0 without friction",
+            &smooth,
+            "/frames/0/interfaces/0/friction_used",
+            json!(0.0),
+        ),
+        at(
+            "share of the available friction that is used, 0 to 1, and 0 without friction",
+            &flat,
+            "/frames/0/interfaces/0/friction_used",
+            json!(0.0),
+        ),
+        at(
+            "where it falls, in the balance that the missing forces complete",
+            &slides,
+            "/frames/0/interfaces/0/friction_used",
+            json!(1.0),
+        ),
+        at(
+            "robots that hold a block in this frame",
+            &side,
+            "/frames/0/robots/0/id",
+            json!("r"),
+        ),
+        Claim(
+            "robots that hold a block in this frame",
+            &side,
+            &plain,
+            "/frames/0/robots/1",
+            None,
+        ),
+        at(
+            "largest share of a limit that is used, 0 to 1",
+            &side,
+            "/frames/0/robots/0/limit_used",
+            json!(0.75),
+        ),
+        at(
+            "where it falls, in the balance that the missing forces complete",
+            &short,
+            "/frames/0/robots/0/limit_used",
+            json!(1.0),
+        ),
+        at(
+            "and 0 where there is none or nothing may be given",
+            &no,
+            "/frames/0/robots/0/limit_used",
+            json!(0.0),
+        ),
+        at(
+            "the missing force, on `bodies[0]` or on the block",
+            &short,
+            "/frames/0/failures/0/force",
+            json!([0.0, 1.0]),
+        ),
+        at(
+            "`failures` may be empty and `total_sticking` 0 where it falls",
+            &hanging,
+            "/frames/0/verdict",
+            json!("unstable"),
+        ),
+        at(
+            "`failures` may be empty",
+            &hanging,
+            "/frames/0/failures",
+            json!([]),
+        ),
+        at(
+            "where nothing that sticks would help (`unsupported`)",
+            &hanging,
+            "/frames/0/total_sticking",
+            json!(0.0),
+        ),
+        Claim(
+            "where it was not sought (`--verdict-only`)",
+            &slides,
+            &only,
+            "/frames/0/total_sticking",
+            Some(json!(0.0)),
+        ),
+        Claim(
+            "`failures` may be empty",
+            &slides,
+            &only,
+            "/frames/0/failures",
+            Some(json!([])),
+        ),
+        at(
+            "blocks that no sticking at the contacts and grips could hold",
+            &hung,
+            "/frames/0/unsupported",
+            json!(["z"]),
+        ),
+        at(
+            "how the blocks that move begin to",
+            &hung,
+            "/frames/0/mechanism/0/block",
+            json!("z"),
+        ),
+        Claim(
+            "how the blocks that move begin to",
+            &hung,
+            &plain,
+            "/frames/0/mechanism/1",
+            None,
+        ),
+        at(
+            "empty where stable",
+            &flat,
+            "/frames/0/mechanism",
+            json!([]),
+        ),
+        at(
+            "the step's title; empty where it has none",
+            &flat,
+            "/frames/0/title",
+            json!(""),
+        ),
+        at(
+            "a sum that no balance can do without",
+            &flat,
+            "/frames/0/total_force_bound",
+            json!(1.0),
+        ),
+        Claim(
+            "where it stands and was shown",
+            &hanging,
+            &plain,
+            "/frames/0/total_force_bound",
+            None,
+        ),
+    ]);
+}
+
+#[test]
+fn what_is_asked_for_is_there_and_the_rest_is_not() {
+    let plain = Options::default();
+    let some = Options::default()
+        .margins(Ask::Yes)
+        .margin_kinds(MarginKinds::of(&[MarginKind::Friction]));
+    let all = Options::default().margins(Ask::Yes).wedging(Ask::Yes);
+    let stands = on_floor(0.7, vec![block("a", rectangle(0.0, 0.0, 1.0, 1.0), 1.0)]);
+    let mut narrow = stands.clone();
+    narrow["blocks"][0]["polygon"] = rectangle(0.0, 0.005, 1.0, 1.0);
+    let (hanging, held) = (hanging(), held(json!(null), json!([])));
+    let there =
+        |said, file, options, pointer, value| Claim(said, file, options, pointer, Some(value));
+    let empty = json!({ "left": [], "right": [] });
+    hold(vec![
+        Claim(
+            "`frames[].margins` | object | | with `--margins`",
+            &stands,
+            &plain,
+            "/frames/0/margins",
+            None,
+        ),
+        there(
+            "`frames[].margins.friction` | number, null or `\"unbounded\"` | | where asked for",
+            &stands,
+            &some,
+            "/frames/0/margins/friction",
+            json!(0.0),
+        ),
+        Claim(
+            "`frames[].margins.kernel` | number, null or `\"unbounded\"` | | where asked for",
+            &stands,
+            &some,
+            "/frames/0/margins/kernel",
+            None,
+        ),
+        Claim(
+            "`frames[].margins.tilt` | object | | where asked for",
+            &stands,
+            &some,
+            "/frames/0/margins/tilt",
+            None,
+        ),
+        there(
+            "empty where they are not asked for",
+            &held,
+            &some,
+            "/frames/0/margins/robots",
+            json!({}),
+        ),
+        there(
+            "least limits of each robot that holds a block, by its name",
+            &held,
+            &all,
+            "/frames/0/margins/robots/r/fy",
+            json!(10.0),
+        ),
+        Claim(
+            "least limits of each robot that holds a block, by its name",
+            &held,
+            &all,
+            "/frames/0/margins/robots/idle",
+            None,
+        ),
+        there(
+            "empty beyond what has no end or is null",
+            &stands,
+            &some,
+            "/frames/0/margins/mechanisms/tilt",
+            empty.clone(),
+        ),
+        there(
+            "empty beyond what has no end or is null",
+            &hanging,
+            &all,
+            "/frames/0/margins/mechanisms/tilt",
+            empty,
+        ),
+        there(
+            "null where it falls unturned",
+            &hanging,
+            &all,
+            "/frames/0/margins/tilt/left",
+            Value::Null,
+        ),
+        there(
+            "null where no value will do",
+            &hanging,
+            &all,
+            "/frames/0/margins/friction",
+            Value::Null,
+        ),
+        there(
+            "`frames[].only_by_wedging` | true, false or null | | with `--wedging`, where it stands",
+            &stands,
+            &all,
+            "/frames/0/only_by_wedging",
+            json!(false),
+        ),
+        Claim(
+            "with `--wedging`, where it stands",
+            &hanging,
+            &all,
+            "/frames/0/only_by_wedging",
+            None,
+        ),
+        Claim(
+            "with `--wedging`, where it stands",
+            &stands,
+            &plain,
+            "/frames/0/only_by_wedging",
+            None,
+        ),
+        there(
+            "of forces where it stands",
+            &stands,
+            &plain,
+            "/frames/0/proof/worst_pull",
+            json!(0.0),
+        ),
+        there(
+            "of a motion where it falls",
+            &hanging,
+            &plain,
+            "/frames/0/proof/no_balance_below",
+            json!("unbounded"),
+        ),
+        there(
+            "of either where undecided",
+            &narrow,
+            &plain,
+            "/frames/0/verdict",
+            json!("undecided"),
+        ),
+        Claim(
+            "`frames[].doubt` | text | | where there is one",
+            &stands,
+            &plain,
+            "/frames/0/doubt",
+            None,
+        ),
+        Claim(
+            "where `false`",
+            &stands,
+            &plain,
+            "/frames/0/total_force_least",
+            None,
+        ),
+        Claim(
+            "`notes` | list of objects | | where there are some",
+            &stands,
+            &plain,
+            "/notes",
+            None,
+        ),
+        there(
+            "the scene's title; empty where it has none",
+            &stands,
+            &plain,
+            "/scene",
+            json!(""),
+        ),
+        Claim("from the command line", &stands, &plain, "/file", None),
+    ]);
+}
+
+#[test]
+fn effects_and_methods_have_the_names_on_the_page() {
+    let page = words_of("src/doc/result.md");
+    let stands = on_floor(0.7, vec![block("a", rectangle(0.0, 0.0, 1.0, 1.0), 1.0)]);
+    let result = result(&stands, &Options::default());
+    let effects = result["frames"][0]["effects"].as_array().expect("effects");
+    let named: Vec<String> = effects
+        .iter()
+        .map(|e| format!("`{}`", e["effect"].as_str().unwrap_or("")))
+        .collect();
+    let (last, first) = named.split_last().expect("some");
+    assert!(
+        page.contains(&format!("{} or {last}", first.join(", "))),
+        "{named:?}"
+    );
+    // What is left out tells what it would have cost.
+    let sticking = effects
+        .iter()
+        .find(|e| e["effect"] == EffectName::Sticking.word())
+        .expect("there");
+    assert_eq!(
+        (
+            &sticking["simulated"],
+            sticking["unknowns"].as_u64() > Some(0)
+        ),
+        (&json!(false), true)
+    );
+    for method in [
+        Method::ClosedForm,
+        Method::LeastForce,
+        Method::LeastForceRefined,
+        Method::LeastResidual,
+        Method::LeastSticking,
+    ] {
+        assert!(page.contains(&format!("`{method}`")), "{method}");
+    }
+}
