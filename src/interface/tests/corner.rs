@@ -32,7 +32,7 @@ fn blocks_at_the_four_corners_of_a_square_press_along_its_diagonals() {
     }
 }
 
-/// A wedge of 2a in a notch of 2b, tip in tip: upward, and so is what a spire in the ground gives to a notched block.
+/// A wedge whose tip stands in a notch of the ground, and a spire of the ground in a notch of a block.
 #[test]
 fn a_tip_in_a_notch_presses_along_the_notch() {
     let notched = odd(&[
@@ -62,7 +62,7 @@ fn a_tip_in_a_notch_presses_along_the_notch() {
     assert!(near(found[0].normal, [0.0, 1.0]), "{found:?}");
 }
 
-/// A star on a slope of 3 : 4, with one tip in the middle of it, one at its foot and one beyond that.
+/// A pointed post on a slope of 3 : 4, wherever along it; beside it there is no contact.
 #[test]
 fn a_tip_on_a_slope_is_pushed_square_to_it_wherever_it_stands() {
     // The slope runs from (0, 0) up to (8, 6), on a part of the ground that falls off behind it.

@@ -108,3 +108,62 @@ fn tips_of_cells_touch_sides_and_tips_at_nodes() {
         assert!(near(tip.normal, normal), "{tip:?}");
     }
 }
+
+/// The slope's side of 0.6 m that a row of cells beside it shares, with all its digits, is one interface.
+#[test]
+fn rows_of_triangles_share_slanted_sides() {
+    let triangles = |list: &[(f64, f64, CellHalf)]| {
+        let cells = list.iter();
+        let cells = cells.map(|(x, y, half)| CellEntry::Triangle(*x, *y, *half));
+        cells.collect::<Vec<_>>()
+    };
+    let (up, down) = (CellHalf::Up, CellHalf::Down);
+    let slope = [(7.0, 5.0, up), (7.0, 6.0, down), (7.0, 6.0, up)];
+    let beside = [(6.0, 6.0, down), (6.0, 6.0, up), (6.0, 7.0, down)];
+    let scene = Scene::builder()
+        .grid(GridKind::Triangular, 0.3)
+        .friction(0.5)
+        .ground(GroundEntry::default().cells(triangles(&slope)))
+        .block(BlockEntry::new("beside").cells(triangles(&beside)))
+        .build()
+        .expect("a sound scene");
+    let found = Interfaces::of(&scene).all;
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!((found[0].length() - 0.6).abs() < 1e-12);
+    assert!(near(found[0].normal, [-libm::sqrt(0.75), 0.5]));
+    // From (7, 7) down to (7, 5) of the lattice, by way of (7, 6).
+    let middle = [0.3 * 10.0, 0.3 * 6.0 * libm::sqrt(0.75)];
+    assert!(near(found[0].middle().coords, middle), "{found:?}");
+}
+
+/// Parts of the ground press each other however they like: that is nobody's question.
+#[test]
+fn parts_of_the_ground_have_no_contacts_with_each_other() {
+    let part = |x: f64, y: f64| GroundEntry::default().cells(squares(&[(x, y)]));
+    let cells = Scene::builder()
+        .grid(GridKind::Square, 2.0)
+        .friction(0.5)
+        .corner_contacts(true)
+        .ground(part(0.0, 0.0))
+        .ground(part(1.0, 0.0))
+        .ground(part(2.0, 1.0))
+        .block(BlockEntry::new("on").cells(squares(&[(0.0, 1.0)])))
+        .build()
+        .expect("a sound scene");
+    let on = [FIRST, BodyId::Ground(0)];
+    let tip = [FIRST, BodyId::Ground(1)];
+    let pairs = |scene: &Scene| {
+        let found = Interfaces::of(scene).all;
+        found.iter().map(|i| i.bodies).collect::<Vec<_>>()
+    };
+    assert_eq!(pairs(&cells), [on, tip]);
+    let drawn = scene(
+        vec![
+            rectangle(0.0, 0.0, 1.0, 1.0),
+            rectangle(1.0, 0.0, 1.0, 1.0),
+            rectangle(2.0, 1.0, 1.0, 1.0),
+        ],
+        vec![rectangle(0.0, 1.0, 0.5, 1.0)],
+    );
+    assert_eq!(pairs(&drawn), [on]);
+}
