@@ -131,9 +131,11 @@ fn rows_of_triangles_share_slanted_sides() {
     assert_eq!(found.len(), 1, "{found:?}");
     assert!((found[0].length() - 0.6).abs() < 1e-12);
     assert!(near(found[0].normal, [-libm::sqrt(0.75), 0.5]));
-    // From (7, 7) down to (7, 5) of the lattice, by way of (7, 6).
-    let middle = [0.3 * 10.0, 0.3 * 6.0 * libm::sqrt(0.75)];
-    assert!(near(found[0].middle().coords, middle), "{found:?}");
+    // From one node to the other, to the last digit.
+    let lattice = scene.lattice.expect("a lattice");
+    let ends = [(7, 7), (7, 5)].map(|node| lattice.node(node));
+    assert_eq!(found[0].ends, ends);
+    assert!(near(ends[1].coords, [0.3 * 9.5, 1.5 * libm::sqrt(0.75)]));
 }
 
 /// Parts of the ground press each other however they like: that is nobody's question.
