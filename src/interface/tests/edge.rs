@@ -234,3 +234,20 @@ fn slivers_count_as_interfaces_where_they_are_asked_for() {
     let begin = "3 contact(s) up to 3.1e-7 m long are shorter than ";
     assert!(found.notices[0].starts_with(begin), "{:?}", found.notices);
 }
+
+/// A box whose left end is up by ten gaps, on a floor that begins at its middle: there it is up by five.
+#[test]
+fn how_far_edges_are_apart_counts_where_both_are() {
+    let at = |rise: f64, begin: f64| {
+        let mut block = rectangle(0.0, 0.0, 2.0, 2.0);
+        block[0][1] += rise;
+        scene(vec![rectangle(begin, -1.0, 9.0, 1.0)], vec![block])
+    };
+    let gap = gap(&at(0.0, 1.0), BodyId::Ground(0));
+    for (begin, apart) in [(1.0, 5.0), (0.5, 7.5), (-1.0, 10.0)] {
+        let found = Interfaces::of(&at(10.0 * gap, begin));
+        assert_eq!(found.near.len(), 1, "{begin}");
+        let off = (found.near[0].distance - apart * gap).abs();
+        assert!(off < 1e-9, "{begin} {:?}", found.near[0]);
+    }
+}
