@@ -110,3 +110,45 @@ fn imbalance_knows_no_unit() {
         assert_near(other_share / share, 1.0, 1e-9);
     }
 }
+
+/// A box of 9 N on five narrow joints, pressed with 1 N at each of their ten points: each and the weight must change alike.
+#[test]
+fn many_small_forces_are_weighed_as_few_large_ones_are() {
+    let joints = (0..5_u8).map(|k| {
+        let mut narrow = joint(0, None, 0.0);
+        let at = |x: f64| Point::new(2.0 + 0.5 * (f64::from(k) - 2.0) + x, 0.0);
+        (narrow.ends, narrow.points) = ([at(0.2), at(-0.2)], [at(0.1), at(-0.1)]);
+        narrow
+    });
+    let there = assembly(
+        vec![body(0, 0.0, 3.0, 9.0, LoadVector::NONE)],
+        joints.collect(),
+    );
+    // Friction is in balance by itself, and counts neither way.
+    let rubbing = [0.4, -0.4, 0.4, -0.4, 0.0].map(|f| pressed(1.0, 1.0, f));
+    let all = found(&there, rubbing.into(), vec![]);
+    assert_near(all[0], 1.0 / 19.0, 1e-5);
+    assert_near(all[1], 1.0 / 9.0, 1e-14);
+}
+
+/// Friction below the stone alone, granted as much whether the stone is 3 mm, 3 m or 3 km high.
+#[test]
+fn imbalance_knows_no_unit_of_length() {
+    let side = 1e-8;
+    for scale in [1e-3, 1.0, 1e3] {
+        let mut there = squeezed(1e-9, 0.5, listed(side, 0.0, 0.0));
+        there.contacts[1].friction = 0.0;
+        let longer = |p: Point| Point::from(p.coords * scale);
+        for body in &mut there.bodies {
+            body.centroid = longer(body.centroid);
+            body.corners = body.corners.iter().map(|p| longer(*p)).collect();
+        }
+        for contact in &mut there.contacts {
+            contact.ends = contact.ends.map(longer);
+            contact.points = contact.points.map(longer);
+        }
+        let pressed = [pressed(1000.0, 1000.0, 0.0); 2];
+        let all = found(&there, pressed.into(), vec![]);
+        assert_near(all[0] / (side / granted(4000.0)), 1.0, 1e-3);
+    }
+}
