@@ -14,11 +14,13 @@ fn a_bound_from_below_has_every_rounding_taken_off() {
     // Ten roundings of the power, eight of the speed.
     both.grips = vec![grip(1, 0.0, f64::INFINITY, 0.0)];
     let found = bound(&both, moving(1, 0.0, -4.0, 0.0)) / (34.0 / 4.0);
-    assert!(found <= 1.0 - 14.0 * EPSILON && found >= 1.0 - 21.0 * EPSILON);
+    let less = 1.0 - found;
+    assert!((14.0 * EPSILON..21.0 * EPSILON).contains(&less));
     // Along x the grip goes by 5 and by 2.5 more for the turning.
     both.grips = vec![grip(1, f64::INFINITY, 0.0, 0.0)];
     let found = bound(&both, moving(1, -5.0, -4.0, -2.5)) / (34.0 / 7.5);
-    assert!(found <= 1.0 - 18.0 * EPSILON && found >= 1.0 - 30.0 * EPSILON);
+    let less = 1.0 - found;
+    assert!((18.0 * EPSILON..30.0 * EPSILON).contains(&less));
     // A limit of less than 10⁴ times the 8.5 N that move is one, and takes more power than there is.
     for (limit, expected) in [(5e4, 0.0), (9e4, 34.0 / 4.0)] {
         both.grips = vec![grip(1, 0.0, limit, 0.0)];
