@@ -1,103 +1,53 @@
 //! Programs posed from assemblies, and forms of them, in numbers worked out by hand.
 
 use super::*;
-use crate::assembly::{AssemblyBody, AssemblyContact, AssemblyGrip, LoadVector};
-
-use crate::scene::{BlockId, BodyId, Limits, RobotId};
-
-/// A box of 4 m by 3 m on the ground, a board of 4 m by 2 m on it, a robot at the board's upper left corner; L = 4 m.
-fn stacked() -> Assembly {
-    let body = |number: usize, height: f64, weight: f64, listed: LoadVector| AssemblyBody {
-        block: BlockId(number),
-        centroid: Point::new(2.0, height),
-        corners: [-1.0, 1.0]
-            .map(|y| Point::new(2.0 + 2.0 * y, height + y))
-            .into(),
-        weight,
-        listed,
-        load: LoadVector::NONE,
+/// A box on the ground, a board on a corner of it, a robot at the board's upper left corner.
+fn stacked() -> Program {
+    let arms = |y: f64| [Vector::new(0.25, y), Vector::new(-0.25, y)];
+    let joint = |on, from, kind, points| ContactTerm {
+        kind,
+        on,
+        from,
+        normal: Vector::new(0.0, 1.0),
+        friction: 0.25,
+        points,
     };
-    let joint = |on: usize, from: Option<usize>, height: f64, kind: ContactKind| {
-        let at = |x: f64| Point::new(x, height);
-        AssemblyContact {
-            interface: on,
-            bodies: [
-                BodyId::Block(BlockId(on)),
-                from.map_or(BodyId::Ground(0), |n| BodyId::Block(BlockId(n))),
-            ],
-            on,
-            from,
-            kind,
-            ends: [at(4.0), at(0.0)],
-            points: [at(3.0), at(1.0)],
-            normal: Vector::new(0.0, 1.0),
-            friction: 0.25,
-        }
-    };
-    let listed = LoadVector {
-        force: Vector::new(30.0, 50.0),
-        moment: -80.0,
-    };
-    Assembly {
-        bodies: vec![
-            body(0, 1.5, 600.0, LoadVector::NONE),
-            body(1, 4.0, 90.0, listed),
-        ],
+    Program {
+        blocks: 2,
+        loads: vec![0.0, 300.0, 0.0, -15.0, 20.0, 10.0],
         contacts: vec![
-            joint(0, None, 0.0, ContactKind::Edge),
-            joint(1, Some(0), 3.0, ContactKind::Corner),
+            joint((0, arms(-0.375)), None, ContactKind::Edge, 2),
+            joint(
+                (1, arms(-0.25)),
+                Some((0, arms(0.375))),
+                ContactKind::Corner,
+                1,
+            ),
         ],
-        grips: vec![AssemblyGrip {
-            hold: 0,
-            robot: RobotId(0),
-            body: 1,
-            at: Point::new(0.0, 5.0),
-            limits: Limits {
-                fx: 20.0,
-                fy: 50.0,
-                torque: 64.0,
-            },
+        grips: vec![GripTerm {
+            block: 1,
+            arm: Vector::new(-0.5, 0.25),
+            limits: [10.0, 25.0, 8.0],
         }],
-        pull: Vector::new(0.0, -1.0),
-        load_factor: 1.0,
-        length: 4.0,
+        scale: Scale::of(4.0, 600.0),
     }
-    .settled()
 }
 
 #[test]
-fn a_program_counts_lengths_in_l_and_forces_by_the_heaviest_load() {
-    let assembly = stacked();
-    let scale = Scale::of_assembly(&assembly);
-    assert_eq!((scale.length, scale.force, scale.moment()), (4.0, 2.0, 8.0));
-    let program = Program::of(&assembly, scale);
-    assert_eq!(program.blocks, 2);
-    assert_eq!(program.scale, scale);
-    // What must be given: against 600 N down, and against 30 N, 40 N down and −80 N·m.
-    assert_eq!(program.loads, [0.0, 300.0, 0.0, -15.0, 20.0, 10.0]);
-    let [below, between] = &program.contacts[..] else {
-        panic!("two contacts");
-    };
-    let arms = |y: f64| [Vector::new(0.25, y), Vector::new(-0.25, y)];
-    assert_eq!((below.on, below.from), ((0, arms(-0.375)), None));
+fn a_scale_counts_by_lengths_and_by_the_heaviest_load() {
+    let scale = Scale::of(5.0, 3.0);
     assert_eq!(
-        (between.on, between.from),
-        ((1, arms(-0.25)), Some((0, arms(0.375))))
+        (scale.length, scale.force, scale.moment()),
+        (5.0, 0.01, 0.05)
     );
-    assert_eq!((below.points, between.points), (2, 1));
-    assert_eq!((below.friction, between.friction), (0.25, 0.25));
-    let grip = &program.grips[0];
-    assert_eq!((grip.block, grip.arm), (1, Vector::new(-0.5, 0.25)));
-    assert_eq!(grip.limits, [10.0, 25.0, 8.0]);
     // Without loads a unit is a three hundredth of a newton.
     assert_eq!(Scale::of(2.0, 0.0).force, 1.0 / 300.0);
-    assert_eq!(Scale::of(5.0, 3.0).moment(), 0.05);
 }
 
 /// Smooth joints have no friction, and what passes by a centroid does not turn its block.
 #[test]
 fn columns_of_several_blocks_multiply_as_rows_of_numbers_do() {
-    let mut program = Program::of(&stacked(), Scale::of(4.0, 600.0));
+    let mut program = stacked();
     program.contacts[0].on.1[1].x = 0.0;
     program.contacts[1].on.1[0].x = 0.0;
     let smooth = {
@@ -251,7 +201,7 @@ fn the_form_in_forces_sums_costs_and_caps_another_sum() {
 #[test]
 fn joints_nearly_parallel_or_square_are_made_so_together() {
     let turned = |angle: f64| Vector::new(libm::cos(angle), libm::sin(angle));
-    let mut program = Program::of(&stacked(), Scale::of(4.0, 600.0));
+    let mut program = stacked();
     let (up, side) = (core::f64::consts::FRAC_PI_2, 0.0);
     let both = [up, up + 1e-13].map(turned);
     (program.contacts.iter_mut().zip(both)).for_each(|(c, n)| c.normal = n);
