@@ -1,7 +1,12 @@
 //! What touches in scenes whose contacts can be named by looking at them.
 
 use super::*;
-use crate::scene::format::{BlockEntry, CellEntry, GridKind, GroundEntry, Pair};
+use crate::scene::format::{BlockEntry, CellEntry, CellHalf, GridKind, GroundEntry, Pair};
+
+mod corner;
+mod edge;
+mod held;
+mod lattice;
 
 /// Coordinates times this have all their digits, so that no scene here takes them for rounded and moves corners.
 const ODD: f64 = 1.023_456_789_012_345_6;

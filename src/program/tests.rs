@@ -2,6 +2,8 @@
 
 use super::*;
 
+mod pose;
+
 const THIRD: f64 = 1.0 / 3.0;
 
 /// The box with 1 N to the right, 8 N down and 3 N·m, and a robot at its upper left corner, with limits in N and N·m.

@@ -5,6 +5,9 @@ use crate::assembly::{AssemblyContact, AssemblyGrip};
 use crate::scene::format::BlockEntry;
 use crate::scene::{BodyId, Limits, RobotId};
 
+mod balance;
+mod least;
+
 /// A box of 4 m by 3 m with its lower left corner at the origin: centroid (2, 1.5), farthest corner 2.5 m from it.
 fn body(number: usize, bottom: f64, height: f64, weight: f64, listed: LoadVector) -> AssemblyBody {
     let corners = [(0.0, 0.0), (4.0, 0.0), (4.0, height), (0.0, height)];

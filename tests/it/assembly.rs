@@ -360,7 +360,7 @@ fn a_program_counts_lengths_in_l_and_forces_in_parts_of_the_heaviest_load() {
         "ground": [{ "polygon": rectangle(-1.0, -1.0, 9.0, 1.0) }],
         "blocks": [{ "id": "a", "polygon": rectangle(0.0, 0.0, 4.0, 3.0), "weight": 600 }],
         "loads": [{ "block": "a", "force": [10, 0], "at": [2, 3], "torque": 3 }],
-        "robots": [{ "id": "r", "holds": "a", "at": [0, 3], "limits": { "fx": 20, "torque": 64 } }] });
+        "robots": [{ "id": "r", "holds": "a", "at": [0, 3], "limits": { "fx": 20, "fy": 50, "torque": 64 } }] });
     let scene = Scene::from_json(&file.to_string()).expect("a sound scene");
     let (assembly, _) = assembly_of(&scene, &scene.frames()[0]);
     let scale = Scale::of_assembly(&assembly);
@@ -382,7 +382,8 @@ fn a_program_counts_lengths_in_l_and_forces_in_parts_of_the_heaviest_load() {
     );
     assert_eq!(program.grips[0].arm, Vector::new(-0.5, 0.375));
     let limits = program.grips[0].limits;
-    assert!((limits[0] * scale.force - 20.0).abs() < 1e-9 && limits[1].is_infinite());
+    assert!((limits[0] * scale.force - 20.0).abs() < 1e-9);
+    assert!((limits[1] * scale.force - 50.0).abs() < 1e-9);
     assert!((limits[2] * scale.moment() - 64.0).abs() < 1e-9);
     // Without loads a unit is a three hundredth of a newton.
     assert_eq!(Scale::of(2.0, 0.0).force, 1.0 / 300.0);

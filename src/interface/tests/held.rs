@@ -1,0 +1,163 @@
+//! Which stone keeps a gap open, and in which frames it does.
+
+use super::*;
+use crate::interface::held::{Touching, held_open};
+
+const GROUND: BodyId = BodyId::Ground(0);
+const STONE: BodyId = BodyId::Block(BlockId(1));
+
+/// A level stretch 1 m long whose middle lies here, with a unit normal.
+fn stretch(bodies: [BodyId; 2], middle: [f64; 2], normal: [f64; 2]) -> Interface {
+    let along = Vector::new(-normal[1], normal[0]) / 2.0;
+    let middle = Point::new(middle[0], middle[1]);
+    Interface {
+        bodies,
+        kind: ContactKind::Edge,
+        ends: [middle - along, middle + along],
+        normal: Vector::new(normal[0], normal[1]),
+        friction: 0.5,
+    }
+}
+
+/// The gap of 2 m between the first block above and the ground below.
+fn gap() -> Near {
+    Near {
+        bodies: [FIRST, GROUND],
+        at: Point::new(0.0, 2.0),
+        distance: 2.0,
+    }
+}
+
+fn below() -> Interface {
+    stretch([STONE, GROUND], [0.0, 0.0], [0.0, 1.0])
+}
+
+fn above(x: f64, height: f64) -> Interface {
+    stretch([FIRST, STONE], [x, height], [0.0, 1.0])
+}
+
+fn keeps(all: &[Interface], stands: bool, tolerance: f64) -> Option<BlockId> {
+    held_open(&gap(), &Touching::of(all), |_| stands, tolerance)
+}
+
+#[test]
+fn a_stone_as_high_as_the_gap_keeps_it_open_give_or_take_a_tenth() {
+    for (height, tolerance, holds) in [
+        (2.0, 0.0, true),
+        (-2.0, 0.0, true),
+        (2.19, 0.0, true),
+        (2.21, 0.0, false),
+        (2.69, 0.5, true),
+        (2.71, 0.5, false),
+        (1.01, 0.0, true),
+        (0.99, 0.0, false),
+        (0.0, 0.0, false),
+    ] {
+        // However far along the gap it is touched: the height counts.
+        for x in [0.0, 30.0] {
+            let found = keeps(&[below(), above(x, height)], true, tolerance);
+            assert_eq!(found, holds.then_some(BlockId(1)), "{height} {tolerance}");
+        }
+    }
+}
+
+#[test]
+fn what_keeps_a_gap_open_stands_there_and_touches_both_on_opposite_sides() {
+    assert_eq!(keeps(&[below(), above(0.0, 2.0)], false, 0.0), None);
+    assert_eq!(keeps(&[below()], true, 0.0), None);
+    assert_eq!(keeps(&[above(0.0, 2.0)], true, 0.0), None);
+    // Its upper side is inclined: by a twentieth it still counts, by 3/4 it does not.
+    for (normal, holds) in [([0.05, 0.998_75], true), ([0.6, 0.8], false)] {
+        let inclined = stretch([FIRST, STONE], [0.0, 2.0], normal);
+        let found = keeps(&[below(), inclined], true, 0.0);
+        assert_eq!(found.is_some(), holds, "{normal:?}");
+    }
+    // A stone beneath another block, and two parts of the ground, keep nothing apart.
+    let third = BodyId::Block(BlockId(2));
+    let other = stretch([third, STONE], [0.0, 2.0], [0.0, 1.0]);
+    assert_eq!(keeps(&[below(), other], true, 0.0), None);
+    let part = BodyId::Ground(1);
+    let parts = [
+        stretch([FIRST, part], [0.0, 2.0], [0.0, 1.0]),
+        stretch([FIRST, GROUND], [0.0, 0.0], [0.0, 1.0]),
+    ];
+    assert_eq!(keeps(&parts, true, 0.0), None);
+}
+
+/// A brick on a brick, apart by less than counts as a contact, and two stones of which the first is as high as the gap.
+fn pinned() -> Scene {
+    let height = 1e-6;
+    let mut bricks = [
+        rectangle(0.0, 0.0, 2.0, 1.0),
+        rectangle(0.0, 1.0, 2.0, 1.0),
+        rectangle(0.5, 1.0, 1.0, 1.0),
+        rectangle(3.0, 0.0, 1.0, 1.0),
+    ];
+    bricks[1].iter_mut().for_each(|p| p[1] += height);
+    let base = bricks[2][0];
+    bricks[2] = vec![
+        base,
+        [base[0] + height, base[1]],
+        [base[0] + height, base[1] + height],
+        [base[0], base[1] + height],
+    ];
+    scene(vec![rectangle(-5.0, -1.0, 10.0, 1.0)], bricks.into())
+}
+
+fn frame(placed: &[usize]) -> Frame {
+    Frame {
+        title: String::new(),
+        placed: placed.iter().map(|n| BlockId(*n)).collect(),
+        holds: Vec::new(),
+        plans: Vec::new(),
+    }
+}
+
+#[test]
+fn a_frame_has_what_touches_in_it_and_no_gap_that_its_stones_keep_open() {
+    let scene = pinned();
+    let found = Interfaces::of(&scene);
+    assert_eq!(found.propped.len(), 1, "{:?}", found.propped);
+    assert_eq!(found.propped[0].stone, BlockId(2));
+    let block = |n: usize| BodyId::Block(BlockId(n));
+    let pairs = |placed: &[usize]| {
+        let list = found.in_frame(&scene, &frame(placed));
+        let edges = list.iter().filter(|i| i.kind == ContactKind::Edge);
+        edges.map(|i| i.bodies).collect::<Vec<_>>()
+    };
+    let foot = [block(0), GROUND];
+    assert_eq!(pairs(&[]), [] as [[BodyId; 2]; 0]);
+    assert_eq!(pairs(&[0]), [foot]);
+    assert_eq!(pairs(&[1]), [] as [[BodyId; 2]; 0]);
+    assert_eq!(pairs(&[0, 1]), [foot, [block(1), block(0)]]);
+    let pin = [[block(2), block(0)], [block(2), block(1)]];
+    assert_eq!(pairs(&[0, 1, 2]), [foot, pin[0], pin[1]]);
+    assert_eq!(pairs(&[1, 2, 3]), [pin[1], [block(3), GROUND]]);
+}
+
+#[test]
+fn a_gap_is_where_it_lies_and_no_other_seam_of_the_two_bodies() {
+    let propped = Propped {
+        gap: gap(),
+        stone: BlockId(1),
+    };
+    let seam = |x: f64, y: f64| stretch([FIRST, GROUND], [x, y], [0.0, 1.0]);
+    // It is 1 m long: along the gap by as much, across it by the gap's 2 m.
+    for (x, y, inside) in [
+        (0.0, 2.0, true),
+        (0.9, 2.0, true),
+        (-0.9, 2.0, true),
+        (1.1, 2.0, false),
+        (0.0, 2.9, true),
+        (0.0, 3.1, false),
+    ] {
+        assert_eq!(propped.parts(&seam(x, y)), inside, "{x} {y}");
+    }
+    let mut long = seam(0.0, 4.1);
+    long.ends = [Point::new(9.0, 4.1), Point::new(-9.0, 4.1)];
+    assert!(!propped.parts(&long));
+    long.ends = [Point::new(9.0, 3.9), Point::new(-9.0, 3.9)];
+    assert!(propped.parts(&long));
+    let other = stretch([STONE, GROUND], [0.0, 2.0], [0.0, 1.0]);
+    assert!(!propped.parts(&other));
+}

@@ -1,0 +1,220 @@
+//! Programs posed from assemblies, and forms of them, in numbers worked out by hand.
+
+use super::*;
+/// A box on the ground, a board on a corner of it, a robot at the board's upper left corner.
+fn stacked() -> Program {
+    let arms = |y: f64| [Vector::new(0.25, y), Vector::new(-0.25, y)];
+    let joint = |on, from, kind, points| ContactTerm {
+        kind,
+        on,
+        from,
+        normal: Vector::new(0.0, 1.0),
+        friction: 0.25,
+        points,
+    };
+    Program {
+        blocks: 2,
+        loads: vec![0.0, 300.0, 0.0, -15.0, 20.0, 10.0],
+        contacts: vec![
+            joint((0, arms(-0.375)), None, ContactKind::Edge, 2),
+            joint(
+                (1, arms(-0.25)),
+                Some((0, arms(0.375))),
+                ContactKind::Corner,
+                1,
+            ),
+        ],
+        grips: vec![GripTerm {
+            block: 1,
+            arm: Vector::new(-0.5, 0.25),
+            limits: [10.0, 25.0, 8.0],
+        }],
+        scale: Scale::of(4.0, 600.0),
+    }
+}
+
+#[test]
+fn a_scale_counts_by_lengths_and_by_the_heaviest_load() {
+    let scale = Scale::of(5.0, 3.0);
+    assert_eq!(
+        (scale.length, scale.force, scale.moment()),
+        (5.0, 0.01, 0.05)
+    );
+    // Without loads a unit is a three hundredth of a newton.
+    assert_eq!(Scale::of(2.0, 0.0).force, 1.0 / 300.0);
+}
+
+/// Smooth joints have no friction, and what passes by a centroid does not turn its block.
+#[test]
+fn columns_of_several_blocks_multiply_as_rows_of_numbers_do() {
+    let mut program = stacked();
+    program.contacts[0].on.1[1].x = 0.0;
+    program.contacts[1].on.1[0].x = 0.0;
+    let smooth = {
+        let mut smooth = program.clone();
+        smooth.contacts.iter_mut().for_each(|c| c.friction = 0.0);
+        columns(&smooth)
+    };
+    let pressing = smooth
+        .iter()
+        .filter(|c| matches!(c.force, Force::Ray { .. }));
+    assert_eq!(pressing.count(), 3);
+    let mut all = columns(&program);
+    all.extend(sticking_columns(&program));
+    all.extend(smooth);
+    for a in &all {
+        for b in &all {
+            let expected: f64 = (dense(a, 6).iter().zip(dense(b, 6)))
+                .map(|(a, b)| a * b)
+                .sum();
+            assert!((a.times(b) - expected).abs() < 1e-14, "{a:?} {b:?}");
+        }
+    }
+}
+
+#[test]
+fn forces_of_other_contacts_and_robots_are_other_places() {
+    let ray = |contact, point| Force::Ray {
+        contact,
+        point,
+        normal: 0.5,
+        friction: 0.25,
+    };
+    assert_eq!(product(&ray(0, 0), &ray(1, 0)), None);
+    assert_eq!(product(&ray(1, 0), &ray(1, 0)), Some(0.25 + 0.0625));
+    assert_eq!(product(&ray(1, 0), &ray(1, 1)), Some(0.0625));
+    let beyond = |grip, component| Force::StickGrip {
+        grip,
+        component,
+        sign: -1.0,
+    };
+    assert_eq!(product(&beyond(0, 1), &beyond(1, 1)), None);
+    assert_eq!(product(&beyond(1, 1), &beyond(1, 1)), Some(1.0));
+    assert_eq!(product(&beyond(1, 1), &beyond(1, 2)), Some(0.0));
+    let stick = |contact, point| Force::StickNormal { contact, point };
+    assert_eq!(product(&stick(1, 0), &stick(1, 0)), Some(1.0));
+    assert_eq!(product(&stick(1, 0), &stick(1, 1)), Some(0.0));
+    let hold = |contact, sign| Force::StickFriction { contact, sign };
+    assert_eq!(product(&hold(1, 1.0), &hold(1, -1.0)), Some(-1.0));
+    assert_eq!(product(&stick(1, 0), &hold(1, -1.0)), Some(0.0));
+    assert_eq!(product(&hold(1, -1.0), &stick(1, 0)), None);
+    assert_eq!(product(&ray(1, 0), &stick(1, 0)), None);
+}
+
+/// Two robots hold one block, the first with a limited force along x: only pairs without limits are one equality.
+#[test]
+fn pairs_of_free_forces_are_one_row_each_and_no_others() {
+    let mut program = example();
+    let other = GripTerm {
+        limits: [f64::INFINITY; 3],
+        ..program.grips[0].clone()
+    };
+    program.contacts[0].points = 1;
+    program.grips.push(other);
+    let all = columns(&program);
+    assert_eq!(all.len(), 3 + 6 + 6);
+    let (conic, row_of) = kinematic(&program.loads, &all, |_| 0.0);
+    // The first robot's vertical force, then all of the second one's.
+    assert_eq!(conic.equalities, 4);
+    let pairs = [(5, 6), (9, 10), (11, 12), (13, 14)];
+    for (number, (plus, minus)) in pairs.into_iter().enumerate() {
+        assert_eq!((row_of[plus], row_of[minus]), (number, usize::MAX));
+    }
+    let others = [0, 1, 2, 3, 4, 7, 8].map(|k| row_of[k]);
+    assert_eq!(others, [4, 5, 6, 7, 8, 9, 10]);
+    // The last of all columns has no partner behind it; a pair the other way round is none.
+    let (conic, _) = kinematic(&program.loads, &all[..14], |_| 0.0);
+    assert_eq!(conic.equalities, 3);
+    let turned = [all[12], all[11]];
+    let (conic, _) = kinematic(&program.loads, &turned, |_| 0.0);
+    assert_eq!(conic.equalities, 0);
+}
+
+/// The source's program of the box: six unknowns for the joint, six for the robot, and a partner of each.
+#[test]
+fn the_source_poses_every_unknown_with_its_opposite() {
+    let beta = 1e6;
+    let program = held(0.0, f64::INFINITY, 8.0);
+    let conic = source(&program, beta);
+    assert_eq!((conic.unknowns, conic.equalities), (24, 3));
+    assert_eq!(conic.linear[..12], [1.0; 12]);
+    assert_eq!(conic.linear[12..], [beta; 12]);
+    let unknowns: [[f64; 3]; 12] = [
+        [0.0, 1.0, 0.5],
+        [-1.0, 0.0, -0.75],
+        [1.0, 0.0, 0.75],
+        [0.0, 1.0, -0.5],
+        [-1.0, 0.0, -0.75],
+        [1.0, 0.0, 0.75],
+        [1.0, 0.0, -0.75],
+        [-1.0, 0.0, 0.75],
+        [0.0, 1.0, -1.0],
+        [0.0, -1.0, 1.0],
+        [0.0, 0.0, 1.0],
+        [0.0, 0.0, -1.0],
+    ];
+    for place in 0..3 {
+        let found = row(&conic, place);
+        for (k, unknown) in unknowns.iter().enumerate() {
+            assert!((found[k] - unknown[place]).abs() < 1e-15, "{place} {k}");
+            assert_eq!(found[12 + k], -found[k]);
+        }
+        assert_eq!(conic.bound[place], program.loads[place]);
+    }
+    // f⁺ + f⁻ ≤ μN at both points; then a limit each way of x and of the torque; then all are at least 0.
+    let entries = |number: usize| {
+        let entries = conic.matrix.iter().filter(|e| e.0 == number);
+        entries.map(|e| (e.1, e.2)).collect::<Vec<_>>()
+    };
+    assert_eq!(entries(3), [(0, -0.5), (1, 1.0), (2, 1.0)]);
+    assert_eq!(entries(4), [(3, -0.5), (4, 1.0), (5, 1.0)]);
+    for (number, k, limit) in [(5, 6, 0.0), (6, 7, 0.0), (7, 10, 2.0), (8, 11, 2.0)] {
+        assert_eq!(
+            (entries(number), conic.bound[number]),
+            (vec![(k, 1.0)], limit)
+        );
+    }
+    for k in 0..24 {
+        assert_eq!((entries(9 + k), conic.bound[9 + k]), (vec![(k, -1.0)], 0.0));
+    }
+    assert_eq!(conic.bound.len(), 33);
+}
+
+#[test]
+fn the_form_in_forces_sums_costs_and_caps_another_sum() {
+    let program = example();
+    let all = columns(&program);
+    let free = force_form(&program.loads, &all, |c| 2.0 * c.cost, None);
+    let plain = least_squares(&program.loads, &all, None);
+    assert_eq!(free.linear, [2.0; 12]);
+    assert!(free.quadratic.is_empty());
+    assert_eq!((&free.bound, &free.matrix), (&plain.bound, &plain.matrix));
+    let robots = |c: &Column| f64::from(u8::from(matches!(c.force, Force::Grip { .. })));
+    let capped = force_form(&program.loads, &all, |c| c.cost, Some((&robots, 7.0)));
+    let last = plain.bound.len();
+    assert_eq!((capped.bound.len(), capped.bound[last]), (last + 1, 7.0));
+    let expected: Vec<f64> = (0..12).map(|k| if k < 6 { 0.0 } else { 1.0 }).collect();
+    assert_eq!(row(&capped, last), expected);
+}
+
+/// Joints that are parallel but for a millionth, one square to them, and one that is meant to lean.
+#[test]
+fn joints_nearly_parallel_or_square_are_made_so_together() {
+    let turned = |angle: f64| Vector::new(libm::cos(angle), libm::sin(angle));
+    let mut program = stacked();
+    let (up, side) = (core::f64::consts::FRAC_PI_2, 0.0);
+    let both = [up, up + 1e-13].map(turned);
+    (program.contacts.iter_mut().zip(both)).for_each(|(c, n)| c.normal = n);
+    assert!(program.with_straight_joints().is_none());
+    let more = program.contacts.clone();
+    program.contacts.extend(more);
+    let normals = [up + 3e-6, up - 1e-6, side + 1e-6, 0.01].map(turned);
+    (program.contacts.iter_mut().zip(normals)).for_each(|(c, n)| c.normal = n);
+    let straight = program.with_straight_joints().expect("some turn");
+    // All by the mean of 3, −1 and 1 millionths; the last one stays.
+    let expected = [up + 1e-6, up + 1e-6, side + 1e-6, 0.01].map(turned);
+    for (contact, normal) in straight.contacts.iter().zip(expected) {
+        assert!((contact.normal - normal).norm() < 1e-15, "{contact:?}");
+    }
+    assert_eq!(straight.loads, program.loads);
+}

@@ -1,0 +1,154 @@
+//! What counts in the imbalance of one body: its own forces, and how much rounding is granted to which of them.
+
+use super::*;
+
+/// A stone of this weight between the ground below and the ground above, pressed with 1 000 N at each of the points given.
+fn squeezed(weight: f64, friction: f64, listed: LoadVector) -> Assembly {
+    let mut above = joint(0, None, 3.0);
+    above.normal = Vector::new(0.0, -1.0);
+    above.ends.swap(0, 1);
+    above.points.swap(0, 1);
+    let mut there = assembly(
+        vec![body(0, 0.0, 3.0, weight, listed)],
+        vec![joint(0, None, 0.0), above],
+    );
+    there
+        .contacts
+        .iter_mut()
+        .for_each(|c| c.friction = friction);
+    there
+}
+
+/// A rounding is granted of 16 ε Σ |F| at τ = 10⁻⁹.
+fn granted(total: f64) -> f64 {
+    16.0 * f64::EPSILON / 1e-9 * total
+}
+
+#[test]
+fn a_torque_counts_by_its_own_amount() {
+    // 7 N·m of load against −8 N·m of a robot leave 1 N·m, over 2.5 m: 0.4 N. Moving 20 N gives 20 N, the load 2.8 N, the
+    // robot 3.2 N and the joint's two points 4 N.
+    let mut held = on_ground(listed(0.0, 0.0, 7.0));
+    held.grips = vec![grip(0, 2.0, 4.0, 9.0)];
+    let gives = Held {
+        force: Vector::zeros(),
+        torque: -8.0,
+    };
+    let all = found(&held, vec![pressed(5.0, 5.0, 0.0)], vec![gives]);
+    assert_near(all[0], 0.4 / 30.0, 1e-6);
+    assert_near(all[1], 0.4 / 12.8, 1e-15);
+}
+
+#[test]
+fn a_rounding_of_all_forces_is_granted_to_what_loads_a_body() {
+    // 10⁻¹⁵ N to the side, in a joint without friction, where nothing else acts along it.
+    let pushed = on_ground(listed(1e-15, 0.0, 0.0)).with_friction(0.0);
+    let found = found(&pushed, vec![pressed(5.0, 5.0, 0.0)], vec![])[0];
+    let expected = 1e-15 / granted(20.0);
+    assert!(
+        found >= 0.99 * expected && found < 3.0 * expected,
+        "{found} {expected}"
+    );
+}
+
+#[test]
+fn a_rounding_is_granted_to_friction_within_its_cone_and_to_no_more_than_the_load() {
+    let side = 1e-8;
+    let light = |friction: f64| squeezed(1e-9, friction, listed(side, 0.0, 0.0));
+    let imbalance = |friction: f64, at: [Pressed; 2]| found(&light(friction), at.into(), vec![])[0];
+    let both = |f: f64| [pressed(1000.0, 1000.0, f), pressed(1000.0, 1000.0, f)];
+    // Two cones of 16 ε · 4 000 N/10⁻⁹ each, beside the load's own 10⁻⁸ N and as much again of the granted.
+    let cones = 2.0 * granted(4000.0);
+    assert_near(imbalance(0.5, both(0.0)) / (side / cones), 1.0, 1e-3);
+    // What friction is given already it has; of equal and opposite ones nothing is left.
+    // Their couple of 3 m · f is taken by the joint below, 2 m wide.
+    let rubbing = |f: f64| {
+        let below = pressed(1000.0 + 1.5 * f, 1000.0 - 1.5 * f, f);
+        [below, pressed(1000.0, 1000.0, f)]
+    };
+    let given = rubbing(5e-3);
+    assert_near(imbalance(0.5, given) / (side / cones), 1.0, 1e-3);
+    // Beyond what is granted it has what it gives.
+    let more = rubbing(0.5);
+    assert_near(imbalance(0.5, more) / side, 1.0, 1e-3);
+    // Pressed at one point alone, of 2 000 N and of 10⁻² N with the cone of 5·10⁻³ N, less than what is granted.
+    let one = [pressed(2000.0, 0.0, 0.0), pressed(0.0, 2000.0, 0.0)];
+    assert_near(imbalance(0.5, one) / (side / cones), 1.0, 1e-3);
+    let narrow = imbalance(2.5e-7, both(0.0));
+    assert_near(narrow / (side / 1e-3), 1.0, 1e-3);
+    // Without friction the load alone takes it up: 2.1·10⁻⁸ N for the 10⁻⁸ N that are left.
+    assert!(imbalance(0.0, both(0.0)) > 0.4);
+}
+
+/// A stone without weight has no load to measure by: what is left of it is no share, and friction alone balances it.
+#[test]
+fn what_nothing_loads_has_no_share() {
+    let idle = squeezed(0.0, 0.5, LoadVector::NONE);
+    let at = [pressed(10.0, 10.0, 1.0), pressed(10.0, 10.0, 2.0)];
+    let all = found(&idle, at.into(), vec![]);
+    assert_eq!(all[1], 0.0);
+    // 1 N too much to the side, of 3 N of friction.
+    assert_near(all[0], 1.0 / 3.0, 1e-3);
+    let balanced = [pressed(10.0, 10.0, 0.0), pressed(10.0, 10.0, 0.0)];
+    assert_eq!(found(&idle, balanced.into(), vec![]), [0.0; 4]);
+}
+
+/// In parts of its own forces, not of the scene's: a pebble that is off by a tenth is, beside a boulder of any weight.
+#[test]
+fn imbalance_knows_no_unit() {
+    let alone = |unit: f64| {
+        let mut there = on_ground(LoadVector::NONE);
+        there.bodies[0].weight = 10.0 * unit;
+        let there = there.settled();
+        let all = found(&there, vec![pressed(5.5 * unit, 5.5 * unit, 0.0)], vec![]);
+        (all[0], all[1])
+    };
+    let (imbalance, share) = alone(1.0);
+    for unit in [1e-9, 1e9] {
+        let (other, other_share) = alone(unit);
+        assert_near(other / imbalance, 1.0, 1e-9);
+        assert_near(other_share / share, 1.0, 1e-9);
+    }
+}
+
+/// A box of 9 N on five narrow joints, pressed with 1 N at each of their ten points: each and the weight must change alike.
+#[test]
+fn many_small_forces_are_weighed_as_few_large_ones_are() {
+    let joints = (0..5_u8).map(|k| {
+        let mut narrow = joint(0, None, 0.0);
+        let at = |x: f64| Point::new(2.0 + 0.5 * (f64::from(k) - 2.0) + x, 0.0);
+        (narrow.ends, narrow.points) = ([at(0.2), at(-0.2)], [at(0.1), at(-0.1)]);
+        narrow
+    });
+    let there = assembly(
+        vec![body(0, 0.0, 3.0, 9.0, LoadVector::NONE)],
+        joints.collect(),
+    );
+    // Friction is in balance by itself, and counts neither way.
+    let rubbing = [0.4, -0.4, 0.4, -0.4, 0.0].map(|f| pressed(1.0, 1.0, f));
+    let all = found(&there, rubbing.into(), vec![]);
+    assert_near(all[0], 1.0 / 19.0, 1e-5);
+    assert_near(all[1], 1.0 / 9.0, 1e-14);
+}
+
+/// Friction below the stone alone, granted as much whether the stone is 3 mm, 3 m or 3 km high.
+#[test]
+fn imbalance_knows_no_unit_of_length() {
+    let side = 1e-8;
+    for scale in [1e-3, 1.0, 1e3] {
+        let mut there = squeezed(1e-9, 0.5, listed(side, 0.0, 0.0));
+        there.contacts[1].friction = 0.0;
+        let longer = |p: Point| Point::from(p.coords * scale);
+        for body in &mut there.bodies {
+            body.centroid = longer(body.centroid);
+            body.corners = body.corners.iter().map(|p| longer(*p)).collect();
+        }
+        for contact in &mut there.contacts {
+            contact.ends = contact.ends.map(longer);
+            contact.points = contact.points.map(longer);
+        }
+        let pressed = [pressed(1000.0, 1000.0, 0.0); 2];
+        let all = found(&there, pressed.into(), vec![]);
+        assert_near(all[0] / (side / granted(4000.0)), 1.0, 1e-3);
+    }
+}
