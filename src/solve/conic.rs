@@ -96,8 +96,8 @@ pub const ITERATIONS: usize = 100;
 pub struct SolverSettings {
     /// The tolerance of feasibility and gap the solver is asked for.
     pub tolerance: f64,
-    /// In so small a part of the tolerance the normal equations end, where they are used and can: three to ten iterations
-    /// more, after which the columns of an optimum stand out. Clarabel ends such programs without a status.
+    /// In so small a part of the tolerance the normal equations end, where they are used and can: two to eleven iterations
+    /// more, after which the columns of an optimum stand out. Clarabel keeps to the tolerance.
     pub finer: f64,
     /// How its linear systems are conditioned.
     pub conditioning: Conditioning,

@@ -11,11 +11,11 @@
 //! less than half the time of the one with a row per force; and steps that are centred again after they are found end
 //! near the edge of standing where others run out of iterations.
 //!
-//! With squares of the velocities the matrix has 1 on its diagonal beside; and the smallest amounts that undo what is left
-//! unbalanced take one factor.
+//! Where the sum of squared velocities is to be least, the matrix has 1 added to its diagonal. The smallest amounts that undo
+//! what is left unbalanced take one factor and no iteration.
 //!
-//! It needs no trust: what it says goes to the proof like the answer of clarabel, which is asked where this ends without a
-//! status. How much faster it is, and of what, is measured in [`crate::doc::performance`].
+//! It needs no trust: what it says goes to the proof like the answer of clarabel. Where it ends without a status, clarabel
+//! is asked with full conditioning, or the next rung of the ladder decides. How much faster it is, and of what, is measured in [`crate::doc::performance`].
 
 mod cholesky;
 mod elements;
@@ -34,8 +34,8 @@ use cholesky::Cholesky;
 use elements::Elements;
 use interior::{Ended, Optimum, Posed};
 
-/// Programs of fewer unknowns than so many blocks have go to clarabel: of walls of 100 to 600 bricks it takes twice as long
-/// at most, of walls of 1 000 and more about three times.
+/// Programs of fewer unknowns than so many blocks have go to clarabel: of walls of 100 to 600 bricks it takes about
+/// twice as long, of walls of 1 000 and more two to four times.
 const FEWEST_BLOCKS: usize = 800;
 
 /// Where the factor takes fewer operations for an unknown there is less to gain; and long chains, whose factors are the
