@@ -8,11 +8,10 @@ impl Assembly {
     /// Two bodies are in one component when a chain of contacts leads from one to the other without passing the ground.
     /// L stays that of the whole, so that torques weigh alike everywhere.
     pub fn split(&self) -> Vec<Assembly> {
-        let mut parent: Vec<usize> = (0..self.bodies.len()).collect();
+        let mut sets = Sets::alone(self.bodies.len());
         for contact in &self.contacts {
             if let Some(from) = contact.from {
-                let (a, b) = (root(&mut parent, contact.on), root(&mut parent, from));
-                parent[a.max(b)] = a.min(b);
+                sets.join(contact.on, from);
             }
         }
         let mut parts: Vec<Assembly> = Vec::new();
@@ -20,7 +19,7 @@ impl Assembly {
         let mut part_of_root: Vec<Option<usize>> = vec![None; self.bodies.len()];
         let mut place = Vec::with_capacity(self.bodies.len());
         for (number, body) in self.bodies.iter().enumerate() {
-            let root = root(&mut parent, number);
+            let root = sets.of(number);
             let part = *part_of_root[root].get_or_insert_with(|| {
                 parts.push(Assembly {
                     bodies: Vec::new(),
@@ -54,10 +53,31 @@ impl Assembly {
     }
 }
 
-fn root(parent: &mut [usize], mut i: usize) -> usize {
-    while parent[i] != i {
-        parent[i] = parent[parent[i]];
-        i = parent[i];
+/// Disjoint sets of numbers, each known by its least member.
+pub(crate) struct Sets {
+    above: Vec<usize>,
+}
+
+impl Sets {
+    /// So many numbers, each a set of its own.
+    pub fn alone(count: usize) -> Sets {
+        Sets {
+            above: (0..count).collect(),
+        }
     }
-    i
+
+    /// The least member of a number's set.
+    pub fn of(&mut self, mut number: usize) -> usize {
+        while self.above[number] != number {
+            self.above[number] = self.above[self.above[number]];
+            number = self.above[number];
+        }
+        number
+    }
+
+    /// Makes the sets of two numbers one.
+    pub fn join(&mut self, one: usize, other: usize) {
+        let (one, other) = (self.of(one), self.of(other));
+        self.above[one.max(other)] = one.min(other);
+    }
 }

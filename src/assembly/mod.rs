@@ -8,9 +8,11 @@
 //! listed loads.
 
 mod component;
+mod joined;
 mod part;
 mod variation;
 
+pub(crate) use component::Sets;
 pub use part::Part;
 
 use std::sync::Arc;

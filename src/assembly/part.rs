@@ -1,6 +1,6 @@
 //! Parts: some bodies of an assembly, all others held still.
 
-use super::{Assembly, AssemblyContact, AssemblyGrip};
+use super::{Assembly, AssemblyGrip};
 
 /// Some bodies of an assembly with all others held still, as if they were ground.
 #[derive(Clone, Debug)]
@@ -34,20 +34,8 @@ impl Assembly {
         };
         for (number, contact) in self.contacts.iter().enumerate() {
             let from = contact.from.and_then(|body| place[body]);
-            let seen = match (place[contact.on], from) {
-                (Some(on), from) => AssemblyContact {
-                    on,
-                    from,
-                    ..*contact
-                },
-                (None, Some(from)) => AssemblyContact {
-                    on: from,
-                    from: None,
-                    bodies: [contact.bodies[1], contact.bodies[0]],
-                    normal: -contact.normal,
-                    ..*contact
-                },
-                (None, None) => continue,
+            let Some(seen) = contact.between(place[contact.on], from) else {
+                continue;
             };
             part.contacts.push(seen);
             contacts.push(number);

@@ -169,7 +169,7 @@ pub fn solve_within(problem: &Conic, settings: SolverSettings, iterations: usize
         finite(&problem.linear) && finite(&problem.bound) && entries,
         "a program is made of finite numbers"
     );
-    if conditioning == Conditioning::Plain {
+    if conditioning == Conditioning::Plain || normal::is_squares(problem) {
         let limits = Limits {
             tolerance,
             finer: finer * tolerance,

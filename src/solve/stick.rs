@@ -215,7 +215,7 @@ fn chosen(
     let mut face = None;
     for margin in margins {
         let narrow = whole.narrowed(first, *margin);
-        let second = dual(&narrow.loads, &narrow.columns, settings, effort, |c| c.cost);
+        let second = later(&narrow, size, settings, effort, |c| c.cost);
         if second.status == Status::Solved && unchanged(&narrow, &second.amounts) {
             let narrower = narrow.narrowed(&second, 1.0);
             face = Some(if unchanged(&narrower, &narrower.amounts) {
@@ -250,6 +250,27 @@ fn chosen(
     face
 }
 
+/// Solves the dual of a later stage.
+///
+/// Of many blocks what ends without a status does so with full conditioning too, after two to four times as long, and what the stage
+/// before found is shown.
+fn later(
+    face: &Face,
+    size: Size,
+    settings: SolverSettings,
+    effort: &mut Effort,
+    cost: impl Fn(&Column) -> f64,
+) -> Dual {
+    match size {
+        Size::Few => dual(&face.loads, &face.columns, settings, effort, cost),
+        Size::Many => {
+            let (conic, row_of) = kinematic(&face.loads, &face.columns, cost);
+            let answer = once(&conic, settings, effort);
+            of_velocities(&face.loads, &face.columns, &conic, &row_of, &answer)
+        }
+    }
+}
+
 /// The face with few points that stick, by making little sticking dear, round by round.
 fn concentrated(
     face: &Face,
@@ -270,7 +291,7 @@ fn concentrated(
                 column.cost = 1e-2 * most / (amount + 1e-3 * most);
             }
         }
-        let solved = dual(&face.loads, &face.columns, settings, effort, |c| {
+        let solved = later(&face, size, settings, effort, |c| {
             if c.force.sticks() { c.cost } else { 0.0 }
         });
         if solved.status != Status::Solved || !unchanged(&face, &solved.amounts) {

@@ -243,3 +243,35 @@ fn a_wall_short_of_its_edge_by_a_hundred_thousandth_is_balanced_at_once() {
         assert!(answer.iterations < 60, "{}", answer.iterations);
     }
 }
+
+/// A joint ends where the brick below it does. The centre of all above the lowest brick is beyond that by a thousandth of a
+/// brick, those above other joints, and of all bricks, are not: so all but the lowest tip about that end, as one.
+#[test]
+fn a_tall_leaning_stack_tips_as_one() {
+    let (count, high) = (300_u32, 0.25);
+    let shift = 1.002 / f64::from(count);
+    let bricks = (0..count).map(|k| {
+        let at = rectangle(shift * f64::from(k), high * f64::from(k), 1.0, high);
+        block(&format!("b{k}"), at, 1.0)
+    });
+    let scene = scene(&on_floor(0.7, bricks.collect()));
+    let analysis = Analysis::with(&scene, &Options::default().verdict_only(Ask::Yes));
+    let frame = &analysis.frames[0];
+    assert_eq!(frame.verdict, Verdict::Unstable);
+    assert!(
+        frame.solve.programs <= 5,
+        "{} programs",
+        frame.solve.programs
+    );
+    let hinge = Point::new(1.0, high);
+    let spin = frame.mechanism[0].spin;
+    assert!(spin < 0.0, "to the right: {spin}");
+    assert_eq!(frame.mechanism.len(), count as usize - 1);
+    for motion in &frame.mechanism {
+        let arm = scene.blocks()[motion.block.0].centroid - hinge;
+        let expected = Vector::new(-arm.y, arm.x) * spin;
+        assert!((motion.spin - spin).abs() < 1e-12 * spin.abs());
+        let off = (motion.velocity - expected).norm();
+        assert!(off < 1e-6, "{motion:?}, off by {off:e}");
+    }
+}

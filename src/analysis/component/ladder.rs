@@ -1,7 +1,8 @@
 //! The ladder: one program after the other, until the forces or the motion of one has a proof.
 //!
 //! Read it from top to bottom. Where both proofs hold, the forces win; so a motion that does no more work than forces
-//! within their band could take up decides only once the program of least residual has shown that no forces balance.
+//! within their band could take up decides only once the program of least residual, or of least sticking, has shown that no
+//! forces balance.
 
 use super::local::Outcome;
 use super::rung::{Attempt, Rung};
@@ -45,8 +46,8 @@ impl Case<'_> {
         let mut effort = Effort::default();
         let mut no_status = false;
         let mut weak: Option<(Vec<Motion>, Proof)> = None;
-        let mut last = None;
-        for rung in Rung::ladder(program, &self.settings, self.place) {
+        let (mut last, mut stuck) = (None, None);
+        for rung in Rung::ladder(program, &self.settings, self.place, self.described) {
             let attempt = rung.attempt(program);
             effort = effort.and(attempt.effort);
             no_status |= rung.is_least() && attempt.forces.is_none() && attempt.motion.is_none();
@@ -113,13 +114,14 @@ impl Case<'_> {
                         verdict: Verdict::Unstable,
                         mechanism,
                         proof,
-                        stuck: attempt.stuck,
+                        stuck: attempt.stuck.or(stuck),
                         effort,
                         ..decision
                     };
                 }
                 weak = Some((mechanism, proof));
             }
+            stuck = attempt.stuck.clone().or(stuck);
             last = Some((decision, attempt));
         }
         self.without_proof(program, last, weak, effort)

@@ -11,6 +11,7 @@ mod candidate;
 mod ladder;
 mod local;
 mod motion;
+mod pieces;
 mod question;
 mod rung;
 mod straight;

@@ -1,7 +1,8 @@
 //! Motions of a component: from the solver's velocities to metres, freed of the solver's error, with their proofs.
 
 use super::Case;
-use crate::assembly::LoadVector;
+use super::rung::MANY_BLOCKS;
+use crate::assembly::{Assembly, LoadVector};
 use crate::geometry::Vector;
 use crate::program::Program;
 use crate::proof::{self, Motion, Proof, fastest};
@@ -27,6 +28,11 @@ impl Case<'_> {
             return None;
         }
         if proof.rules_out().is_finite() {
+            let many = motion.len() >= MANY_BLOCKS;
+            let in_pieces = || self.falling_in_pieces(&motion, effort);
+            if let Some(found) = many.then(in_pieces).flatten() {
+                return Some(found);
+            }
             let unit: Vec<f64> = y.iter().map(|v| v / speed).collect();
             (_, motion) = self.moved(&polished(program, &unit, effort)?);
             proof = self.mechanism(&motion);
@@ -92,15 +98,23 @@ impl Case<'_> {
                 spin: y[3 * k + 2] / self.scale.length,
             })
             .collect();
-        let bodies = self.assembly.bodies.iter();
-        let speeds = bodies.zip(&all).map(|(body, motion)| fastest(body, motion));
-        let speed = speeds.fold(0.0, f64::max);
-        if speed > 0.0 {
-            for motion in &mut all {
-                motion.velocity /= speed;
-                motion.spin /= speed;
-            }
-        }
+        let speed = to_speed_one(self.assembly, &mut all);
         (speed, all)
     }
+}
+
+/// Multiplies a motion so that its fastest point has speed 1; the speed it had before.
+pub(super) fn to_speed_one(assembly: &Assembly, motion: &mut [Motion]) -> f64 {
+    let bodies = assembly.bodies.iter();
+    let speeds = bodies
+        .zip(&*motion)
+        .map(|(body, motion)| fastest(body, motion));
+    let speed = speeds.fold(0.0, f64::max);
+    if speed > 0.0 {
+        for motion in motion {
+            motion.velocity /= speed;
+            motion.spin /= speed;
+        }
+    }
+    speed
 }

@@ -66,6 +66,11 @@ impl Elements {
         &self.value[self.start[k]..self.start[k + 1]]
     }
 
+    /// The same, to be changed.
+    pub fn values_mut(&mut self, k: usize) -> &mut [f64] {
+        &mut self.value[self.start[k]..self.start[k + 1]]
+    }
+
     /// Numbers the unknowns anew.
     pub fn renumber(&mut self, number: &[u32]) {
         for place in &mut self.place {

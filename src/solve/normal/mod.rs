@@ -1,4 +1,4 @@
-//! A second solver, for linear programs of many blocks: an interior-point method on the normal equations.
+//! A second solver, for programs of many blocks: an interior-point method on the normal equations.
 //!
 //! A program's forces and velocities are optima of one pair of linear programs,
 //!
@@ -11,7 +11,8 @@
 //! less than half the time of the one with a row per force; and steps that are centred again after they are found end
 //! near the edge of standing where others run out of iterations.
 //!
-//! Where the sum of squared velocities is to be least, the matrix has 1 added to its diagonal. The smallest amounts that undo
+//! Where the sum of squared velocities is to be least, the matrix has 1 added to its diagonal; where that of squared forces is,
+//! each contact has a small matrix for a weight. The smallest amounts that undo
 //! what is left unbalanced take one factor and no iteration.
 //!
 //! It needs no trust: what it says goes to the proof like the answer of clarabel. Where it ends without a status, clarabel
@@ -23,6 +24,7 @@ mod interior;
 mod panels;
 mod point;
 mod product;
+mod squares;
 #[cfg(test)]
 mod tests;
 
@@ -71,9 +73,18 @@ pub(super) fn solve(problem: &Conic, limits: Limits) -> Option<Answer> {
     solve_where(problem, limits, LEAST_WORK)
 }
 
+/// Whether a problem wants the least squares of forces.
+pub(super) fn is_squares(problem: &Conic) -> bool {
+    problem.equalities > 0 && !problem.quadratic.is_empty()
+}
+
 /// The same of every size, where an unknown takes so many operations.
 fn solve_where(problem: &Conic, limits: Limits, least_work: f64) -> Option<Answer> {
-    let form = Form::of(problem)?;
+    let Some(form) = Form::of(problem) else {
+        return is_squares(problem)
+            .then(|| squares::solve(problem, limits, least_work))
+            .flatten();
+    };
     let (mut elements, cost, loads) = form.posed(problem);
     if elements.widest() > MOST_ENTRIES {
         return None;

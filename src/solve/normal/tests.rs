@@ -324,7 +324,12 @@ fn other_kinds_of_programs_are_left_to_clarabel() {
     let mut limited = forces(&loads, &list, &cost);
     limited.matrix.push((limited.bound.len(), 0, 1.0));
     limited.bound.push(2.0);
-    for problem in [squared, heavy, equal, dense, limited] {
+    // Squares that couple all columns, and squares of columns that have a limit beside their floor.
+    let mut coupled = forces(&loads, &list, &cost);
+    coupled.quadratic = (0..list.len()).map(|k| (0, k, 1.0)).collect();
+    let mut capped = limited.clone();
+    capped.quadratic = (0..list.len()).map(|k| (k, k, 1.0)).collect();
+    for problem in [squared, heavy, equal, dense, limited, coupled, capped] {
         assert!(!taken(&problem));
     }
 }
@@ -365,5 +370,66 @@ fn the_shortest_velocities_and_the_smallest_amounts_are_those_of_clarabel() {
         let half = |x: &[f64]| 0.5 * product(x, x);
         let off = half(&ours.x) - half(&theirs.x);
         assert!(off.abs() < 1e-7, "{off}");
+    }
+}
+
+#[test]
+fn least_squares_above_floors_meet_their_conditions_and_cost_what_clarabel_finds() {
+    let mut numbers = Numbers(19);
+    // Amounts ≥ 0; then corrections of amounts of which some are next to nothing and some immense.
+    for floors in [[0.0, 0.0, 0.0], [1e-3, 1.0, 1e9]] {
+        let (unknowns, list) = lattice(9, 7, &mut numbers);
+        let mut problem = forces(&vec![0.0; unknowns], &list, &vec![0.0; list.len()]);
+        // The five columns of a pair are coupled, by G·Gᵀ of three rows each.
+        for first in (0..list.len()).step_by(5) {
+            let rows: Vec<[f64; 3]> = (0..5).map(|_| [(); 3].map(|()| numbers.next())).collect();
+            for j in 0..5 {
+                for i in 0..=j {
+                    let value = product(&rows[i], &rows[j]) + f64::from(u8::from(i == j)) * 0.1;
+                    problem.quadratic.push((first + i, first + j, value));
+                }
+            }
+        }
+        for (k, column) in list.iter().enumerate() {
+            let amount = numbers.next().max(0.0);
+            let loads = &mut problem.bound;
+            column.iter().for_each(|(i, v)| loads[*i] += amount * v);
+            problem.bound[unknowns + k] = floors[k % 3];
+        }
+        let quadratic = problem.quadratic.clone();
+        let squares = |x: &[f64]| {
+            let mut product = vec![0.0; x.len()];
+            for (i, j, value) in &quadratic {
+                product[*i] += value * x[*j];
+                if i != j {
+                    product[*j] += value * x[*i];
+                }
+            }
+            product
+        };
+        let ours = solved(&problem);
+        assert_eq!(ours.status, Status::Solved);
+        let left = columns(&problem, &ours.z);
+        for (k, (sum, square)) in left.iter().zip(squares(&ours.x)).enumerate() {
+            assert!((sum + square).abs() < 1e-6, "column {k}: {sum}, {square}");
+        }
+        for (k, row) in rows(&problem, &ours.x).iter().enumerate() {
+            let (s, z) = (ours.s[k], ours.z[k]);
+            let off = row + s - problem.bound[k];
+            assert!(off.abs() < 1e-6, "row {k}: {off}");
+            let at_floor = k < unknowns || (s >= 0.0 && z >= 0.0 && s * z < 1e-6);
+            assert!(at_floor, "row {k}: {s}, {z}");
+        }
+        let floors = ours.z[unknowns..].iter().filter(|z| **z > 1e-3).count();
+        assert!(floors > 20, "{floors} amounts at their floors");
+        // Floors far below everything are as good as those a hundred below, with which clarabel ends.
+        problem.bound[unknowns..]
+            .iter_mut()
+            .for_each(|floor| *floor = floor.min(100.0));
+        let theirs = crate::solve::by_clarabel(&problem, Conditioning::Full.into(), 100);
+        assert_eq!(theirs.status, Status::Solved);
+        let cost = |x: &[f64]| 0.5 * product(x, &squares(x));
+        let off = cost(&ours.x) - cost(&theirs.x);
+        assert!(off.abs() < 1e-6 * cost(&theirs.x), "{off}");
     }
 }

@@ -105,18 +105,28 @@ impl Rung {
     /// What is known to be at its edge begins with any balance: the least force would end without a status there.
     /// So do many blocks where any forces will do: walls of 410 and 915 bricks that fall take it 9 to 20 iterations, and
     /// the least force 9 to 60; where they stand it is the same to either.
-    pub fn ladder(program: &Program, settings: &[SolverSettings], place: Place) -> Vec<Rung> {
+    ///
+    /// What falls wants its least sticking in any case, so that many blocks that have no balance come to it before the least
+    /// residual, which takes them nearly as long and says less.
+    pub fn ladder(
+        program: &Program,
+        settings: &[SolverSettings],
+        place: Place,
+        described: bool,
+    ) -> Vec<Rung> {
         let mut rungs: Vec<Rung> = settings.iter().copied().map(Rung::Force).collect();
         let many = program.blocks >= MANY_BLOCKS;
         let any = settings.iter().all(|s| s.choice == Choice::Any);
+        let plain = |s: &&SolverSettings| s.conditioning == Conditioning::Plain;
+        let quick = settings.iter().find(plain).copied();
         let residual = [Rung::Any, Rung::Residual];
         match place {
             Place::Anywhere if many && !any => {
-                let quick = settings
-                    .iter()
-                    .find(|s| s.conditioning == Conditioning::Plain);
                 rungs.splice(0..0, residual);
-                rungs.splice(0..0, quick.copied().map(Rung::FirstLook));
+                if described {
+                    rungs.splice(1..1, quick.map(Rung::Sticking));
+                }
+                rungs.splice(0..0, quick.map(Rung::FirstLook));
             }
             Place::Anywhere if !many => {
                 let second = 1.min(rungs.len());
@@ -126,7 +136,11 @@ impl Rung {
                 rungs.splice(0..0, residual);
             }
         }
-        rungs.extend(settings.iter().copied().map(Rung::Sticking));
+        for settings in settings.iter().copied().map(Rung::Sticking) {
+            if !rungs.contains(&settings) {
+                rungs.push(settings);
+            }
+        }
         rungs
     }
 

@@ -1,0 +1,124 @@
+//! The pieces that a structure falls in: bodies that move as one, found from the velocities of all.
+//!
+//! A motion of many bodies violates contacts by the solver's error at every joint that does not open. Most of them belong
+//! to bodies that move as one. Posed with the few pieces as its bodies, the change that frees a motion of this error is a
+//! small program, and what is within a piece fits to rounding.
+
+use super::Case;
+use super::motion::to_speed_one;
+use crate::assembly::{Assembly, Sets};
+use crate::geometry::{Vector, quarter_turn};
+use crate::program::Program;
+use crate::proof::{Motion, Proof};
+use crate::solve::{Effort, polished};
+
+/// Bodies move as one whose velocities differ by so much at most, in parts of the fastest point's. What is the solver's error
+/// in one structure is motion in another: the coarser is tried first, and gives the fewer pieces.
+const AS_ONE: [f64; 2] = [1e-5, 1e-7];
+
+/// Fewer bodies a piece than so many, and the change in pieces costs about as much as that of all bodies. A wall near its edge
+/// falls in pieces of two to four bricks, a stack in one of all its blocks.
+const FEWEST: usize = 8;
+
+impl Case<'_> {
+    /// The motion near a given one, of fastest speed 1, in which bodies that move nearly as one do so, freed of the
+    /// solver's error, with its proof if that convinces.
+    pub(super) fn falling_in_pieces(
+        &self,
+        motion: &[Motion],
+        effort: &mut Effort,
+    ) -> Option<(Vec<Motion>, Proof)> {
+        AS_ONE.into_iter().find_map(|tolerance| {
+            let piece = pieces(self.assembly, motion, tolerance);
+            let joined = self.assembly.joined(&piece);
+            if joined.bodies.is_empty() || FEWEST * joined.bodies.len() > motion.len() {
+                return None;
+            }
+            let program = Program::of(&joined, self.scale);
+            let mean = mean_velocities(&piece, motion, joined.bodies.len(), self.scale.length);
+            let y = polished(&program, &mean, effort)?;
+            let parted = self.parted(&joined, &piece, &y);
+            let proof = self.mechanism(&parted);
+            self.convinces(&parted, &proof).then_some((parted, proof))
+        })
+    }
+
+    /// The motion of every body, metres, with the velocities of its piece, pure numbers.
+    fn parted(&self, joined: &Assembly, piece: &[Option<usize>], y: &[f64]) -> Vec<Motion> {
+        let bodies = self.assembly.bodies.iter().zip(piece);
+        let mut motion: Vec<Motion> = bodies
+            .map(|(body, piece)| {
+                let (mut velocity, mut spin) = (Vector::zeros(), 0.0);
+                if let Some(k) = *piece {
+                    spin = y[3 * k + 2] / self.scale.length;
+                    let arm = body.centroid - joined.bodies[k].centroid;
+                    velocity = Vector::new(y[3 * k], y[3 * k + 1]) + quarter_turn(arm) * spin;
+                }
+                Motion {
+                    block: body.block,
+                    velocity,
+                    spin,
+                }
+            })
+            .collect();
+        to_speed_one(self.assembly, &mut motion);
+        motion
+    }
+}
+
+/// The piece of each body, `None` of those that rest with the ground.
+fn pieces(assembly: &Assembly, motion: &[Motion], tolerance: f64) -> Vec<Option<usize>> {
+    let bodies = &assembly.bodies;
+    let ground = bodies.len();
+    let mut sets = Sets::alone(bodies.len() + 1);
+    let radii: Vec<f64> = bodies.iter().map(|body| body.radius()).collect();
+    for contact in &assembly.contacts {
+        let (on, at) = (contact.on, contact.points[0]);
+        let mut apart = motion[on].about(bodies[on].centroid, at);
+        let (mut turn, mut reach) = (motion[on].spin, radii[on]);
+        if let Some(from) = contact.from {
+            apart -= motion[from].about(bodies[from].centroid, at);
+            turn -= motion[from].spin;
+            reach = reach.max(radii[from]);
+        }
+        if apart.norm() + turn.abs() * reach <= tolerance {
+            sets.join(on, contact.from.unwrap_or(ground));
+        }
+    }
+    let resting = sets.of(ground);
+    let mut number = vec![None; bodies.len() + 1];
+    let mut count = 0;
+    (0..bodies.len())
+        .map(|body| {
+            let first = sets.of(body);
+            if first == resting {
+                return None;
+            }
+            if number[first].is_none() {
+                number[first] = Some(count);
+                count += 1;
+            }
+            number[first]
+        })
+        .collect()
+}
+
+/// The mean velocities of the bodies of each piece, pure numbers: about the mean of their centroids.
+fn mean_velocities(
+    piece: &[Option<usize>],
+    motion: &[Motion],
+    count: usize,
+    length: f64,
+) -> Vec<f64> {
+    let (mut sum, mut members) = (vec![0.0; 3 * count], vec![0.0; count]);
+    for (piece, motion) in piece.iter().zip(motion) {
+        if let Some(k) = *piece {
+            sum[3 * k] += motion.velocity.x;
+            sum[3 * k + 1] += motion.velocity.y;
+            sum[3 * k + 2] += motion.spin * length;
+            members[k] += 1.0;
+        }
+    }
+    let sums = sum.iter().enumerate();
+    sums.map(|(row, v)| v / members[row / 3]).collect()
+}

@@ -1,0 +1,175 @@
+//! [`Assembly::joined`]: bodies that move as one, as one body.
+
+use super::{Assembly, AssemblyBody, AssemblyContact, AssemblyGrip, LoadVector, about};
+use crate::geometry::{Point, Vector};
+
+impl Assembly {
+    /// The assembly with the bodies of each piece as one, and those without a piece as ground.
+    ///
+    /// A piece's centroid is the mean of its bodies' centroids. Contacts within a piece are left out, and grips on ground.
+    pub fn joined(&self, piece: &[Option<usize>]) -> Assembly {
+        let count = piece.iter().flatten().max().map_or(0, |most| most + 1);
+        let mut members: Vec<Vec<&AssemblyBody>> = vec![Vec::new(); count];
+        for (body, piece) in self.bodies.iter().zip(piece) {
+            if let Some(piece) = piece {
+                members[*piece].push(body);
+            }
+        }
+        let contacts = self.contacts.iter().filter_map(|contact| {
+            let from = contact.from.and_then(|body| piece[body]);
+            contact.between(piece[contact.on], from)
+        });
+        let grips = self.grips.iter().filter_map(|grip| {
+            Some(AssemblyGrip {
+                body: piece[grip.body]?,
+                ..*grip
+            })
+        });
+        Assembly {
+            bodies: members.iter().filter_map(|list| one_of(list)).collect(),
+            contacts: contacts.collect(),
+            grips: grips.collect(),
+            ..*self
+        }
+    }
+}
+
+/// Some bodies as one; `None` of none.
+fn one_of(members: &[&AssemblyBody]) -> Option<AssemblyBody> {
+    let first = members.first()?;
+    let sum: Vector = members.iter().map(|body| body.centroid.coords).sum();
+    let centroid = Point::from(sum / members.len() as f64);
+    let moved = |of: fn(&AssemblyBody) -> LoadVector| {
+        members.iter().fold(LoadVector::NONE, |sum, body| {
+            let own = of(body);
+            sum.and(about(centroid, body.centroid, own.force, own.moment))
+        })
+    };
+    let corners = members.iter().flat_map(|body| body.corners.iter().copied());
+    Some(AssemblyBody {
+        block: first.block,
+        centroid,
+        corners: corners.collect(),
+        weight: members.iter().map(|body| body.weight).sum(),
+        listed: moved(|body| body.listed),
+        load: moved(|body| body.load),
+    })
+}
+
+impl AssemblyContact {
+    /// The contact with other numbers for its bodies, `None` for the ground; nothing where both are the same.
+    pub(super) fn between(
+        &self,
+        on: Option<usize>,
+        from: Option<usize>,
+    ) -> Option<AssemblyContact> {
+        match (on, from) {
+            _ if on == from => None,
+            (Some(on), from) => Some(AssemblyContact { on, from, ..*self }),
+            (None, Some(from)) => Some(AssemblyContact {
+                on: from,
+                from: None,
+                bodies: [self.bodies[1], self.bodies[0]],
+                normal: -self.normal,
+                ..*self
+            }),
+            (None, None) => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::interface::ContactKind;
+    use crate::scene::{BlockId, BodyId};
+
+    fn body(number: usize, at: [f64; 2], force: [f64; 2], moment: f64) -> AssemblyBody {
+        AssemblyBody {
+            block: BlockId(number),
+            centroid: Point::new(at[0], at[1]),
+            corners: [Point::new(at[0], at[1])].into(),
+            weight: 1.0,
+            listed: LoadVector::NONE,
+            load: LoadVector {
+                force: Vector::new(force[0], force[1]),
+                moment,
+            },
+        }
+    }
+
+    fn contact(on: usize, from: Option<usize>) -> AssemblyContact {
+        let block = |body: usize| BodyId::Block(BlockId(body));
+        AssemblyContact {
+            interface: 0,
+            bodies: [block(on), from.map_or(BodyId::Ground(0), block)],
+            on,
+            from,
+            kind: ContactKind::Edge,
+            ends: [Point::origin(); 2],
+            points: [Point::origin(); 2],
+            normal: Vector::new(0.0, 1.0),
+            friction: 0.5,
+        }
+    }
+
+    /// Of a motion of pieces the loads do the work that they do on the bodies, each with the velocity it has within its piece.
+    #[test]
+    fn the_loads_of_a_piece_do_the_work_of_those_of_its_bodies() {
+        let bodies = vec![
+            body(0, [0.0, 0.0], [1.0, -3.0], 0.5),
+            body(1, [2.0, 1.0], [0.0, -2.0], 0.0),
+            body(2, [1.0, 5.0], [-4.0, 1.0], -2.0),
+            body(3, [9.0, 9.0], [7.0, 7.0], 7.0),
+        ];
+        let contacts = vec![
+            contact(1, Some(0)),
+            contact(2, Some(1)),
+            contact(3, Some(2)),
+            contact(0, None),
+            contact(3, None),
+        ];
+        let assembly = Assembly {
+            bodies,
+            contacts,
+            grips: Vec::new(),
+            pull: Vector::new(0.0, -1.0),
+            load_factor: 1.0,
+            length: 1.0,
+        };
+        // The last rests with the ground.
+        let joined = assembly.joined(&[Some(1), Some(0), Some(1), None]);
+        let [one, two] = &joined.bodies[..] else {
+            panic!("two pieces");
+        };
+        assert_eq!((one.centroid, one.weight), (Point::new(2.0, 1.0), 1.0));
+        assert_eq!((two.centroid, two.weight), (Point::new(0.5, 2.5), 2.0));
+        let (velocity, spin) = (Vector::new(0.3, -0.7), 0.9);
+        let work = |load: LoadVector, arm: Vector| {
+            let own = velocity + crate::geometry::quarter_turn(arm) * spin;
+            load.force.dot(&own) + load.moment * spin
+        };
+        let apart: f64 = [0, 2]
+            .map(|k| &assembly.bodies[k])
+            .map(|b| work(b.load, b.centroid - two.centroid))
+            .iter()
+            .sum();
+        let together = work(two.load, Vector::zeros());
+        assert!((together - apart).abs() < 1e-12, "{together}, {apart}");
+
+        // On the second piece from the first, the other way, and from what rests, turned about.
+        let seen: Vec<_> = joined
+            .contacts
+            .iter()
+            .map(|c| (c.on, c.from, c.normal.y))
+            .collect();
+        let expected = [
+            (0, Some(1), 1.0),
+            (1, Some(0), 1.0),
+            (1, None, -1.0),
+            (1, None, 1.0),
+        ];
+        assert_eq!(seen, expected);
+        assert_eq!(joined.contacts[2].bodies[1], BodyId::Block(BlockId(3)));
+    }
+}
