@@ -40,10 +40,6 @@ const BALANCED: f64 = 5e-8;
 /// From so many blocks on the quick way is given up early, and not tried again with full conditioning.
 const MANY_BLOCKS: usize = 200;
 
-/// From so many blocks on no other face is tried where the first has no least squares. In an arch of 10 000 stones forces are
-/// thousands of loads; the solver calls the least squares infeasible on every face, each after a tenth of a second and more.
-const HUGE: usize = 5_000;
-
 /// Iterations after which it is given up.
 ///
 /// Walls of 400 to 2 000 bricks take 6 to 60 where they stand or fall by more than a thousandth. Nearer to the edge the
@@ -139,9 +135,6 @@ fn balance_within(program: &Program, settings: SolverSettings, short: usize) -> 
                 let Some(mut amounts) =
                     least_squares_amounts(&face.loads, &face.columns, face_settings, &mut effort)
                 else {
-                    if program.blocks >= HUGE {
-                        break;
-                    }
                     continue;
                 };
                 let cost = face.cost(&amounts);

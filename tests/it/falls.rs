@@ -1,11 +1,15 @@
 //! What falls: its failures are named, whatever the turn of gravity, and with them every block is in balance.
 
 use drystone::Analysis;
-use drystone::analysis::{Ask, EffectName, Failure, FrameAnalysis, Options, Verdict, verdicts};
+use drystone::analysis::{
+    Ask, EffectName, Failure, FrameAnalysis, MarginKind, MarginKinds, Options, Verdict, verdicts,
+};
 use drystone::internals::effect::{Situation, assemble};
 use drystone::internals::geometry::{Point, Vector, cross};
 use drystone::internals::interface::Interfaces;
-use drystone::internals::program::{Program, Scale, columns, force_form, kinematic, least_left};
+use drystone::internals::program::{
+    Column, Program, Scale, columns, force_form, kinematic, least_left, sticking_columns,
+};
 use drystone::internals::solve::{Conditioning, Status, TOLERANCE, solve};
 use drystone::scene::{BodyId, Scene};
 use serde_json::{Value, json};
@@ -242,6 +246,36 @@ fn a_wall_short_of_its_edge_by_a_hundred_thousandth_is_balanced_at_once() {
         assert_eq!(answer.status, Status::Solved);
         assert!(answer.iterations < 60, "{}", answer.iterations);
     }
+}
+
+/// A ten-thousandth of a degree past its edge a wall lacks next to nothing. Velocities that no column violates bound the
+/// least sticking from below, by the loads' power along them (weak duality); what is reported is that bound.
+#[test]
+fn what_a_wall_lacks_just_past_its_edge_is_the_least_that_could_hold_it() {
+    let file = wall(16, 16);
+    let options = Options::default()
+        .margins(Ask::Yes)
+        .margin_kinds(MarginKinds::of(&[MarginKind::Tilt]));
+    let upright = Analysis::with(&scene(&file), &options).frames.remove(0);
+    let tilt = upright.margins.expect("asked for").tilt;
+    let edge = tilt.right.at().expect("it falls");
+    let scene = scene(&turned(file, edge + 1e-4));
+    let frame = Analysis::of(&scene).frames.remove(0);
+    assert_eq!(frame.verdict, Verdict::Unstable);
+
+    let program = program(&scene);
+    let mut all = columns(&program);
+    all.extend(sticking_columns(&program));
+    let cost = |c: &Column| f64::from(u8::from(c.force.sticks()));
+    let (problem, _) = kinematic(&program.loads, &all, cost);
+    let y = solve(&problem, TOLERANCE, Conditioning::Plain).x;
+    let violated = all.iter().map(|c| c.dot(&y) - cost(c));
+    assert!(violated.fold(0.0, f64::max) < 1e-12);
+    let power: f64 = program.loads.iter().zip(&y).map(|(l, y)| l * y).sum();
+    let bound = power * program.scale.force;
+    assert!(bound > 0.0 && bound < 1e-5 * frame.total_force, "{bound} N");
+    let off = frame.total_sticking / bound - 1.0;
+    assert!(off.abs() < 1e-6, "{} N of {bound} N", frame.total_sticking);
 }
 
 /// A joint ends where the brick below it does. The centre of all above the lowest brick is beyond that by a thousandth of a
