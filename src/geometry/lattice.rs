@@ -205,12 +205,12 @@ pub(crate) fn boundary(cells: &[Cell]) -> BTreeSet<Step> {
         .collect()
 }
 
-/// Outer ring first, straight runs joined. `None` unless the cells hang together by edges.
+/// Outer ring first, then the holes from the smallest, straight runs joined. `None` unless the cells hang together by edges.
 fn trace(cells: &[Cell]) -> Option<Vec<Vec<Node>>> {
-    let edges = boundary(cells);
-    if !joined(cells) || edges.is_empty() {
+    if !joined(cells) {
         return None;
     }
+    let edges = boundary(cells);
     let mut from: BTreeMap<Node, Vec<Node>> = BTreeMap::new();
     for (a, b) in &edges {
         from.entry(*a).or_default().push(*b);
@@ -222,11 +222,12 @@ fn trace(cells: &[Cell]) -> Option<Vec<Vec<Node>>> {
         let (mut a, mut b) = first;
         while left.remove(&(a, b)) {
             ring.push(a);
-            // Where rings touch in a node, turn as sharply left as possible, so that each cell stays with its own ring.
+            // Where rings touch in a node, turn as far left as possible, so that each cell stays with its own ring. Of
+            // several ways on only one can turn left, and where none does one goes straight on.
             let next = from[&b]
                 .iter()
                 .filter(|c| left.contains(&(b, **c)))
-                .min_by_key(|c| rank(a, b, **c))
+                .max_by_key(|c| turn(a, b, **c))
                 .copied();
             let Some(c) = next else { break };
             (a, b) = (b, c);
@@ -237,21 +238,9 @@ fn trace(cells: &[Cell]) -> Option<Vec<Vec<Node>>> {
     Some(rings)
 }
 
-/// Order of the turn a → b → c: sharp left first. Works in both lattices, whose angles are ordered alike.
-fn rank(a: Node, b: Node, c: Node) -> i64 {
-    let (d, e) = ((b.0 - a.0, b.1 - a.1), (c.0 - b.0, c.1 - b.1));
-    let cross = d.0 * e.1 - d.1 * e.0;
-    // The oblique inner product; exact enough to order the at most five turns of a lattice.
-    let dot = 2 * d.0 * e.0 + 2 * d.1 * e.1 + d.0 * e.1 + d.1 * e.0;
-    match (cross.signum(), dot.signum()) {
-        (1, -1) => 0,
-        (1, 0) => 1,
-        (1, _) => 2,
-        (0, _) => 3,
-        (_, 1) => 4,
-        (_, 0) => 5,
-        (_, _) => 6,
-    }
+/// To which side the path a → b → c turns: 1 left, 0 straight on, −1 right.
+fn turn(a: Node, b: Node, c: Node) -> i64 {
+    ((b.0 - a.0) * (c.1 - b.1) - (b.1 - a.1) * (c.0 - b.0)).signum()
 }
 
 fn straightened(ring: &[Node]) -> Vec<Node> {
@@ -259,7 +248,7 @@ fn straightened(ring: &[Node]) -> Vec<Node> {
     (0..n)
         .filter(|i| {
             let (a, b, c) = (ring[(i + n - 1) % n], ring[*i], ring[(i + 1) % n]);
-            (b.0 - a.0) * (c.1 - b.1) != (b.1 - a.1) * (c.0 - b.0)
+            turn(a, b, c) != 0
         })
         .map(|i| ring[i])
         .collect()
@@ -297,73 +286,4 @@ fn joined(cells: &[Cell]) -> bool {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn down_cells_turn_with_their_corners() {
-        let cell = Cell {
-            x: 2,
-            y: -1,
-            half: Half::Down,
-        };
-        let once = cell.turned(1);
-        let expected: BTreeSet<Node> = cell
-            .corners()
-            .into_iter()
-            .map(|c| turned(LatticeKind::Triangular, c, 1))
-            .collect();
-        assert_eq!(
-            once.corners().into_iter().collect::<BTreeSet<_>>(),
-            expected
-        );
-        assert_eq!(cell.turned(6), cell);
-    }
-
-    #[test]
-    fn a_ring_of_squares_has_a_hole() {
-        let cells: Vec<Cell> = (0..3)
-            .flat_map(|x| {
-                (0..3).map(move |y| Cell {
-                    x,
-                    y,
-                    half: Half::Whole,
-                })
-            })
-            .filter(|c| (c.x, c.y) != (1, 1))
-            .collect();
-        let polygon = Lattice {
-            kind: LatticeKind::Square,
-            side: 0.5,
-        }
-        .polygon(&cells)
-        .expect("joined");
-        assert_eq!(polygon.holes().len(), 1);
-        assert_eq!(polygon.outline().len(), 4);
-        assert_eq!(polygon.area(), 2.0);
-    }
-
-    #[test]
-    fn cells_that_meet_in_a_corner_only_are_not_one_body() {
-        let cells = [
-            Cell {
-                x: 0,
-                y: 0,
-                half: Half::Whole,
-            },
-            Cell {
-                x: 1,
-                y: 1,
-                half: Half::Whole,
-            },
-        ];
-        assert!(
-            Lattice {
-                kind: LatticeKind::Square,
-                side: 1.0
-            }
-            .polygon(&cells)
-            .is_none()
-        );
-    }
-}
+mod tests;

@@ -94,13 +94,13 @@ impl<T: RTreeObject<Envelope = Around>> Nearby<T> {
 
 #[cfg(test)]
 mod tests {
-    use rstar::primitives::GeomWithData;
+    use rstar::primitives::{GeomWithData, Rectangle};
 
     use super::*;
 
     #[test]
     fn few_and_many_are_found_alike() {
-        for side in [7_usize, 12] {
+        for side in [7_usize, 8, 12] {
             let at = |n: usize| [(n / side) as f64, (n % side) as f64];
             let all = (0..side * side).map(|n| GeomWithData::new(at(n), n));
             let things = Nearby::of(all.collect());
@@ -111,6 +111,39 @@ mod tests {
             found.sort_unstable();
             let wanted = [1, 2].map(|x| [1, 2, 3].map(|y| x * side + y));
             assert_eq!(found, wanted.concat());
+        }
+    }
+
+    /// Boxes of several sizes with corners in whole numbers, so that many only touch.
+    #[test]
+    fn found_is_whatever_shares_a_point_and_nothing_else() {
+        let mut seed = 1_u64;
+        let mut upto = |n: u64| {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            ((seed >> 33) % n) as i32
+        };
+        for count in [1, 2, 5, 20, FEW, FEW + 1, 150] {
+            let mut any = || {
+                let (x, y) = (upto(12), upto(12));
+                [x, y, x + upto(5), y + upto(5)]
+            };
+            let all: Vec<[i32; 4]> = (0..count).map(|_| any()).collect();
+            let around = |b: [i32; 4]| {
+                let [x, y, right, high] = b.map(f64::from);
+                AABB::from_corners([x, y], [right, high])
+            };
+            let thing =
+                |(n, b): (usize, &[i32; 4])| GeomWithData::new(Rectangle::from_aabb(around(*b)), n);
+            let things = Nearby::of(all.iter().enumerate().map(thing).collect());
+            for _ in 0..60 {
+                let asked = any();
+                let mut found: Vec<usize> = things.near(around(asked)).map(|t| t.data).collect();
+                found.sort_unstable();
+                let apart = |a: [i32; 4], b: [i32; 4]| a[2] < b[0] || a[3] < b[1];
+                let meets = |n: &usize| !apart(all[*n], asked) && !apart(asked, all[*n]);
+                let wanted: Vec<usize> = (0..count).filter(meets).collect();
+                assert_eq!(found, wanted, "{asked:?} of {count}");
+            }
         }
     }
 }

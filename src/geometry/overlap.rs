@@ -191,4 +191,96 @@ mod tests {
             overlap(&pieces, &Pieces::of(&rectangle(1.0, 1.0, 2.5, 1.0)), 1e-9).expect("overlap");
         assert!((stuck.area - 0.5).abs() < 1e-12);
     }
+
+    fn pieces(corners: &[[f64; 2]]) -> Pieces {
+        let corners = corners.iter().map(|p| Point::new(p[0], p[1])).collect();
+        Pieces::of(&Polygon::new(corners, vec![]).expect("sound"))
+    }
+
+    /// The overlap of two, the same in either order.
+    fn both(a: &Pieces, b: &Pieces) -> Overlap {
+        let found = overlap(a, b, 1e-9).expect("overlap");
+        let other = overlap(b, a, 1e-9).expect("overlap");
+        assert!((found.area - other.area).abs() < 1e-12);
+        assert!((found.at - other.at).norm() < 1e-12);
+        assert!((found.depth - other.depth).abs() < 1e-12);
+        found
+    }
+
+    #[test]
+    fn common_area_and_its_centroid_are_those_of_the_pieces_together() {
+        // An L and a square over its corner: 2 by ½ around (1½, ¾), and ½ by 1½ around (¾, 1¾).
+        for (x, y) in [(0.0, 0.0), (40.0, -70.0)] {
+            let corners = [
+                [0.0, 0.0],
+                [3.0, 0.0],
+                [3.0, 1.0],
+                [1.0, 1.0],
+                [1.0, 3.0],
+                [0.0, 3.0],
+            ];
+            let l = pieces(&corners.map(|p| [p[0] + x, p[1] + y]));
+            let found = both(&l, &Pieces::of(&rectangle(0.5 + x, 0.5 + y, 2.0, 2.0)));
+            assert!((found.area - 1.75).abs() < 1e-12);
+            let wanted = Point::new(x + (1.5 + 0.5625) / 1.75, y + (0.75 + 1.3125) / 1.75);
+            assert!((found.at - wanted).norm() < 1e-12, "{}", found.at);
+        }
+        // A square less its four corners, cut by a diamond.
+        let diamond = pieces(&[[1.5, 0.0], [0.0, 1.5], [-1.5, 0.0], [0.0, -1.5]]);
+        let found = both(&diamond, &Pieces::of(&rectangle(-1.0, -1.0, 2.0, 2.0)));
+        assert!((found.area - 3.5).abs() < 1e-12 && found.at.coords.norm() < 1e-12);
+    }
+
+    #[test]
+    fn depth_is_the_least_way_out() {
+        let slab = Pieces::of(&rectangle(0.0, 0.0, 4.0, 4.0));
+        for (x, y, depth) in [
+            (1.0, 1.0, 2.0),
+            (2.5, 1.0, 1.5),
+            (-0.75, 2.0, 0.25),
+            (3.5, 3.75, 0.25),
+        ] {
+            let found = both(&slab, &Pieces::of(&rectangle(x, y, 1.0, 1.0)));
+            assert!(
+                (found.depth - depth).abs() < 1e-12,
+                "{x} {y}: {}",
+                found.depth
+            );
+        }
+        // A tip, from above and onto a slope: ¼ deep, the slope 3 along and 4 down.
+        let tip = pieces(&[[2.0, 3.75], [3.0, 9.0], [1.0, 9.0]]);
+        assert!((both(&slab, &tip).depth - 0.25).abs() < 1e-12);
+        let slope = pieces(&[[0.0, 0.0], [3.0, 0.0], [0.0, 4.0]]);
+        let box_at = |d: f64| Pieces::of(&rectangle(1.5 - 0.8 * d, 2.0 - 0.6 * d, 5.0, 5.0));
+        assert!((both(&slope, &box_at(0.25)).depth - 0.25).abs() < 1e-12);
+        assert_eq!(overlap(&slope, &box_at(-1e-6), 0.0), None);
+        // As deep as the gap is none yet.
+        let stone = Pieces::of(&rectangle(1.0, 3.75, 1.0, 1.0));
+        assert_eq!(overlap(&slab, &stone, 0.25), None);
+        assert!(overlap(&slab, &stone, 0.2499).is_some());
+    }
+
+    #[test]
+    fn pieces_cover_the_whole_once() {
+        let ring = |x: f64, size: f64| rectangle(x, x, size, size).outline().to_vec();
+        let frame = Polygon::new(ring(-3.0, 9.0), vec![ring(0.0, 1.0), ring(2.0, 3.0)]);
+        let frame = frame.expect("sound");
+        let Pieces { pieces } = Pieces::of(&frame);
+        let mut area = 0.0;
+        for (around, t) in &pieces {
+            assert_eq!((t.len(), Bounds::of(t.iter().copied())), (3, Some(*around)));
+            let part = cross(t[1] - t[0], t[2] - t[0]) / 2.0;
+            assert!(part > 0.0, "anticlockwise");
+            let centre = t[0] + (t[1] - t[0] + (t[2] - t[0])) / 3.0;
+            assert!(frame.contains(centre));
+            area += part;
+        }
+        assert!((area - 71.0).abs() < 1e-12);
+        let whole = Pieces::of(&rectangle(0.0, 0.0, 1.0, 1.0)).pieces;
+        assert_eq!(
+            (whole.len(), whole[0].1.len()),
+            (1, 4),
+            "what is convex stays whole"
+        );
+    }
 }

@@ -481,3 +481,6 @@ fn meeting(a: Edge, b: Edge) -> Option<Point> {
     }
     None
 }
+
+#[cfg(test)]
+mod tests;

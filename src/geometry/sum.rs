@@ -48,4 +48,30 @@ mod tests {
         sum.add(-1.0);
         assert_eq!(sum.value(), -f64::EPSILON * f64::EPSILON);
     }
+
+    /// Whole numbers of 50 binary digits with products of 100: the exact sums fit into 128.
+    #[test]
+    fn sums_of_products_are_those_of_whole_numbers() {
+        let mut seed = 3_u64;
+        let mut any = || {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            (seed >> 14) as i64 - (1 << 49)
+        };
+        for count in [1, 2, 7, 100] {
+            let (mut sum, mut exact, mut size) = (Sum::default(), 0_i128, 0.0);
+            for _ in 0..count {
+                let (a, b, c) = (any(), any(), any());
+                sum.add_product(a as f64, b as f64);
+                sum.add(c as f64);
+                exact += i128::from(a) * i128::from(b) + i128::from(c);
+                size += (a as f64 * b as f64).abs();
+            }
+            // What is left when almost all of it is taken away again.
+            let near = exact as f64;
+            sum.add(-near);
+            let left = (exact - near as i128) as f64;
+            let off = (sum.value() - left).abs();
+            assert!(off <= 1e-30 * size, "{count}: off by {off} of {size}");
+        }
+    }
 }

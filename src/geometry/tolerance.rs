@@ -67,3 +67,39 @@ impl Tolerance {
         angle: 0.0,
     };
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn close(found: f64, wanted: f64) -> bool {
+        (found - wanted).abs() <= 1e-12 * wanted
+    }
+
+    #[test]
+    fn edges_touch_within_a_millionth_of_the_reach() {
+        // A house of 20 m from bricks of half a metre; and two of them a thousand kilometres apart.
+        assert!(close(Tolerance::of(20.0, 0.5).gap, 20e-6));
+        assert!(close(Tolerance::of(1e6, 0.5).gap, 500e-6));
+        assert_eq!(Tolerance::of(0.0, 0.0).gap, 0.0);
+    }
+
+    #[test]
+    fn the_shortest_stretch_is_a_quarter_of_the_gap_or_a_thousandth_of_the_edge() {
+        let written = Tolerance::within(0.004);
+        assert!(close(written.stretch, 0.001) && close(written.rounding, 0.001));
+        // As long as nothing is known of the coordinates, they may be off by as much as counts as touching.
+        assert!(close(written.shortest(0.1), 0.001));
+        let known = written.exact_to(2e-5);
+        assert_eq!((known.gap, known.angle), (written.gap, written.angle));
+        assert!(close(known.shortest(3.0), 0.001), "a long edge");
+        assert!(close(known.shortest(0.1), 1e-4), "a short one");
+        assert!(
+            close(known.shortest(1e-3), 5e-6),
+            "the rounding of coordinates"
+        );
+        // Rounding never asks for more than the gap does.
+        assert!(close(written.exact_to(1.0).shortest(3.0), 0.001));
+        assert_eq!(Tolerance::EXACT.shortest(1.0), 0.0);
+    }
+}

@@ -245,3 +245,6 @@ fn root(group: &[usize], mut i: usize) -> usize {
     }
     i
 }
+
+#[cfg(test)]
+mod tests;

@@ -93,8 +93,7 @@ pub(crate) fn snapped(bodies: &[Rings], gaps: &[f64], fixed: &[bool], noise: f64
             wrong.into_iter().filter(|b| !kept[*b]).collect()
         };
         if fresh.is_empty() {
-            let kept = (0..bodies.len()).filter(|b| kept[*b] && !fixed[*b]);
-            outcome.kept = kept.collect();
+            outcome.kept = held(&kept, fixed);
             return outcome;
         }
         for body in fresh {
@@ -104,8 +103,16 @@ pub(crate) fn snapped(bodies: &[Rings], gaps: &[f64], fixed: &[bool], noise: f64
     Outcome {
         bodies: bodies.to_vec(),
         moved: Vec::new(),
-        kept: (0..bodies.len()).filter(|b| !fixed[*b]).collect(),
+        kept: held(&vec![true; bodies.len()], fixed),
     }
+}
+
+/// The numbers of bodies that stay for another reason than that they are fixed.
+fn held(kept: &[bool], fixed: &[bool]) -> Vec<usize> {
+    let pairs = kept.iter().zip(fixed).enumerate();
+    pairs
+        .filter_map(|(b, (kept, fixed))| (*kept && !*fixed).then_some(b))
+        .collect()
 }
 
 /// A side of a body, between two nodes.
@@ -306,8 +313,8 @@ fn spoilt(before: &[Rings], after: &[Rings], gaps: &[f64], noise: f64) -> BTreeS
     for (body, (old, new)) in before.iter().zip(after).enumerate() {
         let sound = old.iter().zip(new).all(|(old, new)| {
             let (old, new) = (area(old), area(new));
-            // Turned over or nearly gone.
-            old * new > 0.0 && new.abs() > 0.5 * old.abs()
+            // Not turned over, nor nearly gone.
+            new * old.signum() > 0.5 * old.abs()
         });
         let made = polygon(new).ok().filter(|_| sound);
         if made.is_none() {

@@ -132,3 +132,6 @@ fn near(corners: &[Loose], gaps: &[f64]) -> Vec<(f64, usize, usize)> {
     pairs.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
     pairs
 }
+
+#[cfg(test)]
+mod tests;

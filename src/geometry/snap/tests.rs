@@ -2,6 +2,8 @@
 
 use super::*;
 
+mod part;
+
 fn ring(corners: &[(f64, f64)]) -> Rings {
     let corner = |p: &(f64, f64)| Corner {
         at: Point::new(p.0, p.1),
@@ -238,4 +240,115 @@ fn a_curve_takes_in_the_corners_of_the_curve_that_lies_on_it() {
         misfit(&outcome.bodies, gap)
     );
     assert_eq!(outcome.bodies[0][0].len(), drawn[0][0].len() + 10);
+}
+
+#[test]
+fn what_moved_says_how_many_corners_how_far_and_to_what() {
+    // Two stones side by side on a slab, the second 4 mm beside the first; a third on the ground beyond, and one whose
+    // corner meets the upper corner of the second.
+    let bodies = [
+        rectangle(-5.0, -1.0, 20.0, 1.0),
+        rectangle(0.0, 0.0, 1.0, 1.0),
+        rectangle(1.004, 0.0, 1.0, 1.0),
+        rectangle(8.0, 0.0, 1.0, 1.0),
+        ring(&[(2.003, 1.004), (3.0, 3.0), (2.0, 3.0)]),
+    ];
+    let outcome = brought(&bodies, 0.01);
+    let moved = |body: usize| outcome.moved.iter().find(|m| m.body == body);
+    assert_eq!(outcome.moved.len(), 2);
+    let second = moved(2).expect("the second stone moves");
+    assert_eq!(
+        (second.corners, &second.to),
+        (2, &BTreeSet::from([0, 1, 4]))
+    );
+    assert!((second.distance - 0.004).abs() < 1e-12);
+    let last = moved(4).expect("the last one moves");
+    assert_eq!((last.corners, &last.to), (1, &BTreeSet::from([2])));
+    assert!((last.distance - 0.001_f64.hypot(0.004)).abs() < 1e-12);
+    // An earlier body goes to the side of a later one.
+    let tip = ring(&[(2.0, 1.004), (3.0, 5.0), (1.0, 5.0)]);
+    let outcome = brought(&[tip, rectangle(0.0, 0.0, 4.0, 1.0)], 0.01);
+    let wanted = Moved {
+        body: 0,
+        corners: 1,
+        distance: outcome.moved[0].distance,
+        to: BTreeSet::from([1]),
+    };
+    assert_eq!(outcome.moved, [wanted]);
+    assert!((outcome.moved[0].distance - 0.004).abs() < 1e-12);
+    assert_eq!(outcome.bodies[0][0][0].at, Point::new(2.0, 1.0));
+}
+
+#[test]
+fn a_body_without_a_gap_takes_no_part() {
+    let drawn = vec![
+        rectangle(0.0, 0.0, 4.0, 1.0),
+        rectangle(0.003, 1.003, 1.0, 1.0),
+        rectangle(2.0, 1.003, 1.0, 1.0),
+    ];
+    let outcome = snapped(&drawn, &[0.01, 0.0, 0.01], &[false; 3], 1e-4);
+    assert_eq!(outcome.moved.len(), 1);
+    assert_eq!(outcome.moved[0].body, 2);
+    assert_eq!(outcome.bodies[..2], drawn[..2]);
+}
+
+#[test]
+fn what_is_fixed_stays_and_is_not_said_to_be_kept() {
+    let drawn = vec![
+        rectangle(0.0, 0.003, 4.0, 1.0),
+        rectangle(-1.0, -1.0, 9.0, 1.0),
+    ];
+    // The later one is fixed: the earlier one comes to it.
+    let outcome = snapped(&drawn, &[0.01; 2], &[false, true], 1e-4);
+    assert_eq!((outcome.moved.len(), outcome.kept.len()), (1, 0));
+    assert_eq!(outcome.moved[0].body, 0);
+    assert_eq!(outcome.bodies[1], drawn[1]);
+    assert!(outcome.bodies[0][0][0].at.coords.norm() < 1e-12);
+    // A sliver of 1 mm beside the stone would be flattened: it stays, and that is said.
+    let mut sliver = drawn.clone();
+    sliver.push(ring(&[
+        (4.001, 0.5),
+        (4.003, 0.5),
+        (4.003, 0.9),
+        (4.001, 0.9),
+    ]));
+    let outcome = snapped(&sliver, &[0.01; 3], &[false, true, false], 1e-4);
+    assert_eq!(outcome.kept, [2]);
+    assert_eq!(outcome.bodies[2], sliver[2]);
+    assert_eq!(outcome.bodies[1], sliver[1]);
+}
+
+#[test]
+fn a_curve_takes_in_a_corner_that_lies_on_it_already() {
+    // On a straight side there is nothing to do; a side that stands for a curve may not run past the corner.
+    let tip = ring(&[(1.5, 1.0), (2.5, 5.0), (0.5, 5.0)]);
+    let mut drawn = vec![rectangle(0.0, 0.0, 4.0, 1.0), tip];
+    assert_eq!(brought(&drawn, 0.01).bodies, drawn);
+    drawn[0][0][2].curved = true;
+    let outcome = brought(&drawn, 0.01);
+    let (tip, from) = (drawn[1][0][0].at, drawn[0][0][2]);
+    let mut wanted = drawn.clone();
+    wanted[0][0].insert(3, Corner { at: tip, ..from });
+    assert_eq!(outcome.bodies, wanted);
+    assert_eq!((outcome.moved.len(), outcome.moved[0].body), (1, 0));
+    assert_eq!(
+        (outcome.moved[0].corners, outcome.moved[0].distance),
+        (1, 0.0)
+    );
+}
+
+#[test]
+fn several_corners_come_into_a_curve_in_their_order() {
+    let tip = |x: f64| ring(&[(x, 1.004), (x + 0.5, 5.0), (x - 0.5, 5.0)]);
+    let mut drawn = vec![rectangle(0.0, 0.0, 4.0, 1.0), tip(1.0), tip(3.0), tip(2.0)];
+    drawn[0][0][2].curved = true;
+    let outcome = brought(&drawn, 0.01);
+    let upper: Vec<f64> = outcome.bodies[0][0][2..].iter().map(|c| c.at.x).collect();
+    assert_eq!(upper, [4.0, 3.0, 2.0, 1.0, 0.0]);
+    assert_eq!(outcome.moved.len(), 1);
+    assert_eq!(
+        (outcome.moved[0].corners, outcome.moved[0].distance),
+        (3, 0.0)
+    );
+    assert_eq!(outcome.moved[0].to, BTreeSet::from([1, 2, 3]));
 }

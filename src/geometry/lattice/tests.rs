@@ -1,0 +1,281 @@
+//! Cells, turns and outlines on both lattices, worked out by hand or held against the plane.
+
+use super::*;
+
+const HALVES: [Half; 3] = [Half::Whole, Half::Up, Half::Down];
+
+fn cell(x: i64, y: i64, half: Half) -> Cell {
+    Cell { x, y, half }
+}
+
+fn lattice(half: Half, side: f64) -> Lattice {
+    let kind = match half {
+        Half::Whole => LatticeKind::Square,
+        _ => LatticeKind::Triangular,
+    };
+    Lattice { kind, side }
+}
+
+/// Squares of some columns and rows, from 0, without some of them.
+fn squares(columns: i64, rows: i64, without: &[Node]) -> Vec<Cell> {
+    let all = (0..columns).flat_map(|x| (0..rows).map(move |y| (x, y)));
+    let kept = all.filter(|place| !without.contains(place));
+    kept.map(|(x, y)| cell(x, y, Half::Whole)).collect()
+}
+
+fn outline_of(cells: &[Cell], side: f64) -> Polygon {
+    let lattice = lattice(cells[0].half, side);
+    lattice.polygon(cells).expect("joined by edges")
+}
+
+/// The corners of a ring in their order, from the one that is first in the order of x and y.
+fn nodes(ring: &[Node]) -> Vec<Node> {
+    let mut ring = ring.to_vec();
+    let first = (0..ring.len()).min_by_key(|i| ring[*i]).unwrap_or(0);
+    ring.rotate_left(first);
+    ring
+}
+
+#[test]
+fn corners_run_anticlockwise_around_the_area_of_a_cell() {
+    assert_eq!(lattice(Half::Whole, 3.0).cell_area(), 9.0);
+    assert!((lattice(Half::Up, 2.0).cell_area() - 3f64.sqrt()).abs() < 1e-15);
+    for half in HALVES {
+        let (cell, lattice) = (cell(-4, 3, half), lattice(half, 0.7));
+        let ring: Vec<Point> = cell.corners().iter().map(|c| lattice.node(*c)).collect();
+        let polygon = Polygon::new(ring.clone(), vec![]).expect("sound");
+        assert_eq!(
+            polygon.rings(),
+            [ring.clone()],
+            "it is turned round where it runs clockwise"
+        );
+        assert!((polygon.area() - lattice.cell_area()).abs() < 1e-15);
+        assert!((polygon.centroid() - lattice.cell_centre(cell)).norm() < 1e-14);
+        for side in polygon.edges() {
+            assert!((side.length() - 0.7).abs() < 1e-14);
+        }
+        // What it is named by: the left end of its horizontal edge, with the cell above or below.
+        let above = lattice.cell_centre(cell).y > lattice.node((-4, 3)).y;
+        assert!(cell.corners().contains(&(-4, 3)) && cell.corners().contains(&(-3, 3)));
+        assert_eq!(above, half != Half::Down);
+    }
+}
+
+#[test]
+fn a_cell_lies_where_it_is_counted_to() {
+    // Triangles of 2 m: a row up is half a cell to the right and √3 m higher.
+    let triangles = lattice(Half::Up, 2.0);
+    let third = 3f64.sqrt() / 3.0;
+    let near = |found: Point, x: f64, y: f64| (found - Point::new(x, y)).norm() < 1e-14;
+    assert!(near(
+        triangles.cell_centre(cell(0, 0, Half::Up)),
+        1.0,
+        third
+    ));
+    assert!(near(
+        triangles.cell_centre(cell(0, 0, Half::Down)),
+        1.0,
+        -third
+    ));
+    assert!(near(
+        triangles.cell_centre(cell(2, 1, Half::Down)),
+        6.0,
+        2.0 * third
+    ));
+    assert!(near(triangles.node((1, -2)), 0.0, -6.0 * third));
+    assert!(near(triangles.point(0.5, 1.0), 2.0, 3.0 * third));
+    let square = lattice(Half::Whole, 2.0);
+    assert!(near(
+        square.cell_centre(cell(3, -1, Half::Whole)),
+        7.0,
+        -1.0
+    ));
+}
+
+#[test]
+fn a_moved_cell_keeps_its_half() {
+    for half in HALVES {
+        assert_eq!(cell(3, -2, half).moved((4, -5)), cell(7, -7, half));
+    }
+}
+
+#[test]
+fn turns_on_the_lattice_are_turns_of_the_plane() {
+    for half in HALVES {
+        let lattice = lattice(half, 1.3);
+        let angle = if half == Half::Whole { 90.0 } else { 60.0 };
+        for steps in -7..=7 {
+            let (sin, cos) = libm::sincos((angle * steps as f64).to_radians());
+            let in_plane = |p: Point| Point::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y);
+            for (x, y) in [(0, 0), (2, -1), (-3, 5), (0, 4)] {
+                let node = lattice.node(turned(lattice.kind, (x, y), steps));
+                assert!((node - in_plane(lattice.node((x, y)))).norm() < 1e-13);
+                let own = cell(x, y, half);
+                let centre = lattice.cell_centre(own.turned(steps));
+                assert!((centre - in_plane(lattice.cell_centre(own))).norm() < 1e-13);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_boundary_is_what_one_cell_alone_has() {
+    let one = cell(1, 2, Half::Up);
+    let own = [((1, 2), (2, 2)), ((2, 2), (1, 3)), ((1, 3), (1, 2))];
+    assert_eq!(boundary(&[one]), BTreeSet::from(own));
+    // The triangle below shares the lower edge.
+    let below = [
+        ((1, 2), (2, 1)),
+        ((2, 1), (2, 2)),
+        ((2, 2), (1, 3)),
+        ((1, 3), (1, 2)),
+    ];
+    assert_eq!(
+        boundary(&[one, cell(1, 2, Half::Down)]),
+        BTreeSet::from(below)
+    );
+}
+
+#[test]
+fn outlines_have_corners_only_where_they_turn() {
+    // An L of five squares of half a metre.
+    let mut cells = squares(3, 1, &[]);
+    cells.extend([cell(0, 1, Half::Whole), cell(0, 2, Half::Whole)]);
+    let corners = [(0, 0), (3, 0), (3, 1), (1, 1), (1, 3), (0, 3)];
+    let traced = trace(&cells).expect("joined by edges");
+    assert_eq!(traced.len(), 1);
+    assert_eq!(nodes(&traced[0]), corners);
+    assert_eq!(outline_of(&cells, 0.5).area(), 1.25);
+    // A triangle of two rows: three up, one down.
+    let up = [(0, 0), (1, 0), (0, 1)].map(|(x, y)| cell(x, y, Half::Up));
+    let mut cells = up.to_vec();
+    cells.push(cell(0, 1, Half::Down));
+    let traced = trace(&cells).expect("joined by edges");
+    assert_eq!(nodes(&traced[0]), [(0, 0), (2, 0), (0, 2)]);
+    assert!((outline_of(&cells, 1.0).area() - 3f64.sqrt()).abs() < 1e-15);
+}
+
+#[test]
+fn a_ring_of_squares_has_a_hole() {
+    let polygon = outline_of(&squares(3, 3, &[(1, 1)]), 0.5);
+    assert_eq!(polygon.holes().len(), 1);
+    assert_eq!(polygon.outline().len(), 4);
+    assert_eq!(polygon.area(), 2.0);
+    // The hole runs clockwise, so that the squares are on its left.
+    let clockwise = [(0.5, 0.5), (0.5, 1.0), (1.0, 1.0), (1.0, 0.5)];
+    let mut hole = polygon.holes()[0].clone();
+    let first = hole.iter().position(|p| *p == Point::new(0.5, 0.5));
+    hole.rotate_left(first.expect("a corner of the hole"));
+    assert_eq!(hole, clockwise.map(|(x, y)| Point::new(x, y)));
+}
+
+#[test]
+fn the_outline_comes_first_and_then_the_holes_from_the_smallest() {
+    let large = [(1, 1), (2, 1), (1, 2), (2, 2)];
+    let holes = [&large[..], &[(4, 2)], &[(6, 1), (6, 2)]].concat();
+    let traced = trace(&squares(8, 4, &holes)).expect("joined by edges");
+    let traced: Vec<Vec<Node>> = traced.iter().map(|ring| nodes(ring)).collect();
+    let wanted = [
+        [(0, 0), (8, 0), (8, 4), (0, 4)],
+        [(4, 2), (4, 3), (5, 3), (5, 2)],
+        [(6, 1), (6, 3), (7, 3), (7, 1)],
+        [(1, 1), (1, 3), (3, 3), (3, 1)],
+    ];
+    assert_eq!(traced, wanted);
+}
+
+#[test]
+fn rings_that_touch_in_a_node_stay_with_their_own_cells() {
+    // The corner square is missing, so that the hole touches the outside in (1, 2): of the squares that meet there each
+    // keeps its own two sides, and all of it is one ring.
+    let traced = trace(&squares(3, 3, &[(1, 1), (0, 2)])).expect("joined by edges");
+    let wanted = [
+        (0, 0),
+        (3, 0),
+        (3, 3),
+        (1, 3),
+        (1, 2),
+        (2, 2),
+        (2, 1),
+        (1, 1),
+        (1, 2),
+        (0, 2),
+    ];
+    assert_eq!(traced.len(), 1);
+    assert_eq!(nodes(&traced[0]), wanted);
+    // The mirror image.
+    let traced = trace(&squares(3, 3, &[(1, 1), (2, 2)])).expect("joined by edges");
+    let wanted = [
+        (0, 0),
+        (3, 0),
+        (3, 2),
+        (2, 2),
+        (2, 1),
+        (1, 1),
+        (1, 2),
+        (2, 2),
+        (2, 3),
+        (0, 3),
+    ];
+    assert_eq!(traced.len(), 1);
+    assert_eq!(nodes(&traced[0]), wanted);
+}
+
+/// The six triangles around the origin, anticlockwise from the one between 0° and 60°.
+fn wheel() -> Vec<Cell> {
+    (0..6).map(|k| cell(0, 0, Half::Up).turned(k)).collect()
+}
+
+/// The hexagon of two triangles to a side, without some of the six around its centre.
+fn hexagon(without: &[usize]) -> Vec<Cell> {
+    let inner = wheel();
+    let place = |n: Node| lattice(Half::Up, 1.0).node(n).coords.norm();
+    let all = (-3..=3).flat_map(|x| (-3..=3).map(move |y| (x, y)));
+    let both = all.flat_map(|(x, y)| [cell(x, y, Half::Up), cell(x, y, Half::Down)]);
+    let within = both.filter(|c| c.corners().iter().all(|n| place(*n) < 2.01));
+    let gone: Vec<Cell> = without.iter().map(|k| inner[*k]).collect();
+    within.filter(|c| !gone.contains(c)).collect()
+}
+
+#[test]
+fn triangles_that_meet_in_a_node_only_keep_their_own_two_sides() {
+    assert_eq!(hexagon(&[]).len(), 24);
+    // Every way in which triangles can be missing around the centre.
+    for pattern in 1_usize..63 {
+        let missing = |k: usize| pattern >> (k % 6) & 1 == 1;
+        let without: Vec<usize> = (0..6).filter(|k| missing(*k)).collect();
+        let traced = trace(&hexagon(&without)).expect("joined by edges");
+        assert_eq!((traced.len(), traced[0].len()), (2, 6), "{pattern:b}");
+        let area: i64 = traced.iter().map(|ring| doubled_area(ring)).sum();
+        assert_eq!(area as usize, 24 - without.len(), "{pattern:b}");
+        // The runs of triangles there, by the spokes that bound them; three in a row are straight and have no corner.
+        let mut wanted = BTreeSet::new();
+        for begin in (0..6).filter(|k| !missing(*k) && missing(k + 5)) {
+            let count = (1..6).find(|k| missing(begin + k)).unwrap_or(6);
+            if count != 3 {
+                wanted.insert((begin, (begin + count) % 6));
+            }
+        }
+        let spoke =
+            |n: Node| (0..6).find(|k| turned(LatticeKind::Triangular, (1, 0), *k as i64) == n);
+        let ring = &traced[1];
+        let passes = (0..ring.len()).filter(|i| ring[*i] == (0, 0)).map(|i| {
+            let (back, on) = (
+                ring[(i + ring.len() - 1) % ring.len()],
+                ring[(i + 1) % ring.len()],
+            );
+            spoke(on).zip(spoke(back)).expect("ends of spokes")
+        });
+        assert_eq!(passes.collect::<BTreeSet<_>>(), wanted, "{pattern:b}");
+    }
+}
+
+#[test]
+fn cells_that_meet_in_a_corner_only_are_not_one_body() {
+    let apart = [cell(0, 0, Half::Whole), cell(1, 1, Half::Whole)];
+    assert_eq!(lattice(Half::Whole, 1.0).polygon(&apart), None);
+    assert_eq!(lattice(Half::Whole, 1.0).polygon(&[]), None);
+    // One that is listed twice is there once.
+    let twice = [cell(0, 0, Half::Up), cell(0, 0, Half::Up)];
+    assert_eq!(outline_of(&twice, 2.0), outline_of(&twice[..1], 2.0));
+}

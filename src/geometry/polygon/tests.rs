@@ -1,0 +1,421 @@
+//! Outlines whose flaws, areas and sides can be named by looking at them.
+
+use super::*;
+
+fn points(corners: &[[f64; 2]]) -> Vec<Point> {
+    corners.iter().map(|p| Point::new(p[0], p[1])).collect()
+}
+
+fn square(x: f64, y: f64, size: f64) -> [[f64; 2]; 4] {
+    [[x, y], [x + size, y], [x + size, y + size], [x, y + size]]
+}
+
+fn made(rings: &[&[[f64; 2]]]) -> Result<Polygon, Vec<Flaw>> {
+    let mut rings = rings.iter().map(|ring| points(ring));
+    let outline = rings.next().unwrap_or_default();
+    Polygon::new(outline, rings.collect())
+}
+
+fn sound(rings: &[&[[f64; 2]]]) -> Polygon {
+    made(rings).expect("sound")
+}
+
+fn flaws(rings: &[&[[f64; 2]]]) -> Vec<Flaw> {
+    made(rings).expect_err("flawed")
+}
+
+/// The corner on one side and on the other at which two sides of an outline meet, and where.
+fn crossing(corners: [usize; 2], at: [f64; 2]) -> Flaw {
+    Flaw::Crossing {
+        rings: [0, 0],
+        corners,
+        at: Point::new(at[0], at[1]),
+    }
+}
+
+#[test]
+fn an_edge_has_its_material_on_the_left() {
+    let edge = Edge {
+        from: Point::new(1.0, 1.0),
+        to: Point::new(4.0, 5.0),
+    };
+    assert_eq!((edge.vector(), edge.length()), (Vector::new(3.0, 4.0), 5.0));
+    assert!((edge.outward() - Vector::new(0.8, -0.6)).norm() < 1e-15);
+    let polygon = sound(&[&square(0.0, 0.0, 4.0), &square(1.0, 1.0, 2.0)]);
+    assert_eq!(polygon.edges().count(), 8);
+    for edge in polygon.edges() {
+        let middle = edge.from + edge.vector() / 2.0;
+        assert!(polygon.contains(middle - edge.outward() * 0.1));
+        assert!(!polygon.contains(middle + edge.outward() * 0.1));
+    }
+}
+
+#[test]
+fn a_box_is_as_large_as_what_it_is_around() {
+    assert_eq!(Bounds::of([]), None);
+    let found = Bounds::of(points(&[[3.0, -1.0], [0.0, 2.0], [2.0, 3.0]])).expect("three points");
+    let wanted = Bounds {
+        min: Point::new(0.0, -1.0),
+        max: Point::new(3.0, 3.0),
+    };
+    assert_eq!(found, wanted);
+    assert_eq!(
+        (found.width(), found.height(), found.diagonal()),
+        (3.0, 4.0, 5.0)
+    );
+    assert_eq!(
+        sound(&[&[[3.0, -1.0], [0.0, 2.0], [2.0, 3.0]]]).bounds(),
+        wanted
+    );
+    let grown = found.grown(0.5);
+    assert_eq!(
+        (grown.min, grown.max),
+        (Point::new(-0.5, -1.5), Point::new(3.5, 3.5))
+    );
+    let other = Bounds {
+        min: Point::new(1.0, -4.0),
+        max: Point::new(7.0, 0.0),
+    };
+    let both = Bounds {
+        min: Point::new(0.0, -4.0),
+        max: Point::new(7.0, 3.0),
+    };
+    assert_eq!((found.union(other), other.union(found)), (both, both));
+}
+
+#[test]
+fn boxes_meet_where_they_share_a_point() {
+    let own = Bounds {
+        min: Point::new(0.0, 0.0),
+        max: Point::new(2.0, 1.0),
+    };
+    let moved = |x: f64, y: f64| Bounds {
+        min: own.min + Vector::new(x, y),
+        max: own.max + Vector::new(x, y),
+    };
+    for (x, y) in [
+        (0.0, 0.0),
+        (2.0, 0.0),
+        (-2.0, 0.0),
+        (0.0, 1.0),
+        (0.0, -1.0),
+        (2.0, -1.0),
+        (1.0, 0.5),
+    ] {
+        assert!(own.meets(moved(x, y)), "{x} {y}");
+    }
+    for (x, y) in [
+        (2.1, 0.0),
+        (-2.1, 0.0),
+        (0.0, 1.1),
+        (0.0, -1.1),
+        (2.1, 1.1),
+        (-2.1, 0.5),
+    ] {
+        assert!(!own.meets(moved(x, y)), "{x} {y}");
+    }
+}
+
+#[test]
+fn rings_are_turned_so_that_the_material_is_on_their_left() {
+    let (mut outline, mut hole) = (square(0.0, 0.0, 4.0), square(1.0, 1.0, 2.0));
+    let wanted = sound(&[&outline, &hole]);
+    assert_eq!(wanted.outline(), points(&outline));
+    hole.reverse();
+    assert_eq!(wanted.holes(), [points(&hole)]);
+    outline.reverse();
+    let found = sound(&[&outline, &hole]);
+    assert_eq!((found.area(), found.holes()), (12.0, wanted.holes()));
+    assert!(signed_area(found.outline()) > 0.0);
+}
+
+#[test]
+fn repeated_corners_are_dropped_and_straight_ones_stay() {
+    let [a, b, c, d] = square(0.0, 0.0, 2.0);
+    let middle = [1.0, 0.0];
+    let found = sound(&[&[a, a, middle, b, b, b, c, d, a, a]]);
+    assert_eq!(found.outline(), points(&[a, middle, b, c, d]));
+    let few = |ring: usize, corners: usize| vec![Flaw::TooFewCorners { ring, corners }];
+    assert_eq!(flaws(&[&[]]), few(0, 0));
+    assert_eq!(flaws(&[&[a, a, a]]), few(0, 1));
+    assert_eq!(flaws(&[&[a, b, a]]), few(0, 2));
+    assert_eq!(flaws(&[&[a, b, c, d], &[middle, c]]), few(1, 2));
+    // Every ring is told, and numbered as listed.
+    let both = [few(0, 2), few(1, 1)].concat();
+    assert_eq!(flaws(&[&[a, b], &[c]]), both);
+}
+
+#[test]
+fn a_ring_on_a_line_encloses_nothing() {
+    let flat = |ring: usize| vec![Flaw::ZeroArea { ring }];
+    assert_eq!(flaws(&[&[[0.0, 0.0], [1.0, 1.0], [2.0, 2.0]]]), flat(0));
+    assert_eq!(
+        flaws(&[&[[0.0, 0.0], [f64::NAN, 1.0], [2.0, 0.0]]]),
+        flat(0)
+    );
+    assert_eq!(
+        flaws(&[&[[0.0, 0.0], [f64::INFINITY, 1.0], [2.0, 0.0]]]),
+        flat(0)
+    );
+    let line = [[1.0, 1.0], [2.0, 1.0], [3.0, 1.0]];
+    assert_eq!(flaws(&[&square(0.0, 0.0, 4.0), &line]), flat(1));
+    // A needle: half its height times its length, in parts of its circumference of twice its length.
+    for size in [1.0, 1e3, 1e-3] {
+        let needle = |h: f64| [[0.0, 0.0], [size, 0.0], [0.5 * size, h * size]];
+        assert_eq!(flaws(&[&needle(6e-15)]), flat(0));
+        assert_eq!(sound(&[&needle(1e-14)]).outline().len(), 3);
+    }
+    // Where the areas on both sides of a crossing cancel the crossing is told.
+    let bow = [[0.0, 0.0], [2.0, 2.0], [2.0, 0.0], [0.0, 2.0]];
+    assert_eq!(flaws(&[&bow]), [crossing([0, 2], [1.0, 1.0])]);
+}
+
+#[test]
+fn a_hole_lies_inside_the_outline_and_outside_other_holes() {
+    let outline = square(0.0, 0.0, 9.0);
+    let outside = |ring: usize| vec![Flaw::HoleOutside { ring }];
+    let beside = square(10.0, 1.0, 1.0);
+    assert_eq!(flaws(&[&outline, &beside]), outside(1));
+    assert_eq!(
+        flaws(&[&outline, &square(1.0, 1.0, 1.0), &beside]),
+        outside(2)
+    );
+    let (hole, within) = (square(1.0, 1.0, 4.0), square(2.0, 2.0, 1.0));
+    assert_eq!(flaws(&[&outline, &hole, &within]), outside(2));
+    assert_eq!(flaws(&[&outline, &within, &hole]), outside(1));
+    // Around the outline.
+    assert_eq!(flaws(&[&within, &outline]), outside(1));
+    let found = sound(&[&outline, &hole, &square(6.0, 6.0, 2.0)]);
+    assert_eq!((found.area(), found.rings().len()), (81.0 - 16.0 - 4.0, 3));
+}
+
+#[test]
+fn areas_and_centroids_are_without_the_holes() {
+    for (x, y) in [(0.0, 0.0), (-30.0, 50.0)] {
+        // 16 around (2, 2) less 1 around (3.5, 0.5), and less 2 of a triangle around (1, 2).
+        let moved = |ring: &[[f64; 2]]| {
+            ring.iter()
+                .map(|p| [p[0] + x, p[1] + y])
+                .collect::<Vec<_>>()
+        };
+        let triangle = [[0.5, 1.0], [2.0, 1.5], [0.5, 3.5]];
+        let rings = [
+            &square(0.0, 0.0, 4.0)[..],
+            &square(3.0, 0.25, 0.5),
+            &triangle,
+        ]
+        .map(moved);
+        let found = sound(&[&rings[0], &rings[1], &rings[2]]);
+        let area = 16.0 - 0.25 - 1.875;
+        assert!((found.area() - area).abs() < 1e-12);
+        let moment =
+            Vector::new(32.0, 32.0) - Vector::new(3.25, 0.5) * 0.25 - Vector::new(1.0, 2.0) * 1.875;
+        let wanted = Point::from(moment / area) + Vector::new(x, y);
+        assert!(
+            (found.centroid() - wanted).norm() < 1e-12,
+            "{}",
+            found.centroid()
+        );
+    }
+}
+
+#[test]
+fn inside_is_what_a_ray_leaves_once() {
+    // A comb with teeth at its top, and a hole; asked at the heights of corners as well.
+    let comb = [
+        [0.0, 0.0],
+        [6.0, 0.0],
+        [6.0, 4.0],
+        [5.0, 2.0],
+        [4.0, 4.0],
+        [3.0, 2.0],
+        [2.0, 4.0],
+        [1.0, 2.0],
+        [0.0, 4.0],
+    ];
+    let found = sound(&[&comb, &square(2.5, 0.5, 1.0)]);
+    for (x, y) in [
+        (0.5, 2.0),
+        (2.0, 2.0),
+        (4.0, 2.0),
+        (4.0, 3.9),
+        (2.0, 3.0),
+        (0.1, 3.0),
+        (5.9, 3.0),
+        (1.0, 1.0),
+        (3.0, 1.6),
+    ] {
+        assert!(found.contains(Point::new(x, y)), "{x} {y}");
+    }
+    for (x, y) in [
+        (1.0, 3.0),
+        (3.0, 3.0),
+        (5.0, 2.1),
+        (-1.0, 2.0),
+        (7.0, 2.0),
+        (-1.0, 4.0),
+        (3.0, 1.0),
+        (3.0, -1.0),
+        (3.0, 4.0),
+        (-1.0, 0.0),
+    ] {
+        assert!(!found.contains(Point::new(x, y)), "{x} {y}");
+    }
+}
+
+#[test]
+fn convex_is_what_never_turns_right() {
+    assert!(sound(&[&square(0.0, 0.0, 1.0)]).is_convex());
+    let straight = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [1.0, 1.0]];
+    assert!(sound(&[&straight]).is_convex());
+    assert!(!sound(&[&square(0.0, 0.0, 4.0), &square(1.0, 1.0, 1.0)]).is_convex());
+    // A dent, wherever the corners are begun to be listed.
+    let mut dented = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [2.0, 1.0], [0.0, 4.0]];
+    for _ in 0..dented.len() {
+        assert!(!sound(&[&dented]).is_convex());
+        dented.rotate_left(1);
+    }
+}
+
+#[test]
+fn placing_turns_about_the_origin_and_then_moves() {
+    let polygon = sound(&[&[[1.0, 0.0], [3.0, 0.0], [1.0, 4.0]]]);
+    let placed = polygon.placed(90.0, Vector::new(10.0, 20.0));
+    assert_eq!(
+        placed.outline(),
+        points(&[[10.0, 21.0], [10.0, 23.0], [6.0, 21.0]])
+    );
+    let third = polygon.placed(30.0, Vector::zeros());
+    let (sin, cos) = (0.5, 0.75_f64.sqrt());
+    let wanted = points(&[
+        [cos, sin],
+        [3.0 * cos, 3.0 * sin],
+        [cos - 4.0 * sin, sin + 4.0 * cos],
+    ]);
+    for (found, wanted) in third.outline().iter().zip(wanted) {
+        assert!((found - wanted).norm() < 1e-15);
+    }
+    for turns in [-2.0, 0.0, 1.0] {
+        let exact = [(0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0)];
+        for (k, wanted) in exact.into_iter().enumerate() {
+            assert_eq!(sin_cos_degrees(90.0 * k as f64 + 360.0 * turns), wanted);
+        }
+    }
+}
+
+#[test]
+fn sides_that_meet_are_told_by_the_corners_where_they_begin() {
+    // The first side is crossed by the third one, which is listed behind a repeated corner.
+    let crossed = [
+        [0.0, 0.0],
+        [6.0, 3.0],
+        [6.0, 3.0],
+        [6.0, 9.0],
+        [2.0, -5.0],
+        [-4.0, 9.0],
+    ];
+    let found = flaws(&[&crossed]);
+    let [Flaw::Crossing { rings, corners, at }] = found[..] else {
+        unreachable!("one crossing: {found:?}");
+    };
+    // x = 6 − 4s, y = 9 − 14s on y = x / 2: s = 1/2.
+    assert_eq!((rings, corners), ([0, 0], [0, 3]), "listed numbers");
+    assert!((at - Point::new(4.0, 2.0)).norm() < 1e-12);
+    // A corner on a side, on either of the two; and a corner on a corner.
+    let touching = [[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [2.0, 0.0], [0.0, 3.0]];
+    assert_eq!(
+        flaws(&[&touching]),
+        [crossing([0, 2], [2.0, 0.0]), crossing([0, 3], [2.0, 0.0])]
+    );
+    let pinched = [
+        [0.0, 0.0],
+        [2.0, 2.0],
+        [4.0, 0.0],
+        [4.0, 4.0],
+        [2.0, 2.0],
+        [0.0, 4.0],
+    ];
+    let at = [2.0, 2.0];
+    let wanted = [[0, 3], [0, 4], [1, 3], [1, 4]].map(|corners| crossing(corners, at));
+    assert_eq!(flaws(&[&pinched]), wanted);
+    // Near, but apart.
+    let near = [
+        [0.0, 0.0],
+        [4.0, 0.0],
+        [4.0, 3.0],
+        [2.0, 1e-300],
+        [0.0, 3.0],
+    ];
+    assert_eq!(sound(&[&near]).outline().len(), 5);
+}
+
+#[test]
+fn a_path_may_not_turn_back_on_itself() {
+    let spike = [
+        [0.0, 0.0],
+        [4.0, 0.0],
+        [4.0, 2.0],
+        [6.0, 2.0],
+        [5.0, 2.0],
+        [3.0, 4.0],
+    ];
+    assert_eq!(flaws(&[&spike])[0], crossing([2, 3], [6.0, 2.0]));
+    // The first side and the last: the fold is where the ring is closed.
+    let closing = [
+        [6.0, 2.0],
+        [5.0, 2.0],
+        [3.0, 4.0],
+        [0.0, 0.0],
+        [4.0, 0.0],
+        [4.0, 2.0],
+    ];
+    assert!(flaws(&[&closing]).contains(&crossing([0, 5], [6.0, 2.0])));
+}
+
+#[test]
+fn holes_may_not_touch_what_is_around_them_nor_each_other() {
+    let outline = square(0.0, 0.0, 9.0);
+    let rings = |flaws: Vec<Flaw>| {
+        let all = flaws.into_iter().map(|flaw| match flaw {
+            Flaw::Crossing { rings, .. } => rings,
+            other => unreachable!("a crossing: {other:?}"),
+        });
+        all.collect::<Vec<_>>()
+    };
+    let tip = [[1.0, 0.0], [2.0, 1.0], [1.0, 1.0]];
+    assert_eq!(rings(flaws(&[&outline, &tip])), [[0, 1]; 2]);
+    let across = rings(flaws(&[
+        &outline,
+        &square(1.0, 1.0, 2.0),
+        &square(2.0, 2.0, 2.0),
+    ]));
+    assert_eq!(across, [[1, 2]; 2]);
+}
+
+#[test]
+fn the_first_twenty_crossings_are_told_in_the_order_of_the_sides() {
+    // A zigzag of many teeth and one line back through all of them.
+    let zigzag = |teeth: usize| {
+        let mut ring: Vec<[f64; 2]> = (0..=teeth)
+            .map(|k| [k as f64, if k % 2 == 0 { -1.0 } else { 1.0 }])
+            .collect();
+        ring.extend([[teeth as f64 + 1.0, 0.0], [-1.0, 0.0]]);
+        ring
+    };
+    for (teeth, told) in [(19, 19), (20, 20), (21, 20), (90, 20)] {
+        let found = flaws(&[&zigzag(teeth)]);
+        let line = teeth + 1;
+        let wanted: Vec<Flaw> = (0..told)
+            .map(|k| crossing([k, line], [k as f64 + 0.5, 0.0]))
+            .collect();
+        assert_eq!(found, wanted, "{teeth}");
+    }
+    // The line first.
+    let mut ring = zigzag(31);
+    ring.rotate_right(2);
+    let found = flaws(&[&ring]);
+    let wanted: Vec<Flaw> = (0..20)
+        .map(|k| crossing([0, k + 2], [k as f64 + 0.5, 0.0]))
+        .collect();
+    assert_eq!(found, wanted);
+}

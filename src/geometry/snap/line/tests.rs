@@ -1,0 +1,374 @@
+//! Lines through few places, and where corners on them come to lie.
+
+use super::*;
+use crate::geometry::snap::Corner;
+
+/// The corners of one body, which stay apart however near they are.
+fn nodes(places: &[[f64; 2]], gap: f64) -> Nodes {
+    let corner = |p: &[f64; 2]| Corner {
+        at: Point::new(p[0], p[1]),
+        curved: false,
+    };
+    let ring = places.iter().map(corner).collect();
+    Nodes::of(&[vec![ring]], &[gap], &[false])
+}
+
+fn transposed(places: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    places.iter().map(|[x, y]| [*y, *x]).collect()
+}
+
+/// Turned by 36.9° and moved.
+fn tilted(places: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let turn = |[x, y]: &[f64; 2]| [0.8 * x - 0.6 * y + 3.0, 0.6 * x + 0.8 * y - 7.0];
+    places.iter().map(turn).collect()
+}
+
+/// The course of all of some places, the sides given by their numbers.
+fn course(places: &[[f64; 2]], gap: f64, sides: &[[usize; 2]]) -> Option<String> {
+    let nodes = nodes(places, gap);
+    let line = Line::of(&nodes, (0..places.len()).collect(), sides)?;
+    assert_eq!(line.nodes.len(), places.len());
+    Some(match line.course {
+        Course::Side(ends) => format!("{ends:?}"),
+        Course::Level => "level".to_owned(),
+        Course::Upright => "upright".to_owned(),
+        Course::Closest => "closest".to_owned(),
+    })
+}
+
+fn course_is(places: &[[f64; 2]], gap: f64, sides: &[[usize; 2]], wanted: &str) {
+    assert_eq!(
+        course(places, gap, sides).as_deref(),
+        Some(wanted),
+        "{places:?}"
+    );
+}
+
+#[test]
+fn the_longest_side_is_the_line_where_it_reaches_along_all_and_all_lie_near() {
+    // A side of 4 that begins at 1, a shorter one on it, and a corner: a quarter beyond either end, a quarter beside.
+    let at = |end: f64, off: f64| {
+        [
+            [1.0, 2.0],
+            [5.0, 2.0],
+            [1.5, 2.0],
+            [4.0, 2.125],
+            [end, 2.0 + off],
+        ]
+    };
+    let sides = [[2, 3], [0, 1]];
+    for (end, off) in [(0.75, 0.0), (5.25, 0.0), (3.0, 0.25), (3.0, -0.25)] {
+        let places = at(end, off);
+        course_is(&places, 0.25, &sides, "[0, 1]");
+        course_is(&transposed(&places), 0.25, &sides, "[0, 1]");
+        course_is(&tilted(&places), 0.2500001, &sides, "[0, 1]");
+    }
+    for end in [0.5, 5.5] {
+        let places = at(end, 0.0);
+        course_is(&places, 0.25, &sides, "level");
+        course_is(&transposed(&places), 0.25, &sides, "upright");
+        course_is(&tilted(&places), 0.25, &sides, "closest");
+    }
+    // Of two as long the first, whichever way it runs.
+    course_is(
+        &[[0.0, 0.0], [4.0, 0.0], [0.0, 0.5], [4.0, 0.5]],
+        0.5,
+        &[[1, 0], [2, 3]],
+        "[1, 0]",
+    );
+}
+
+#[test]
+fn what_no_line_passes_within_the_gaps_has_none() {
+    // Three places of a triangle 1 high: the closest line is a third from two of them, two thirds from the third.
+    let places = [[0.0, 0.0], [9.0, 0.0], [4.5, 1.0]];
+    let sides = [[0, 2]];
+    assert_eq!(course(&places, 0.66, &sides), None);
+    course_is(&places, 0.67, &sides, "level");
+    let off = [[0.0, 0.0], [9.0, 0.0], [4.5, 1.0], [f64::NAN, 0.0]];
+    assert_eq!(course(&off, 0.67, &[[0, 1]]), None);
+}
+
+#[test]
+fn level_and_upright_are_what_corners_cannot_tell_from_it() {
+    // Four corners in a row of 6, off by ±1/64; nothing tells whether one end is higher, by up to 1/32.
+    let row = |rise: f64, off: f64| {
+        let at = |k: usize, s: f64| [2.0 * k as f64, rise * (k as f64 / 3.0 - 0.5) + s * off];
+        [at(0, 1.0), at(1, -1.0), at(2, -1.0), at(3, 1.0)]
+    };
+    let sides = [[1, 2]];
+    for (rise, off, level) in [
+        (0.0, 1.0 / 64.0, true),
+        (0.03, 1.0 / 64.0, true),
+        (-0.03, 1.0 / 64.0, true),
+        (0.033, 1.0 / 64.0, false),
+        (-0.033, 1.0 / 64.0, false),
+        // Without a misfit only rounding is left: a billionth of the gap.
+        (0.9e-9, 0.0, true),
+        (1.2e-9, 0.0, false),
+        (1e-3, 0.0, false),
+    ] {
+        let places = row(rise, off);
+        let far = places.map(|[x, y]| [x + 100.0, y - 0.5]);
+        for places in [places, far] {
+            course_is(
+                &places,
+                1.0,
+                &sides,
+                if level { "level" } else { "closest" },
+            );
+            let across = transposed(&places);
+            course_is(
+                &across,
+                1.0,
+                &sides,
+                if level { "upright" } else { "closest" },
+            );
+        }
+    }
+}
+
+#[test]
+fn the_closest_line_has_the_least_squares() {
+    let mut seed = 5_u64;
+    let mut any = || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        (seed >> 33) as f64 / (1_u64 << 30) as f64 - 1.0
+    };
+    for k in 0..24 {
+        let angle = 0.27 * k as f64;
+        let places: Vec<[f64; 2]> = (0..5)
+            .map(|i| {
+                let (s, t) = (i as f64 - 2.0, 0.2 * any());
+                let (sin, cos) = libm::sincos(angle);
+                [cos * s - sin * t + 4.0, sin * s + cos * t - 9.0]
+            })
+            .collect();
+        let nodes = nodes(&places, 0.01);
+        let line = Line {
+            nodes: (0..5).collect(),
+            course: Course::Closest,
+        };
+        let fit = line.fit(&nodes);
+        let squares = |fit: &Fit| {
+            nodes
+                .all
+                .iter()
+                .map(|n| fit.distance(n.at).powi(2))
+                .sum::<f64>()
+        };
+        let least = squares(&fit);
+        assert!((fit.normal.norm() - 1.0).abs() < 1e-14);
+        for by in [-1.0, -1e-3, 1e-3, 1.0] {
+            let (sin, cos) = libm::sincos(by);
+            let n = fit.normal;
+            let normal = Vector::new(cos * n.x - sin * n.y, sin * n.x + cos * n.y);
+            assert!(squares(&Fit { normal, ..fit }) > least);
+            let through = fit.through + fit.normal * by;
+            assert!(squares(&Fit { through, ..fit }) > least);
+        }
+    }
+}
+
+/// A line through a point, with a normal that has the direction of `normal`.
+fn line(through: [f64; 2], normal: [f64; 2]) -> Fit {
+    Fit {
+        through: Point::new(through[0], through[1]),
+        normal: Vector::new(normal[0], normal[1]).normalize(),
+    }
+}
+
+fn steps_to(at: [f64; 2], lines: &[Fit], wanted: [f64; 2]) {
+    let at = Point::new(at[0], at[1]);
+    let found = at + towards(at, lines.iter());
+    assert!(
+        (found - Point::new(wanted[0], wanted[1])).norm() < 1e-12,
+        "{found} for {wanted:?}"
+    );
+}
+
+#[test]
+fn a_step_goes_straight_onto_one_line_and_to_where_two_cross() {
+    steps_to([3.0, 5.0], &[line([9.0, 1.0], [0.0, 1.0])], [3.0, 1.0]);
+    steps_to([3.0, 5.0], &[line([9.0, 1.0], [-1.0, 0.0])], [9.0, 5.0]);
+    // y = x, and 3x + 4y = 25 from (8, 9).
+    steps_to([3.0, 5.0], &[line([1.0, 1.0], [1.0, -1.0])], [4.0, 4.0]);
+    steps_to(
+        [8.0, 9.0],
+        &[line([3.0, 4.0], [3.0, 4.0])],
+        [8.0 - 3.0 * 1.4, 9.0 - 4.0 * 1.4],
+    );
+    // x + y = 4 and x − 3y = −8 in (1, 3); x = 2 and x + 2y = 12 in (2, 5).
+    steps_to(
+        [9.0, -2.0],
+        &[line([4.0, 0.0], [1.0, 1.0]), line([-8.0, 0.0], [1.0, -3.0])],
+        [1.0, 3.0],
+    );
+    steps_to(
+        [0.0, 1.0],
+        &[line([2.0, 7.0], [1.0, 0.0]), line([12.0, 0.0], [1.0, 2.0])],
+        [2.0, 5.0],
+    );
+}
+
+#[test]
+fn a_step_onto_lines_that_miss_each_other_goes_to_the_middle() {
+    // Three around a square of 6, level, level and upright; and along lines that never cross.
+    let level = |y: f64| line([0.0, y], [0.0, 1.0]);
+    let upright = |x: f64| line([x, 0.0], [1.0, 0.0]);
+    steps_to(
+        [5.0, 9.0],
+        &[level(1.0), level(3.0), upright(-4.0)],
+        [-4.0, 2.0],
+    );
+    steps_to([5.0, 9.0], &[level(1.0), level(3.0)], [5.0, 2.0]);
+    steps_to([5.0, 9.0], &[upright(1.0), upright(3.0)], [2.0, 9.0]);
+    // x + y = 0 and x + y = 4 are as far from x + y = 2.
+    steps_to(
+        [5.0, 1.0],
+        &[line([0.0, 0.0], [1.0, 1.0]), line([4.0, 0.0], [1.0, 1.0])],
+        [3.0, -1.0],
+    );
+    steps_to(
+        [5.0, 1.0],
+        &[line([0.0, 0.0], [1.0, -1.0]), line([2.0, 0.0], [1.0, -1.0])],
+        [3.5, 2.5],
+    );
+    // A hundredth of a radian and a little more is a crossing, ten thousand gaps away; a little less is none.
+    let crossing = |sine: f64| {
+        let lines = [level(0.0), line([0.0, 1.0], [-sine, 1.0])];
+        towards(Point::new(0.0, 0.0), lines.iter()).norm()
+    };
+    assert!((crossing(0.0102) * 0.0102 - 1.0).abs() < 1e-9);
+    assert!(crossing(0.0098) < 1.0);
+}
+
+/// The lines of sides and of the nodes on them, as sorted numbers of nodes.
+fn lines_of(nodes: &Nodes, sides: &[([usize; 2], &[usize])]) -> Vec<Vec<usize>> {
+    let on = sides
+        .iter()
+        .map(|(ends, on)| (*ends, on.iter().copied().collect()));
+    let Lines(lines) = Lines::of(nodes, &on.collect());
+    lines.into_iter().map(|line| line.nodes).collect()
+}
+
+#[test]
+fn sides_that_share_two_nodes_are_one_line() {
+    let row = nodes(&[0.0, 1.0, 2.0, 3.0, 4.0, 5.0].map(|x| [x, 0.0]), 0.25);
+    // Three that overlap, the last of them with the one before; then with the first only, in one node.
+    let all = [([0, 2], &[1][..]), ([1, 4], &[2, 3]), ([3, 5], &[4])];
+    assert_eq!(lines_of(&row, &all), [[0, 1, 2, 3, 4, 5]]);
+    let two = [([0, 2], &[1][..]), ([2, 4], &[3]), ([3, 5], &[4])];
+    assert_eq!(lines_of(&row, &two), [vec![0, 1, 2], vec![2, 3, 4, 5]]);
+    // The first and the last with one between them that comes later in the order of the sides.
+    let later = [([0, 1], &[2][..]), ([3, 4], &[5]), ([3, 5], &[1, 2, 4])];
+    assert_eq!(lines_of(&row, &later), [[0, 1, 2, 3, 4, 5]]);
+    // A bend by more than the gap: the sides stay lines of their own; and one that has none goes without.
+    let bent = nodes(
+        &[[0.0, 0.0], [4.0, 0.0], [8.0, 0.5], [6.0, 0.0], [2.0, 0.0]],
+        0.0625,
+    );
+    let sides = [([0, 3], &[4, 1][..]), ([1, 2], &[3])];
+    assert_eq!(lines_of(&bent, &sides), [[0, 1, 3, 4]]);
+    let wide = nodes(
+        &[[0.0, 0.0], [4.0, 0.0], [8.0, 1.0], [6.0, 0.25], [2.0, 0.0]],
+        0.25,
+    );
+    assert_eq!(lines_of(&wide, &sides), [vec![0, 1, 3, 4], vec![1, 2, 3]]);
+}
+
+/// The nodes once they lie on the lines of sides.
+fn settled(mut nodes: Nodes, sides: &[([usize; 2], &[usize])]) -> Vec<Point> {
+    let on = sides
+        .iter()
+        .map(|(ends, on)| (*ends, on.iter().copied().collect()));
+    Lines::of(&nodes, &on.collect()).settle(&mut nodes);
+    nodes.all.iter().map(|node| node.at).collect()
+}
+
+fn lie_at(found: &[Point], wanted: &[[f64; 2]]) {
+    assert_eq!(found.len(), wanted.len());
+    for (found, wanted) in found.iter().zip(wanted) {
+        let off = (found - Point::new(wanted[0], wanted[1])).norm();
+        assert!(off < 1e-9, "{found} for {wanted:?}");
+    }
+}
+
+#[test]
+fn corners_go_to_their_line_and_those_of_two_to_the_crossing() {
+    // A level joint and an upright one, each of a side that runs along it; the corner of both lies beside both.
+    let drawn = [
+        [0.0, 0.0],
+        [8.0, 0.0],
+        [3.0, -3.0],
+        [3.0, 3.0],
+        [3.01, 0.02],
+        [5.0, -0.01],
+        [2.98, 1.0],
+    ];
+    let sides = [([0, 1], &[4, 5][..]), ([2, 3], &[4, 6])];
+    let found = settled(nodes(&drawn, 0.04), &sides);
+    lie_at(
+        &found,
+        &[
+            [0.0, 0.0],
+            [8.0, 0.0],
+            [3.0, -3.0],
+            [3.0, 3.0],
+            [3.0, 0.0],
+            [5.0, 0.0],
+            [3.0, 1.0],
+        ],
+    );
+    let found = settled(nodes(&tilted(&drawn), 0.04), &sides);
+    let straight = [
+        [0.0, 0.0],
+        [8.0, 0.0],
+        [3.0, -3.0],
+        [3.0, 3.0],
+        [3.0, 0.0],
+        [5.0, 0.0],
+        [3.0, 1.0],
+    ];
+    lie_at(&found, &tilted(&straight));
+}
+
+#[test]
+fn what_is_fixed_stays_and_the_others_come_to_it() {
+    // Two sides that overlap, and each other's ends lie on them; one of these four has to stay where it is.
+    let drawn = [[0.0, 0.0], [4.0, 0.0], [2.0, 0.01], [6.0, 0.01]];
+    let sides = [([0, 1], &[2][..]), ([2, 3], &[1])];
+    lie_at(
+        &settled(nodes(&drawn, 0.04), &sides),
+        &drawn.map(|[x, _]| [x, 0.005]),
+    );
+    let mut fixed = nodes(&drawn, 0.04);
+    fixed.all[2].fixed = true;
+    lie_at(&settled(fixed, &sides), &drawn.map(|[x, _]| [x, 0.01]));
+}
+
+#[test]
+fn no_corner_goes_farther_than_two_gaps() {
+    // A corner a gap beside each of two lines: where they are square to each other it has 1.41 gaps to go, and at an
+    // angle of 0.4 to each other five.
+    let at = |angle: f64| {
+        let ray = |side: f64, reach: f64| {
+            let (sin, cos) = libm::sincos(angle / 2.0);
+            [reach * cos, side * reach * sin]
+        };
+        let apart = 0.01 / libm::sin(angle / 2.0);
+        let places = [
+            ray(1.0, -5.0),
+            ray(1.0, 5.0),
+            ray(-1.0, -5.0),
+            ray(-1.0, 5.0),
+            [apart, 0.0],
+        ];
+        settled(
+            nodes(&places, 0.0101),
+            &[([0, 1], &[4][..]), ([2, 3], &[4])],
+        )[4]
+    };
+    assert!(at(core::f64::consts::FRAC_PI_2).coords.norm() < 1e-12);
+    assert!((at(0.4).x - 0.01 / libm::sin(0.2)).abs() < 1e-15);
+}

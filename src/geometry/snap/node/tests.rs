@@ -1,0 +1,137 @@
+//! Which corners become one place, and where that lies.
+
+use super::*;
+use crate::geometry::snap::Corner;
+
+/// Bodies of one ring each.
+fn bodies(all: &[&[[f64; 2]]]) -> Vec<Rings> {
+    let corner = |p: &[f64; 2]| Corner {
+        at: Point::new(p[0], p[1]),
+        curved: false,
+    };
+    let ring = |corners: &&[[f64; 2]]| vec![corners.iter().map(corner).collect()];
+    all.iter().map(ring).collect()
+}
+
+/// Single corners on a line, each of a body of its own, and the node of each.
+fn along(places: &[f64], gaps: &[f64], kept: &[bool]) -> (Nodes, Vec<usize>) {
+    let corners: Vec<[[f64; 2]; 1]> = places.iter().map(|x| [[*x, 7.0]]).collect();
+    let all: Vec<&[[f64; 2]]> = corners.iter().map(|c| &c[..]).collect();
+    let nodes = Nodes::of(&bodies(&all), gaps, kept);
+    let numbers = (0..places.len()).map(|b| nodes.number(b, 0, 0)).collect();
+    (nodes, numbers)
+}
+
+fn free(places: &[f64], gaps: &[f64]) -> (Nodes, Vec<usize>) {
+    along(places, gaps, &vec![false; places.len()])
+}
+
+#[test]
+fn the_smaller_gap_counts_and_reaches_to_its_end() {
+    for (gaps, one) in [
+        ([0.25, 0.25], true),
+        ([0.25, 9.0], true),
+        ([9.0, 0.25], true),
+        ([0.125, 9.0], false),
+        ([9.0, 0.125], false),
+    ] {
+        // A quarter apart, to the last bit.
+        let (nodes, numbers) = free(&[1.0, 1.25], &gaps);
+        assert_eq!(numbers, if one { [0, 0] } else { [0, 1] }, "{gaps:?}");
+        assert_eq!(nodes.all.len(), if one { 1 } else { 2 });
+        assert_eq!(nodes.exact, !one);
+        assert_eq!(nodes.all[0].gap, if one { 0.25 } else { gaps[0] });
+        assert_eq!(nodes.all[0].at, Point::new(1.0, 7.0), "the earlier stays");
+    }
+    // Across as well as along, and in both directions.
+    for [x, y] in [
+        [0.0, 0.25],
+        [0.0, -0.25],
+        [-0.25, 0.0],
+        [0.15, 0.2],
+        [-0.15, -0.2],
+    ] {
+        let both = bodies(&[&[[3.0, 5.0]], &[[3.0 + x, 5.0 + y]]]);
+        let count = |gap: f64| Nodes::of(&both, &[gap; 2], &[false; 2]).all.len();
+        assert_eq!((count(0.251), count(0.249)), (1, 2));
+    }
+}
+
+#[test]
+fn all_corners_of_a_node_lie_within_the_gap_of_each_other() {
+    // In a row of equal steps the second joins the first, and the third is too far from that one.
+    let (nodes, numbers) = free(&[0.0, 0.75, 1.5, 2.25], &[1.0; 4]);
+    assert_eq!(numbers, [0, 0, 1, 1]);
+    assert_eq!(nodes.all[1].bodies, [2, 3]);
+    assert!(!nodes.exact);
+    // The nearest come together first, whatever their order.
+    let (_, numbers) = free(&[0.0, 0.75, 1.25], &[1.0; 3]);
+    assert_eq!(numbers, [0, 1, 1]);
+    let (nodes, numbers) = free(&[1.25, 0.0, 0.75, 0.25], &[1.0, 1.0, 1.0, 0.5]);
+    assert_eq!(numbers, [0, 1, 0, 1]);
+    assert_eq!(nodes.all[1].gap, 0.5);
+    // Two and two become four where all are near enough.
+    let (nodes, numbers) = free(&[0.0, 0.875, 0.125, 1.0], &[1.0; 4]);
+    assert_eq!(numbers, [0; 4]);
+    assert_eq!(nodes.all[0].bodies, [0, 1, 2, 3]);
+    assert_eq!(nodes.all[0].at, Point::new(0.0, 7.0));
+    // Nor does a corner with a small gap join others that lie beyond it.
+    let (_, numbers) = free(&[0.0, 0.25, 0.75], &[1.0, 1.0, 0.5]);
+    assert_eq!(numbers, [0, 0, 1]);
+}
+
+#[test]
+fn of_pairs_that_are_as_near_the_earlier_bodies_come_together() {
+    // 5 from the third to the first, and from either to one more; those two are 11 apart and all others 8.9.
+    let all = bodies(&[&[[5.0, 0.0]], &[[-3.0, 4.0]], &[[0.0, 0.0]], &[[8.0, 4.0]]]);
+    let nodes = Nodes::of(&all, &[9.0; 4], &[false; 4]);
+    assert_eq!(nodes.all[0].bodies, [0, 1, 2]);
+    assert_eq!(nodes.all[1].bodies, [3]);
+}
+
+#[test]
+fn corners_of_one_body_stay_apart() {
+    let both = bodies(&[
+        &[[0.0, 0.0], [0.5, 0.0], [9.0, 9.0]],
+        &[[0.25, 0.0], [0.25, 0.125], [-9.0, 9.0]],
+    ]);
+    let nodes = Nodes::of(&both, &[1.0; 2], &[false; 2]);
+    let numbers = [0, 1].map(|body| [0, 1, 2].map(|corner| nodes.number(body, 0, corner)));
+    // Each of the first corners has one of the other body, and none of its own.
+    assert_eq!(numbers, [[0, 1, 2], [0, 1, 3]]);
+    assert_eq!(nodes.all[1].at, Point::new(0.5, 0.0));
+}
+
+#[test]
+fn what_has_to_stay_is_where_the_others_come_to() {
+    let (nodes, numbers) = along(&[0.0, 0.5], &[1.0; 2], &[false, true]);
+    assert_eq!(numbers, [0, 0]);
+    assert_eq!(nodes.all[0].at, Point::new(0.5, 7.0));
+    assert!(nodes.all[0].fixed);
+    let (nodes, _) = along(&[0.0, 0.5], &[1.0; 2], &[true, false]);
+    assert_eq!(nodes.all[0].at, Point::new(0.0, 7.0));
+    assert!(!free(&[0.0, 0.5], &[1.0; 2]).0.all[0].fixed);
+    // Two that have to stay are one place only where they are one already.
+    let (nodes, numbers) = along(&[0.0, 0.0, 0.5], &[1.0; 3], &[true; 3]);
+    assert_eq!(numbers, [0, 0, 1]);
+    assert!(nodes.exact && nodes.all.iter().all(|n| n.fixed));
+}
+
+#[test]
+fn corners_are_counted_through_all_rings_of_all_bodies() {
+    let ring = |x: f64| {
+        let all = [[x, 0.0], [x + 1.0, 0.0], [x, 1.0]];
+        bodies(&[&all]).remove(0).remove(0)
+    };
+    let both = [vec![ring(0.0), ring(10.0)], vec![ring(20.0), ring(30.0)]];
+    let nodes = Nodes::of(&both, &[0.1; 2], &[false; 2]);
+    assert_eq!(nodes.all.len(), 12);
+    for (body, rings) in both.iter().enumerate() {
+        for (k, ring) in rings.iter().enumerate() {
+            for (corner, c) in ring.iter().enumerate() {
+                assert_eq!(nodes.all[nodes.number(body, k, corner)].at, c.at);
+            }
+        }
+    }
+    assert!(nodes.exact);
+}

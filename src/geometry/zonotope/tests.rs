@@ -1,0 +1,401 @@
+//! Scales that are known by hand, by amounts that were chosen, or by what may not change them.
+
+use super::*;
+
+/// SplitMix64, from −1 to 1.
+fn chance(seed: &mut u64) -> f64 {
+    *seed = seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let z = (*seed ^ (*seed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+}
+
+fn triple(seed: &mut u64) -> Triple {
+    [chance(seed), chance(seed), chance(seed)]
+}
+
+fn combined(generators: &[Triple], amounts: &[f64]) -> Triple {
+    let mut point = [0.0; 3];
+    for (g, a) in generators.iter().zip(amounts) {
+        for k in 0..3 {
+            point[k] += a * g[k];
+        }
+    }
+    point
+}
+
+#[test]
+fn combinations_lie_within_their_largest_amount_and_supports_reach_it() {
+    let mut seed = 7;
+    for count in [1, 2, 3, 4, 8, 20, 39] {
+        for _ in 0..50 {
+            let g: Vec<Triple> = (0..count).map(|_| triple(&mut seed)).collect();
+            let amounts: Vec<f64> = g.iter().map(|_| 0.3 * chance(&mut seed)).collect();
+            let scale = least_scale(&g, combined(&g, &amounts));
+            assert!(scale <= 0.3 * (1.0 + 1e-9), "{count}: {scale}");
+            // The point farthest along any direction lies on the surface.
+            let n = triple(&mut seed);
+            let far: Vec<f64> = g.iter().map(|v| 0.3 * dot(n, *v).signum()).collect();
+            let scale = least_scale(&g, combined(&g, &far));
+            assert!((scale / 0.3 - 1.0).abs() < 1e-9, "{count}: {scale}");
+        }
+    }
+}
+
+#[test]
+fn scale_rotation_and_mirror_change_nothing() {
+    let mut seed = 11;
+    for _ in 0..100 {
+        let g: Vec<Triple> = (0..7).map(|_| triple(&mut seed)).collect();
+        let point = triple(&mut seed);
+        let scale = least_scale(&g, point);
+        let angle = 3.0 * chance(&mut seed);
+        let (sin, cos) = libm::sincos(angle);
+        let turned = |v: Triple| [cos * v[0] - sin * v[1], sin * v[0] + cos * v[1], v[2]];
+        let mirrored = |v: Triple| [-v[0], v[1], -v[2]];
+        let larger = |v: Triple| v.map(|x| 1e150 * x);
+        let smaller = |v: Triple| v.map(|x| 1e-120 * x);
+        let ways: [&dyn Fn(Triple) -> Triple; 4] = [&turned, &mirrored, &larger, &smaller];
+        for way in ways {
+            let changed: Vec<Triple> = g.iter().map(|v| way(*v)).collect();
+            let other = least_scale(&changed, way(point));
+            assert!(
+                (other / scale - 1.0).abs() < 1e-9,
+                "{other} against {scale}"
+            );
+        }
+        let quick = scale_at_most(&g, point).expect("seven are few");
+        assert!(quick >= scale * (1.0 - 1e-9));
+    }
+}
+
+/// A pebble of weight 1 between two frictionless upright faces that press it with 10⁸: nothing holds it up.
+#[test]
+fn a_pebble_between_smooth_faces_is_not_balanced_by_their_thrust() {
+    let forces = [
+        [1e8, 0.0, 3e7],
+        [-1e8, 0.0, -3e7],
+        [0.0, -1.0, 0.0],
+        [0.0, 0.0, 2e8],
+    ];
+    assert!((least_scale(&forces, [0.0, -1.0, 0.0]) - 1.0).abs() < 1e-5);
+    // With friction of half its weight on either side, and a ten-millionth missing, it is.
+    let mut held = forces.to_vec();
+    held.extend([[0.0, 0.5, 0.5], [0.0, 0.5, -0.5]]);
+    let scale = least_scale(&held, [0.0, -1e-7, 0.0]);
+    assert!((scale / 0.5e-7 - 1.0).abs() < 1e-5, "{scale}");
+}
+
+#[test]
+fn flat_and_straight_ones() {
+    let line = [[3.0, 4.0, 0.0], [-6.0, -8.0, 0.0]];
+    assert!((least_scale(&line, [0.9, 1.2, 0.0]) - 0.1).abs() < 1e-12);
+    assert_eq!(least_scale(&line, [0.9, 1.2, 1e-9]), f64::INFINITY);
+    let plane = [[1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [1.0, 1.0, 0.0]];
+    assert!((least_scale(&plane, [2.0, 3.0, 0.0]) - 1.0).abs() < 1e-12);
+    assert!((least_scale(&plane, [2.0, -2.0, 0.0]) - 4.0 / 3.0).abs() < 1e-12);
+    assert_eq!(least_scale(&plane, [0.0, 0.0, 1e-12]), f64::INFINITY);
+    assert_eq!(least_scale(&[], [1.0, 0.0, 0.0]), f64::INFINITY);
+    assert_eq!(least_scale(&[[0.0; 3]], [0.0; 3]), 0.0);
+    assert_eq!(least_scale(&[[f64::NAN; 3]], [1.0; 3]), f64::INFINITY);
+}
+
+#[test]
+fn hundreds_of_generators_are_judged_more_strictly_never_less() {
+    let mut seed = 5;
+    for count in [60, 200, 900] {
+        let g: Vec<Triple> = (0..count).map(|_| triple(&mut seed)).collect();
+        let n = triple(&mut seed);
+        let far: Vec<f64> = g.iter().map(|v| dot(n, *v).signum()).collect();
+        let point = combined(&g, &far);
+        let scale = least_scale(&g, point);
+        assert!((1.0..1.2).contains(&scale), "{count}: {scale}");
+        let quick = scale_at_most(&g, point).expect("random ones span space");
+        assert!((1.0..3.0).contains(&quick), "{count}: {quick}");
+    }
+}
+
+/// The same turned in space: by 36.9° about z, and then by 67.4° about x.
+fn tilted(v: Triple) -> Triple {
+    let [x, y, z] = [0.8 * v[0] - 0.6 * v[1], 0.6 * v[0] + 0.8 * v[1], v[2]];
+    let (sin, cos) = (12.0 / 13.0, 5.0 / 13.0);
+    [x, cos * y - sin * z, sin * y + cos * z]
+}
+
+/// Both of them turned, and in parts of 10⁻⁴⁰.
+fn ways() -> [fn(Triple) -> Triple; 3] {
+    [|v| v, tilted, |v| tilted(v).map(|x| 1e-40 * x)]
+}
+
+#[test]
+fn three_generators_take_the_amounts_that_solve_for_the_point() {
+    let mut seed = 3;
+    for _ in 0..100 {
+        let g: Vec<Triple> = (0..3).map(|_| triple(&mut seed)).collect();
+        let amounts = triple(&mut seed);
+        let most = amounts.iter().fold(0.0, |m: f64, a| m.max(a.abs()));
+        let point = combined(&g, &amounts);
+        for way in ways() {
+            let turned: Vec<Triple> = g.iter().map(|v| way(*v)).collect();
+            let scale = least_scale(&turned, way(point));
+            assert!((scale / most - 1.0).abs() < 1e-6, "{scale} for {most}");
+        }
+    }
+}
+
+#[test]
+fn nothing_needs_nothing_and_has_nothing() {
+    let cube = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    assert_eq!(least_scale(&cube, [0.0; 3]), 0.0);
+    assert_eq!(least_scale(&[], [0.0; 3]), 0.0);
+    assert_eq!(least_scale(&[[0.0; 3]; 2], [0.0, 1.0, 0.0]), f64::INFINITY);
+    for odd in [f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
+        assert_eq!(least_scale(&cube, [0.0, odd, 0.0]), f64::INFINITY);
+        let mut forces = cube.to_vec();
+        forces[1][1] = odd;
+        assert_eq!(least_scale(&forces, [0.0, 1.0, 0.0]), f64::INFINITY);
+    }
+}
+
+#[test]
+fn what_rounding_may_leave_is_no_distance_and_no_width() {
+    let plane = [[1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [1.0, 1.0, 0.0]];
+    // Off the plane by a few units in the last place, or by some dozens.
+    let scale = least_scale(&plane, [2.0, 3.0, 4e-15]);
+    assert!((scale - 1.0).abs() < 1e-12, "{scale}");
+    assert_eq!(least_scale(&plane, [2.0, 3.0, 4e-14]), f64::INFINITY);
+    // Forces that are as thick as their own rounding hold nothing up.
+    let thick = |by: f64| least_scale(&[plane[0], plane[1], [0.0, 0.0, by]], [0.0, 0.0, by]);
+    assert_eq!(thick(4e-15), f64::INFINITY);
+    assert!((thick(1e-13) - 1.0).abs() < 0.2, "{}", thick(1e-13));
+    assert!(thick(1e-13) > 1.05, "the rounding counts against them");
+}
+
+#[test]
+fn a_line_is_as_long_as_all_of_it_together() {
+    // 0.3 and 1.2 and 0.5 of one direction, 2 in all, either way round.
+    for way in ways() {
+        let direction = |by: f64| way([by, 2.0 * by, -2.0 * by]);
+        let line = [0.3, -1.2, 0.5].map(direction);
+        let scale = least_scale(&line, direction(-0.5));
+        assert!((scale - 0.25).abs() < 1e-12, "{scale}");
+        let beside = way([0.5, 1.0, -0.9]);
+        assert_eq!(least_scale(&line, beside), f64::INFINITY);
+    }
+    for k in 0..3 {
+        let mut axis = [0.0; 3];
+        axis[k] = 3.0;
+        assert!((least_scale(&[axis], axis) - 1.0).abs() < 1e-12);
+        axis[(k + 1) % 3] = 1e-3;
+        let mut along = [0.0; 3];
+        along[k] = -1.0;
+        assert_eq!(least_scale(&[axis], along), f64::INFINITY);
+    }
+}
+
+#[test]
+fn a_rectangle_in_space_is_flat_and_bounded_by_its_sides() {
+    // Sides of 2 and 3 across each other: whatever lies in their plane needs the larger of its two parts.
+    for way in ways() {
+        let sides = [way([2.0, 0.0, 0.0]), way([0.0, 3.0, 0.0])];
+        for (x, y, scale) in [
+            (1.0, 1.0, 0.5),
+            (-1.0, 2.4, 0.8),
+            (0.0, -6.0, 2.0),
+            (3.0, 0.0, 1.5),
+        ] {
+            let found = least_scale(&sides, way([x, y, 0.0]));
+            assert!((found - scale).abs() < 1e-12, "{found} for {scale}");
+            assert_eq!(least_scale(&sides, way([x, y, 1e-3])), f64::INFINITY);
+        }
+    }
+}
+
+#[test]
+fn few_are_told_exactly_and_many_by_their_least_squares() {
+    // Of 12 the answer is that of the facets. Of five along x, four of 2 along y and five along z, the least squares share
+    // each part out evenly: 1/5, 1/8 and 1/5 for a unit.
+    let along = |k: usize, size: f64| {
+        let mut g = [0.0; 3];
+        g[k] = size;
+        g
+    };
+    let mut forces = [[along(0, 1.0); 5], [along(2, 1.0); 5]].concat();
+    forces.extend([along(1, 2.0), along(1, -2.0)]);
+    assert_eq!(forces.len(), FEW);
+    // One lies across the others, so that the two ways differ.
+    forces[4] = [1.0, 1.0, 1.0];
+    let point = [2.0, 1.0, 0.5];
+    assert_eq!(
+        scale_at_most(&forces, point),
+        Some(least_scale(&forces, point))
+    );
+    forces[4] = along(0, 1.0);
+    forces.extend([along(1, 2.0), along(1, 2.0)]);
+    for way in ways() {
+        let turned: Vec<Triple> = forces.iter().map(|v| way(*v)).collect();
+        for (point, most) in [
+            ([1.0, 0.0, 0.0], 0.2),
+            ([0.0, -4.0, 0.0], 0.5),
+            ([0.0, 0.0, 2.0], 0.4),
+            ([1.0, 4.0, -2.0], 0.5),
+        ] {
+            let scale = scale_at_most(&turned, way(point)).expect("they span space");
+            assert!((scale / most - 1.0).abs() < 1.1e-5, "{scale} for {most}");
+            assert!(scale >= least_scale(&turned, way(point)));
+        }
+    }
+}
+
+#[test]
+fn least_squares_say_nothing_where_space_is_not_spanned_well() {
+    let mut seed = 9;
+    let flat = |thick: f64, seed: &mut u64| -> Vec<Triple> {
+        let any = (0..20).map(|_| triple(seed));
+        any.map(|[x, y, z]| [x, y, thick * z]).collect()
+    };
+    for way in ways() {
+        let mut spans = |thick: f64| {
+            let forces: Vec<Triple> = flat(thick, &mut seed).into_iter().map(way).collect();
+            scale_at_most(&forces, way([1.0, 0.0, 0.0])).is_some()
+        };
+        assert!(spans(1.0) && spans(1e-3));
+        assert!(!spans(1e-6) && !spans(0.0));
+    }
+    // Twenty along each axis, those along one of them thinner by t: the moments' determinant is t²/8 of the cube of their sum.
+    for axis in 0..3 {
+        for (thick, some) in [(0.98, false), (1.02, true)] {
+            let mut forces = Vec::new();
+            for k in 0..3 {
+                let mut g = [0.0; 3];
+                g[k] = if k == axis {
+                    thick * 8e-9_f64.sqrt()
+                } else {
+                    1.0
+                };
+                forces.extend([g; 20]);
+            }
+            assert_eq!(scale_at_most(&forces, [1.0, 0.0, 0.0]).is_some(), some);
+        }
+    }
+    assert_eq!(scale_at_most(&[[0.0; 3]; 20], [1.0, 0.0, 0.0]), None);
+    assert_eq!(scale_at_most(&[[f64::NAN; 3]; 20], [1.0, 0.0, 0.0]), None);
+}
+
+#[test]
+fn least_squares_are_never_below_the_smallest_scale() {
+    let mut seed = 21;
+    for _ in 0..100 {
+        let g: Vec<Triple> = (0..20).map(|_| triple(&mut seed)).collect();
+        let amounts: Vec<f64> = g.iter().map(|_| chance(&mut seed)).collect();
+        let point = combined(&g, &amounts);
+        let (quick, least) = (
+            scale_at_most(&g, point).expect("they span space"),
+            least_scale(&g, point),
+        );
+        // Their amounts are the shortest that give the point, so the largest is no larger than all given ones together.
+        let length: f64 = amounts.iter().map(|a| a * a).sum::<f64>().sqrt();
+        assert!(
+            least <= quick && quick <= 1.1 * length,
+            "{least} {quick} {length}"
+        );
+        assert!(quick <= 4.0 * least, "{least} {quick}");
+    }
+}
+
+#[test]
+fn parallel_ones_are_one_and_opposite_ones_add_up() {
+    let found = merged(vec![
+        [1.0, 2.0, 2.0],
+        [0.0; 3],
+        [3.0, 0.0, 0.0],
+        [-2.0, -4.0, -4.0],
+        [0.5, 0.0, 0.0],
+    ]);
+    assert_eq!(found, [[3.0, 6.0, 6.0], [3.5, 0.0, 0.0]]);
+    // A millionth of a degree apart is not parallel.
+    assert_eq!(merged(vec![[1.0, 0.0, 0.0], [1.0, 2e-8, 0.0]]).len(), 2);
+    assert_eq!(merged(vec![[1.0, 0.0, 0.0], [1e-3, 2e-11, 0.0]]).len(), 2);
+}
+
+#[test]
+fn beyond_forty_the_ones_whose_sum_loses_least_are_added_up() {
+    let mut seed = 13;
+    let unit = |v: Triple| v.map(|x| x / norm(v));
+    let apart: Vec<Triple> = (0..MOST).map(|_| unit(triple(&mut seed))).collect();
+    assert_eq!(merged(apart.clone()), apart, "forty stay as they are");
+    // Small ones across them, and others next to them, are what is lost; what lies apart stays apart.
+    let few = &apart[..15];
+    let mut all = few.to_vec();
+    all.extend(
+        few.iter()
+            .map(|g| cross(*g, triple(&mut seed)).map(|x| 1e-7 * x)),
+    );
+    all.extend(
+        few.iter()
+            .map(|g| [g[0], g[1] + 1e-7, g[2] - 1e-7].map(|x| -x)),
+    );
+    let kept = merged(all);
+    assert_eq!(kept.len(), MOST);
+    let whole = few.iter().map(|g| g.map(|x| 2.0 * x)).collect::<Vec<_>>();
+    for _ in 0..50 {
+        let n = unit(triple(&mut seed));
+        let width = |all: &[Triple]| all.iter().map(|g| dot(n, *g).abs()).sum::<f64>();
+        assert!((width(&kept) - width(&whole)).abs() < 1e-5);
+    }
+}
+
+#[test]
+fn the_part_of_the_smaller_across_the_larger_is_what_is_lost() {
+    // Of two large ones a ten-thousandth of a radian apart less is lost than of any small one, beside whatever it lies.
+    let mut seed = 29;
+    let mut any = |size: f64| {
+        let v = triple(&mut seed);
+        v.map(|x| size * x / norm(v))
+    };
+    let mut all: Vec<Triple> = (0..MOST - 2).map(|_| any(10.0)).collect();
+    let small = [any(0.03), any(0.03)];
+    let across = cross(all[0], small[0]);
+    let twin = across.map(|x| 1e-3 * x / norm(across));
+    all.extend([sum(all[0], twin), small[0], small[1]]);
+    let kept = merged(all.clone());
+    assert_eq!(kept.len(), MOST);
+    assert!(small.iter().all(|g| kept.contains(g)));
+    assert!(kept.contains(&sum(all[0], all[MOST - 2])));
+}
+
+#[test]
+fn more_than_a_hundred_and_twenty_are_first_added_up_by_direction() {
+    let alike = |count: usize| -> Vec<Triple> {
+        let at = |k: usize| 0.1 + 1e-3 * k as f64;
+        (0..count).map(|k| [1.0, at(k), 0.05]).collect()
+    };
+    assert_eq!(merged(alike(MANY)).len(), MOST);
+    let found = merged(alike(MANY + 1));
+    assert_eq!(found.len(), 1, "all of them are in one cell");
+    assert!((found[0][0] - 121.0).abs() < 1e-9);
+}
+
+#[test]
+fn a_cell_holds_directions_that_are_alike() {
+    let mut seed = 17;
+    let mut first: Vec<Option<Triple>> = vec![None; 3 * CELLS * CELLS];
+    for _ in 0..5000 {
+        let g = triple(&mut seed);
+        let own = cell(g);
+        assert_eq!(own, cell(g.map(|x| -3.0 * x)));
+        let other = *first[own].get_or_insert(g);
+        // A cell is a third of the half-width of a face wide and high.
+        let sine = norm(cross(g, other)) / (norm(g) * norm(other));
+        assert!(sine < 2f64.sqrt() / 3.0, "{g:?} {other:?}");
+    }
+    assert!(
+        first.iter().all(Option::is_some),
+        "every cell has directions"
+    );
+    // Those along the edges of a face belong to one of its outermost cells.
+    assert_eq!(
+        [cell([1.0, 1.0, 1.0]), cell([-1.0, 1.0, 1.0])].iter().max(),
+        Some(&107)
+    );
+}
