@@ -3,12 +3,22 @@
 //! Invariant: two polygons that only touch, with noise up to `gap` deep, do not overlap, whatever the length of the
 //! touching edges. Depth is the separating-axis depth of convex pieces, so it does not depend on where the scene lies.
 
+use std::borrow::Cow;
+
 use super::{Bounds, Point, Polygon, Vector, cross};
 
-/// A polygon cut into convex pieces, each anticlockwise with its box.
+/// A polygon cut into convex pieces: itself where it is convex.
 #[derive(Clone, Debug)]
-pub struct Pieces {
-    pieces: Vec<(Bounds, Vec<Point>)>,
+pub struct Pieces<'p> {
+    whole: Option<Piece<'p>>,
+    triangles: Vec<Piece<'p>>,
+}
+
+/// Corners of a convex piece, anticlockwise, with its box.
+#[derive(Clone, Debug)]
+struct Piece<'p> {
+    around: Bounds,
+    corners: Cow<'p, [Point]>,
 }
 
 /// Two bodies in the same place.
@@ -22,12 +32,16 @@ pub struct Overlap {
     pub depth: f64,
 }
 
-impl Pieces {
+impl<'p> Pieces<'p> {
     /// A convex polygon stays whole, any other is cut into triangles.
-    pub fn of(polygon: &Polygon) -> Pieces {
+    pub fn of(polygon: &'p Polygon) -> Pieces<'p> {
         if polygon.is_convex() {
             return Pieces {
-                pieces: vec![(polygon.bounds(), polygon.outline().to_vec())],
+                whole: Some(Piece {
+                    around: polygon.bounds(),
+                    corners: Cow::Borrowed(polygon.outline()),
+                }),
+                triangles: Vec::new(),
             };
         }
         let points: Vec<Point> = polygon.rings().iter().flatten().copied().collect();
@@ -41,7 +55,7 @@ impl Pieces {
         }
         let mut corners: Vec<usize> = Vec::new();
         earcut::Earcut::new().earcut(flat, &starts, &mut corners);
-        let pieces = corners
+        let triangles = corners
             .chunks_exact(3)
             .map(|t| {
                 let mut triangle = vec![points[t[0]], points[t[1]], points[t[2]]];
@@ -51,24 +65,37 @@ impl Pieces {
                 triangle
             })
             .filter(|t| cross(t[1] - t[0], t[2] - t[0]) > 0.0)
-            .filter_map(|t| Bounds::of(t.iter().copied()).map(|b| (b, t)))
+            .filter_map(|t| {
+                Some(Piece {
+                    around: Bounds::of(t.iter().copied())?,
+                    corners: Cow::Owned(t),
+                })
+            })
             .collect();
-        Pieces { pieces }
+        Pieces {
+            whole: None,
+            triangles,
+        }
+    }
+
+    fn all(&self) -> impl Iterator<Item = &Piece<'p>> {
+        self.whole.iter().chain(&self.triangles)
     }
 }
 
 /// The overlap of two cut polygons where it is deeper than `gap` metres, `None` where they are apart or only touch.
-pub fn overlap(a: &Pieces, b: &Pieces, gap: f64) -> Option<Overlap> {
+pub fn overlap(a: &Pieces<'_>, b: &Pieces<'_>, gap: f64) -> Option<Overlap> {
     let mut depth: f64 = 0.0;
     let mut close = Vec::new();
-    for (box_a, piece_a) in &a.pieces {
-        for (box_b, piece_b) in &b.pieces {
-            if box_a.meets(*box_b) {
-                let d = penetration(piece_a, piece_b).min(penetration(piece_b, piece_a));
-                if d > 0.0 {
-                    depth = depth.max(d);
-                    close.push((piece_a, piece_b));
-                }
+    for one in a.all() {
+        for two in b.all().filter(|two| one.around.meets(two.around)) {
+            let mut d = penetration(&one.corners, &two.corners);
+            if d > 0.0 {
+                d = d.min(penetration(&two.corners, &one.corners));
+            }
+            if d > 0.0 {
+                depth = depth.max(d);
+                close.push((&one.corners, &two.corners));
             }
         }
     }
@@ -77,9 +104,9 @@ pub fn overlap(a: &Pieces, b: &Pieces, gap: f64) -> Option<Overlap> {
     }
     let mut area = 0.0;
     let mut moment = Vector::zeros();
-    let base = a.pieces[0].1[0];
-    for (piece_a, piece_b) in close {
-        let common = clipped(piece_a, piece_b);
+    let base = a.all().next()?.corners[0];
+    for (one, two) in close {
+        let common = clipped(one, two);
         for i in 1..common.len().saturating_sub(1) {
             let (p, q, r) = (common[0] - base, common[i] - base, common[i + 1] - base);
             let part = cross(q - p, r - p) / 2.0;
@@ -98,7 +125,7 @@ pub fn overlap(a: &Pieces, b: &Pieces, gap: f64) -> Option<Overlap> {
 fn penetration(a: &[Point], b: &[Point]) -> f64 {
     let mut least = f64::INFINITY;
     for i in 0..a.len() {
-        let (from, to) = (a[i], a[(i + 1) % a.len()]);
+        let (from, to) = (a[i], a[if i + 1 == a.len() { 0 } else { i + 1 }]);
         let along = to - from;
         let length = along.norm();
         let outward = Vector::new(along.y, -along.x) / length;
@@ -155,7 +182,8 @@ mod tests {
 
     #[test]
     fn touching_is_not_overlapping_and_overlap_tells_area_and_place() {
-        let a = Pieces::of(&rectangle(0.0, 0.0, 2.0, 1.0));
+        let a = rectangle(0.0, 0.0, 2.0, 1.0);
+        let a = Pieces::of(&a);
         assert_eq!(
             overlap(&a, &Pieces::of(&rectangle(2.0, 0.0, 1.0, 1.0)), 0.0),
             None
