@@ -21,7 +21,7 @@ pub(crate) use polygon::sin_cos_degrees;
 pub use polygon::{Bounds, Edge, Flaw, Polygon};
 pub use sum::Sum;
 pub use tolerance::Tolerance;
-pub use zonotope::{Triple, least_scale, scale_at_most};
+pub use zonotope::{Triple, least_scale, scale_at_most, scale_bound};
 
 /// A place in the plane, in metres.
 pub type Point = nalgebra::Point2<f64>;

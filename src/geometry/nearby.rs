@@ -18,38 +18,40 @@ pub(crate) enum Nearby<T: RTreeObject<Envelope = Around>> {
 
 /// Things sorted by the left ends of their boxes.
 pub(crate) struct Row<T> {
-    /// Left, lower, right and upper end of each box.
-    boxes: Vec<[f64; 4]>,
-    /// How far the boxes up to and with each reach to the right.
-    reach: Vec<f64>,
-    things: Vec<T>,
+    all: Vec<Placed<T>>,
+}
+
+struct Placed<T> {
+    /// Left, lower, right and upper end of its box.
+    own: [f64; 4],
+    /// How far the boxes up to and with this one reach to the right.
+    reach: f64,
+    thing: T,
 }
 
 impl<T: RTreeObject<Envelope = Around>> Row<T> {
     fn of(things: Vec<T>) -> Row<T> {
-        let boxed = |thing: T| (ends(thing.envelope()), thing);
-        let mut all: Vec<([f64; 4], T)> = things.into_iter().map(boxed).collect();
-        all.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]));
-        let (boxes, things): (Vec<[f64; 4]>, Vec<T>) = all.into_iter().unzip();
+        let placed = |thing: T| Placed {
+            own: ends(thing.envelope()),
+            reach: 0.0,
+            thing,
+        };
+        let mut all: Vec<Placed<T>> = things.into_iter().map(placed).collect();
+        all.sort_by(|a, b| a.own[0].total_cmp(&b.own[0]));
         let mut farthest = f64::NEG_INFINITY;
-        let mut reach = Vec::with_capacity(boxes.len());
-        for own in &boxes {
-            farthest = farthest.max(own[2]);
-            reach.push(farthest);
+        for placed in &mut all {
+            farthest = farthest.max(placed.own[2]);
+            placed.reach = farthest;
         }
-        Row {
-            boxes,
-            reach,
-            things,
-        }
+        Row { all }
     }
 
     fn near(&self, [left, low, right, high]: [f64; 4]) -> impl Iterator<Item = &T> {
         // Before `begin` all boxes end, and from `end` on all begin, beside the one asked about.
-        let begin = self.reach.partition_point(|reach| *reach < left);
-        let end = self.boxes.partition_point(|own| own[0] <= right).max(begin);
-        let some = self.boxes[begin..end].iter().zip(&self.things[begin..end]);
-        some.filter_map(move |(own, thing)| {
+        let begin = self.all.partition_point(|placed| placed.reach < left);
+        let rest = self.all[begin..].iter();
+        let some = rest.take_while(move |placed| placed.own[0] <= right);
+        some.filter_map(move |Placed { own, thing, .. }| {
             (own[2] >= left && own[1] <= high && own[3] >= low).then_some(thing)
         })
     }
@@ -72,7 +74,9 @@ impl<T: RTreeObject<Envelope = Around>> Nearby<T> {
     /// All of them, in no order that may matter.
     pub(crate) fn all(&self) -> impl Iterator<Item = &T> {
         let (few, many) = self.parts();
-        let few = few.into_iter().flat_map(|row| &row.things);
+        let few = few
+            .into_iter()
+            .flat_map(|row| row.all.iter().map(|placed| &placed.thing));
         few.chain(many.into_iter().flat_map(RTree::iter))
     }
 

@@ -3,12 +3,22 @@
 //! Invariant: two polygons that only touch, with noise up to `gap` deep, do not overlap, whatever the length of the
 //! touching edges. Depth is the separating-axis depth of convex pieces, so it does not depend on where the scene lies.
 
+use std::borrow::Cow;
+
 use super::{Bounds, Point, Polygon, Vector, cross};
 
-/// A polygon cut into convex pieces, each anticlockwise with its box.
+/// A polygon cut into convex pieces: itself where it is convex.
 #[derive(Clone, Debug)]
-pub struct Pieces {
-    pieces: Vec<(Bounds, Vec<Point>)>,
+pub struct Pieces<'p> {
+    whole: Option<Piece<'p>>,
+    triangles: Vec<Piece<'p>>,
+}
+
+/// Corners of a convex piece, anticlockwise, with its box.
+#[derive(Clone, Debug)]
+struct Piece<'p> {
+    around: Bounds,
+    corners: Cow<'p, [Point]>,
 }
 
 /// Two bodies in the same place.
@@ -22,12 +32,16 @@ pub struct Overlap {
     pub depth: f64,
 }
 
-impl Pieces {
+impl<'p> Pieces<'p> {
     /// A convex polygon stays whole, any other is cut into triangles.
-    pub fn of(polygon: &Polygon) -> Pieces {
+    pub fn of(polygon: &'p Polygon) -> Pieces<'p> {
         if polygon.is_convex() {
             return Pieces {
-                pieces: vec![(polygon.bounds(), polygon.outline().to_vec())],
+                whole: Some(Piece {
+                    around: polygon.bounds(),
+                    corners: Cow::Borrowed(polygon.outline()),
+                }),
+                triangles: Vec::new(),
             };
         }
         let points: Vec<Point> = polygon.rings().iter().flatten().copied().collect();
@@ -41,7 +55,7 @@ impl Pieces {
         }
         let mut corners: Vec<usize> = Vec::new();
         earcut::Earcut::new().earcut(flat, &starts, &mut corners);
-        let pieces = corners
+        let triangles = corners
             .chunks_exact(3)
             .map(|t| {
                 let mut triangle = vec![points[t[0]], points[t[1]], points[t[2]]];
@@ -51,24 +65,37 @@ impl Pieces {
                 triangle
             })
             .filter(|t| cross(t[1] - t[0], t[2] - t[0]) > 0.0)
-            .filter_map(|t| Bounds::of(t.iter().copied()).map(|b| (b, t)))
+            .filter_map(|t| {
+                Some(Piece {
+                    around: Bounds::of(t.iter().copied())?,
+                    corners: Cow::Owned(t),
+                })
+            })
             .collect();
-        Pieces { pieces }
+        Pieces {
+            whole: None,
+            triangles,
+        }
+    }
+
+    fn all(&self) -> impl Iterator<Item = &Piece<'p>> {
+        self.whole.iter().chain(&self.triangles)
     }
 }
 
 /// The overlap of two cut polygons where it is deeper than `gap` metres, `None` where they are apart or only touch.
-pub fn overlap(a: &Pieces, b: &Pieces, gap: f64) -> Option<Overlap> {
+pub fn overlap(a: &Pieces<'_>, b: &Pieces<'_>, gap: f64) -> Option<Overlap> {
     let mut depth: f64 = 0.0;
     let mut close = Vec::new();
-    for (box_a, piece_a) in &a.pieces {
-        for (box_b, piece_b) in &b.pieces {
-            if box_a.meets(*box_b) {
-                let d = penetration(piece_a, piece_b).min(penetration(piece_b, piece_a));
-                if d > 0.0 {
-                    depth = depth.max(d);
-                    close.push((piece_a, piece_b));
-                }
+    for one in a.all() {
+        for two in b.all().filter(|two| one.around.meets(two.around)) {
+            let mut d = penetration(&one.corners, &two.corners);
+            if d > 0.0 {
+                d = d.min(penetration(&two.corners, &one.corners));
+            }
+            if d > 0.0 {
+                depth = depth.max(d);
+                close.push((&one.corners, &two.corners));
             }
         }
     }
@@ -77,9 +104,9 @@ pub fn overlap(a: &Pieces, b: &Pieces, gap: f64) -> Option<Overlap> {
     }
     let mut area = 0.0;
     let mut moment = Vector::zeros();
-    let base = a.pieces[0].1[0];
-    for (piece_a, piece_b) in close {
-        let common = clipped(piece_a, piece_b);
+    let base = a.all().next()?.corners[0];
+    for (one, two) in close {
+        let common = clipped(one, two);
         for i in 1..common.len().saturating_sub(1) {
             let (p, q, r) = (common[0] - base, common[i] - base, common[i + 1] - base);
             let part = cross(q - p, r - p) / 2.0;
@@ -98,7 +125,7 @@ pub fn overlap(a: &Pieces, b: &Pieces, gap: f64) -> Option<Overlap> {
 fn penetration(a: &[Point], b: &[Point]) -> f64 {
     let mut least = f64::INFINITY;
     for i in 0..a.len() {
-        let (from, to) = (a[i], a[(i + 1) % a.len()]);
+        let (from, to) = (a[i], a[if i + 1 == a.len() { 0 } else { i + 1 }]);
         let along = to - from;
         let length = along.norm();
         let outward = Vector::new(along.y, -along.x) / length;
@@ -155,7 +182,8 @@ mod tests {
 
     #[test]
     fn touching_is_not_overlapping_and_overlap_tells_area_and_place() {
-        let a = Pieces::of(&rectangle(0.0, 0.0, 2.0, 1.0));
+        let a = rectangle(0.0, 0.0, 2.0, 1.0);
+        let a = Pieces::of(&a);
         assert_eq!(
             overlap(&a, &Pieces::of(&rectangle(2.0, 0.0, 1.0, 1.0)), 0.0),
             None
@@ -192,13 +220,14 @@ mod tests {
         assert!((stuck.area - 0.5).abs() < 1e-12);
     }
 
-    fn pieces(corners: &[[f64; 2]]) -> Pieces {
+    fn polygon(corners: &[[f64; 2]]) -> Polygon {
         let corners = corners.iter().map(|p| Point::new(p[0], p[1])).collect();
-        Pieces::of(&Polygon::new(corners, vec![]).expect("sound"))
+        Polygon::new(corners, vec![]).expect("sound")
     }
 
     /// The overlap of two, the same in either order.
-    fn both(a: &Pieces, b: &Pieces) -> Overlap {
+    fn both(a: &Polygon, b: &Polygon) -> Overlap {
+        let (a, b) = (&Pieces::of(a), &Pieces::of(b));
         let found = overlap(a, b, 1e-9).expect("overlap");
         let other = overlap(b, a, 1e-9).expect("overlap");
         assert!((found.area - other.area).abs() < 1e-12);
@@ -219,28 +248,28 @@ mod tests {
                 [1.0, 3.0],
                 [0.0, 3.0],
             ];
-            let l = pieces(&corners.map(|p| [p[0] + x, p[1] + y]));
-            let found = both(&l, &Pieces::of(&rectangle(0.5 + x, 0.5 + y, 2.0, 2.0)));
+            let l = polygon(&corners.map(|p| [p[0] + x, p[1] + y]));
+            let found = both(&l, &rectangle(0.5 + x, 0.5 + y, 2.0, 2.0));
             assert!((found.area - 1.75).abs() < 1e-12);
             let wanted = Point::new(x + (1.5 + 0.5625) / 1.75, y + (0.75 + 1.3125) / 1.75);
             assert!((found.at - wanted).norm() < 1e-12, "{}", found.at);
         }
         // A square less its four corners, cut by a diamond.
-        let diamond = pieces(&[[1.5, 0.0], [0.0, 1.5], [-1.5, 0.0], [0.0, -1.5]]);
-        let found = both(&diamond, &Pieces::of(&rectangle(-1.0, -1.0, 2.0, 2.0)));
+        let diamond = polygon(&[[1.5, 0.0], [0.0, 1.5], [-1.5, 0.0], [0.0, -1.5]]);
+        let found = both(&diamond, &rectangle(-1.0, -1.0, 2.0, 2.0));
         assert!((found.area - 3.5).abs() < 1e-12 && found.at.coords.norm() < 1e-12);
     }
 
     #[test]
     fn depth_is_the_least_way_out() {
-        let slab = Pieces::of(&rectangle(0.0, 0.0, 4.0, 4.0));
+        let slab = rectangle(0.0, 0.0, 4.0, 4.0);
         for (x, y, depth) in [
             (1.0, 1.0, 2.0),
             (2.5, 1.0, 1.5),
             (-0.75, 2.0, 0.25),
             (3.5, 3.75, 0.25),
         ] {
-            let found = both(&slab, &Pieces::of(&rectangle(x, y, 1.0, 1.0)));
+            let found = both(&slab, &rectangle(x, y, 1.0, 1.0));
             assert!(
                 (found.depth - depth).abs() < 1e-12,
                 "{x} {y}: {}",
@@ -248,16 +277,18 @@ mod tests {
             );
         }
         // A tip, from above and onto a slope: ¼ deep, the slope 3 along and 4 down.
-        let tip = pieces(&[[2.0, 3.75], [3.0, 9.0], [1.0, 9.0]]);
+        let tip = polygon(&[[2.0, 3.75], [3.0, 9.0], [1.0, 9.0]]);
         assert!((both(&slab, &tip).depth - 0.25).abs() < 1e-12);
-        let slope = pieces(&[[0.0, 0.0], [3.0, 0.0], [0.0, 4.0]]);
-        let box_at = |d: f64| Pieces::of(&rectangle(1.5 - 0.8 * d, 2.0 - 0.6 * d, 5.0, 5.0));
+        let slope = polygon(&[[0.0, 0.0], [3.0, 0.0], [0.0, 4.0]]);
+        let box_at = |d: f64| rectangle(1.5 - 0.8 * d, 2.0 - 0.6 * d, 5.0, 5.0);
         assert!((both(&slope, &box_at(0.25)).depth - 0.25).abs() < 1e-12);
-        assert_eq!(overlap(&slope, &box_at(-1e-6), 0.0), None);
+        let deep =
+            |a: &Polygon, b: &Polygon, gap: f64| overlap(&Pieces::of(a), &Pieces::of(b), gap);
+        assert_eq!(deep(&slope, &box_at(-1e-6), 0.0), None);
         // As deep as the gap is none yet.
-        let stone = Pieces::of(&rectangle(1.0, 3.75, 1.0, 1.0));
-        assert_eq!(overlap(&slab, &stone, 0.25), None);
-        assert!(overlap(&slab, &stone, 0.2499).is_some());
+        let stone = rectangle(1.0, 3.75, 1.0, 1.0);
+        assert_eq!(deep(&slab, &stone, 0.25), None);
+        assert!(deep(&slab, &stone, 0.2499).is_some());
     }
 
     #[test]
@@ -265,10 +296,11 @@ mod tests {
         let ring = |x: f64, size: f64| rectangle(x, x, size, size).outline().to_vec();
         let frame = Polygon::new(ring(-3.0, 9.0), vec![ring(0.0, 1.0), ring(2.0, 3.0)]);
         let frame = frame.expect("sound");
-        let Pieces { pieces } = Pieces::of(&frame);
         let mut area = 0.0;
-        for (around, t) in &pieces {
-            assert_eq!((t.len(), Bounds::of(t.iter().copied())), (3, Some(*around)));
+        for piece in Pieces::of(&frame).all() {
+            let t = &piece.corners;
+            let around = Bounds::of(t.iter().copied());
+            assert_eq!((t.len(), around), (3, Some(piece.around)));
             let part = cross(t[1] - t[0], t[2] - t[0]) / 2.0;
             assert!(part > 0.0, "anticlockwise");
             let centre = t[0] + (t[1] - t[0] + (t[2] - t[0])) / 3.0;
@@ -276,11 +308,9 @@ mod tests {
             area += part;
         }
         assert!((area - 71.0).abs() < 1e-12);
-        let whole = Pieces::of(&rectangle(0.0, 0.0, 1.0, 1.0)).pieces;
-        assert_eq!(
-            (whole.len(), whole[0].1.len()),
-            (1, 4),
-            "what is convex stays whole"
-        );
+        let square = rectangle(0.0, 0.0, 1.0, 1.0);
+        let pieces = Pieces::of(&square);
+        let whole: Vec<usize> = pieces.all().map(|piece| piece.corners.len()).collect();
+        assert_eq!(whole, [4], "what is convex stays whole");
     }
 }

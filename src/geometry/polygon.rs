@@ -4,7 +4,7 @@
 //! of an edge and [`Edge::outward`] always points out of it. Repeated corners are dropped; corners on a straight line
 //! stay, they are the author's.
 
-use rstar::{AABB, RTreeObject};
+use rstar::{AABB, Envelope, RTreeObject};
 
 use super::{Nearby, Point, Vector, cross};
 
@@ -150,37 +150,36 @@ impl Polygon {
     /// ```
     pub fn new(outline: Vec<Point>, holes: Vec<Vec<Point>>) -> Result<Polygon, Vec<Flaw>> {
         let mut flaws = Vec::new();
-        let mut listed = vec![outline];
-        listed.extend(holes);
+        let mut rings = Vec::with_capacity(1 + holes.len());
+        rings.push(outline);
+        rings.extend(holes);
         let mut flat = Vec::new();
-        let mut rings: Vec<Vec<(usize, Point)>> = Vec::new();
-        for (ring, corners) in listed.into_iter().enumerate() {
-            let kept = without_repeats(corners);
-            let points: Vec<Point> = kept.iter().map(|k| k.1).collect();
-            if kept.len() < 3 {
+        let mut repeats = Repeats::default();
+        for (ring, points) in rings.iter_mut().enumerate() {
+            repeats.drop_from(points, ring);
+            if points.len() < 3 {
                 flaws.push(Flaw::TooFewCorners {
                     ring,
-                    corners: kept.len(),
+                    corners: points.len(),
                 });
-            } else {
-                let area = signed_area(&points);
-                let perimeter: f64 = sides(&points).map(|e| e.length()).sum();
-                // Written so that NaN counts as no area.
-                let encloses = area.abs() > 1e-15 * perimeter * perimeter;
-                if !encloses {
-                    let straight = |p: &Point| orientation(points[0], points[1], *p) == 0.0;
-                    if !area.is_finite() || points.iter().all(straight) {
-                        flaws.push(Flaw::ZeroArea { ring });
-                    } else {
-                        flat.push(Flaw::ZeroArea { ring });
-                    }
+                continue;
+            }
+            let area = signed_area(points);
+            let perimeter: f64 = sides(points).map(|e| e.length()).sum();
+            // Written so that NaN counts as no area.
+            let encloses = area.abs() > 1e-15 * perimeter * perimeter;
+            if !encloses {
+                let straight = |p: &Point| orientation(points[0], points[1], *p) == 0.0;
+                if !area.is_finite() || points.iter().all(straight) {
+                    flaws.push(Flaw::ZeroArea { ring });
+                } else {
+                    flat.push(Flaw::ZeroArea { ring });
                 }
             }
-            rings.push(kept);
         }
         if flaws.is_empty() {
             // The areas on both sides of a crossing can cancel: then the crossing is the flaw, not the area.
-            flaws = crossings(&rings);
+            flaws = crossings(&rings, &repeats);
         }
         if flaws.is_empty() {
             flaws = flat;
@@ -188,17 +187,11 @@ impl Polygon {
         if !flaws.is_empty() {
             return Err(flaws);
         }
-        let rings: Vec<Vec<Point>> = rings
-            .into_iter()
-            .enumerate()
-            .map(|(ring, kept)| {
-                let mut points: Vec<Point> = kept.into_iter().map(|k| k.1).collect();
-                if (signed_area(&points) > 0.0) != (ring == 0) {
-                    points.reverse();
-                }
-                points
-            })
-            .collect();
+        for (ring, points) in rings.iter_mut().enumerate() {
+            if (signed_area(points) > 0.0) != (ring == 0) {
+                points.reverse();
+            }
+        }
         for ring in 1..rings.len() {
             let corner = rings[ring][0];
             let inside_other =
@@ -294,16 +287,12 @@ impl Polygon {
     }
 
     /// The polygon turned anticlockwise by `degrees` about the origin and then moved by `by`.
-    pub fn placed(&self, degrees: f64, by: Vector) -> Polygon {
+    pub fn placed(mut self, degrees: f64, by: Vector) -> Polygon {
         let (sin, cos) = sin_cos_degrees(degrees);
-        let place = |p: &Point| Point::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y) + by;
-        Polygon {
-            rings: self
-                .rings
-                .iter()
-                .map(|ring| ring.iter().map(place).collect())
-                .collect(),
+        for p in self.rings.iter_mut().flatten() {
+            *p = Point::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y) + by;
         }
+        self
     }
 }
 
@@ -330,24 +319,40 @@ pub(crate) fn orientation(a: Point, b: Point, c: Point) -> f64 {
 }
 
 fn sides(ring: &[Point]) -> impl Iterator<Item = Edge> + '_ {
+    // Without a division for every side.
+    let next = |i: usize| if i + 1 == ring.len() { 0 } else { i + 1 };
     (0..ring.len()).map(move |i| Edge {
         from: ring[i],
-        to: ring[(i + 1) % ring.len()],
+        to: ring[next(i)],
     })
 }
 
-/// Corners with their listed numbers, without repeats of the one before.
-fn without_repeats(corners: Vec<Point>) -> Vec<(usize, Point)> {
-    let mut kept: Vec<(usize, Point)> = Vec::with_capacity(corners.len());
-    for (i, p) in corners.into_iter().enumerate() {
-        if kept.last().is_none_or(|last| last.1 != p) {
-            kept.push((i, p));
+/// Corners that were dropped, so that the others can be named by their listed numbers: ring and number, in their order.
+#[derive(Default)]
+struct Repeats(Vec<(usize, usize)>);
+
+impl Repeats {
+    /// Drops the corners of a ring that repeat the one before.
+    fn drop_from(&mut self, points: &mut Vec<Point>, ring: usize) {
+        let (mut before, mut number) = (None, 0);
+        points.retain(|p| {
+            let repeats = before.replace(*p) == Some(*p);
+            if repeats {
+                self.0.push((ring, number));
+            }
+            number += 1;
+            !repeats
+        });
+        while points.len() > 1 && points[0] == points[points.len() - 1] {
+            points.pop();
         }
     }
-    while kept.len() > 1 && kept[0].1 == kept[kept.len() - 1].1 {
-        kept.pop();
+
+    /// The listed number of a corner that was kept.
+    fn listed(&self, ring: usize, kept: usize) -> usize {
+        let dropped = self.0.iter().filter(|dropped| dropped.0 == ring);
+        dropped.fold(kept, |number, (_, d)| number + usize::from(*d <= number))
     }
-    kept
 }
 
 fn signed_area(ring: &[Point]) -> f64 {
@@ -376,7 +381,6 @@ struct Side {
     ring: usize,
     position: usize,
     count: usize,
-    corner: usize,
     edge: Edge,
 }
 
@@ -390,54 +394,60 @@ impl RTreeObject for Side {
     }
 }
 
+impl Side {
+    /// A point that it has in common with a later side, where it should have none.
+    fn meets(&self, later: &Side) -> Option<Point> {
+        let (a, b) = (self, later);
+        if (a.ring, a.position + 1) == (b.ring, b.position) {
+            folded_back(a.edge.from, a.edge.to, b.edge.to)
+        } else if a.ring == b.ring && a.position == 0 && b.position + 1 == b.count {
+            folded_back(b.edge.from, b.edge.to, a.edge.to)
+        } else {
+            meeting(a.edge, b.edge)
+        }
+    }
+}
+
 /// So many crossings of a polygon are listed.
 const MOST_CROSSINGS: usize = 20;
 
+/// Up to so many sides are compared with each other without asking first which of them are near.
+const FEW_SIDES: usize = 12;
+
 /// The first places, in the order of the sides, at which two sides meet that are not neighbours, and folds back of
 /// neighbours.
-fn crossings(rings: &[Vec<(usize, Point)>]) -> Vec<Flaw> {
-    let all: Vec<Side> = rings
-        .iter()
-        .enumerate()
-        .flat_map(|(ring, corners)| {
-            let count = corners.len();
-            (0..count).map(move |position| Side {
-                ring,
-                position,
-                count,
-                corner: corners[position].0,
-                edge: Edge {
-                    from: corners[position].1,
-                    to: corners[(position + 1) % count].1,
-                },
-            })
-        })
-        .collect();
-    let nearby = Nearby::of(all.clone());
+fn crossings(rings: &[Vec<Point>], repeats: &Repeats) -> Vec<Flaw> {
+    let mut all: Vec<Side> = Vec::with_capacity(rings.iter().map(Vec::len).sum());
+    for (ring, corners) in rings.iter().enumerate() {
+        all.extend(sides(corners).enumerate().map(|(position, edge)| Side {
+            ring,
+            position,
+            count: corners.len(),
+            edge,
+        }));
+    }
+    let nearby = (all.len() > FEW_SIDES).then(|| Nearby::of(all.clone()));
     let mut flaws = Vec::new();
-    for a in &all {
+    for (number, a) in all.iter().enumerate() {
         let before = flaws.len();
-        for b in nearby.near(a.envelope()) {
-            if (a.ring, a.position) >= (b.ring, b.position) {
-                continue;
-            }
-            let next = a.ring == b.ring && (a.position + 1) % a.count == b.position;
-            let previous = a.ring == b.ring && (b.position + 1) % b.count == a.position;
-            let at = if next {
-                folded_back(a.edge.from, a.edge.to, b.edge.to)
-            } else if previous {
-                folded_back(b.edge.from, b.edge.to, a.edge.to)
-            } else {
-                meeting(a.edge, b.edge)
-            };
-            if let Some(at) = at {
+        let mut compare = |b: &Side| {
+            if let Some(at) = a.meets(b) {
                 let crossing = Flaw::Crossing {
                     rings: [a.ring, b.ring],
-                    corners: [a.corner, b.corner],
+                    corners: [a, b].map(|side| repeats.listed(side.ring, side.position)),
                     at,
                 };
                 flaws.push(((b.ring, b.position), crossing));
             }
+        };
+        let around = a.envelope();
+        match &nearby {
+            None => (all[number + 1..].iter())
+                .filter(|b| around.intersects(&b.envelope()))
+                .for_each(compare),
+            Some(nearby) => (nearby.near(around))
+                .filter(|b| (a.ring, a.position) < (b.ring, b.position))
+                .for_each(&mut compare),
         }
         // They are found in no order of their own.
         flaws[before..].sort_by_key(|f| f.0);

@@ -46,8 +46,7 @@ pub fn least_scale(generators: &[Triple], point: Triple) -> f64 {
         return f64::INFINITY;
     }
     let unit = |v: &Triple| v.map(|x| x / size);
-    let all: Vec<Triple> = generators.iter().map(unit).collect();
-    let few = merged(all);
+    let few = merged(generators.iter().map(unit));
     exact(&few, unit(&point))
 }
 
@@ -86,6 +85,55 @@ pub fn scale_at_most(generators: &[Triple], point: Triple) -> Option<f64> {
         .map(|g| dot(g.map(|v| v / size), y).abs())
         .fold(0.0, f64::max);
     Some(most * (1.0 + 1e-5))
+}
+
+/// A bound that [`least_scale`] never answers above, without looking at facets: as [`scale_at_most`], for any number of
+/// generators up to that from which on they are added up. `None` where digits do not suffice to tell.
+///
+/// The combination of least squares does not depend on the units of the axes, so each axis is measured by what the
+/// generators reach along it. A body without friction that pushes sideways is then no nearly flat zonotope.
+pub fn scale_bound(generators: &[Triple], point: Triple) -> Option<f64> {
+    if generators.len() > MOST {
+        return None;
+    }
+    let (mut squares, mut products, mut sum) = ([0.0; 3], [0.0; 3], 0.0);
+    for [x, y, z] in generators {
+        let own = [x * x, y * y, z * z];
+        for (sum, square) in squares.iter_mut().zip(own) {
+            *sum += square;
+        }
+        for (sum, product) in products.iter_mut().zip([y * z, z * x, x * y]) {
+            *sum += product;
+        }
+        sum += (own[0] + own[1] + own[2]).sqrt();
+    }
+    let [a, b, c] = squares.map(f64::sqrt);
+    let [p, q, r] = [
+        products[0] / (b * c),
+        products[1] / (c * a),
+        products[2] / (a * b),
+    ];
+    // The Gram matrix with ones on its diagonal, whose determinant is at most 9/4 times its smallest eigenvalue.
+    let volume = 1.0 + 2.0 * p * q * r - p * p - q * q - r * r;
+    if !(volume > 1e-3) {
+        return None;
+    }
+    let [x, y, z] = [point[0] / a, point[1] / b, point[2] / c];
+    let amounts = [
+        ((1.0 - p * p) * x + (p * q - r) * y + (r * p - q) * z) / (volume * a),
+        ((p * q - r) * x + (1.0 - q * q) * y + (q * r - p) * z) / (volume * b),
+        ((r * p - q) * x + (q * r - p) * y + (1.0 - r * r) * z) / (volume * c),
+    ];
+    let most = generators
+        .iter()
+        .map(|g| dot(*g, amounts).abs())
+        .fold(0.0, f64::max);
+    // No width is less, and so much rounding counts against the generators and for the point.
+    let narrowest = (volume * 4.0 / 9.0).sqrt() * a.min(b).min(c);
+    let rounding = 2.0 * ROUNDING * sum / narrowest;
+    let bound = most * (1.0 + 1e-4 + 2.0 * rounding) + ROUNDING * norm(point) / narrowest;
+    let sure = rounding < 0.25 && amounts.iter().all(|v| v.is_finite()) && bound.is_finite();
+    sure.then_some(bound)
 }
 
 /// The test itself, on generators of size up to 1.
@@ -163,11 +211,11 @@ fn ratio(generators: &[Triple], point: Triple, normal: Triple, rounding: Roundin
 /// Generators that differ: parallel ones added up, and those of like direction where they are many.
 ///
 /// The sum of two generators stands for them within their zonotope, never beyond it.
-fn merged(generators: Vec<Triple>) -> Vec<Triple> {
+fn merged(generators: impl ExactSizeIterator<Item = Triple>) -> Vec<Triple> {
     let mut all: Vec<Triple> = Vec::with_capacity(generators.len().min(MANY));
     let cells = generators.len() > MANY;
     let mut bins: Vec<Triple> = vec![[0.0; 3]; if cells { 3 * CELLS * CELLS } else { 0 }];
-    for g in generators.into_iter().filter(|g| norm(*g) > 0.0) {
+    for g in generators.filter(|g| norm(*g) > 0.0) {
         if cells {
             let bin = &mut bins[cell(g)];
             *bin = sum(*bin, g);

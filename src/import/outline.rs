@@ -182,7 +182,7 @@ impl Outlines {
             to: moved.to.iter().map(|b| names.bodies[*b].clone()).collect(),
         };
         let snapped = outcome.moved.iter().map(described).collect();
-        for (body, rings) in self.bodies.iter_mut().zip(outcome.bodies) {
+        for (body, rings) in self.bodies.iter_mut().zip(outcome.bodies.into_owned()) {
             body.rings = rings;
         }
         snapped

@@ -45,23 +45,34 @@ enum Meeting {
 
 /// All edge interfaces, and what nearly is one.
 pub(super) fn find(scene: &Scene) -> Interfaces {
-    let sides: Vec<Side> = bodies(scene)
-        .flat_map(|body| {
-            let (polygon, gap) = (&scene.body(body).polygon, scene.body(body).gap);
-            let near = match body {
-                BodyId::Block(_) => (BESIDE * size(polygon)).max(gap),
-                BodyId::Ground(_) => f64::INFINITY,
-            };
-            (polygon.edges().enumerate()).map(move |(number, edge)| Side {
-                body,
-                number,
-                edge,
-                near,
-            })
-        })
-        .collect();
+    let count = |body: BodyId| {
+        (scene.body(body).polygon.rings().iter())
+            .map(Vec::len)
+            .sum::<usize>()
+    };
+    let mut sides: Vec<Side> = Vec::with_capacity(bodies(scene).map(count).sum());
+    let mut smallest = f64::INFINITY;
+    for body in bodies(scene) {
+        let (polygon, gap) = (&scene.body(body).polygon, scene.body(body).gap);
+        let near = match body {
+            BodyId::Block(_) => {
+                let size = size(polygon);
+                smallest = smallest.min(size);
+                (BESIDE * size).max(gap)
+            }
+            BodyId::Ground(_) => f64::INFINITY,
+        };
+        sides.extend((polygon.edges().enumerate()).map(|(number, edge)| Side {
+            body,
+            number,
+            edge,
+            near,
+        }));
+    }
     let nearby = Nearby::of(sides);
-    let mut pairs: BTreeMap<[BodyId; 2], Vec<(usize, usize, Meeting)>> = BTreeMap::new();
+    // With the bodies and the numbers of the two edges, whose order is that of the interfaces.
+    let mut met: Vec<([BodyId; 2], [usize; 2], Meeting)> =
+        Vec::with_capacity(2 * scene.blocks.len());
     for a in nearby.all().filter(|a| matches!(a.body, BodyId::Block(_))) {
         let reach = a.near;
         let around = AABB::from_corners(
@@ -80,23 +91,19 @@ pub(super) fn find(scene: &Scene) -> Interfaces {
                 continue;
             };
             if let Some(meeting) = meeting(scene, pair, a, b) {
-                pairs
-                    .entry(pair)
-                    .or_default()
-                    .push((a.number, b.number, meeting));
+                met.push((pair, [a.number, b.number], meeting));
             }
         }
     }
-    let sizes = scene.blocks.iter().map(|b| size(&b.body.polygon));
-    let smallest = sizes.fold(f64::INFINITY, f64::min);
+    met.sort_unstable_by_key(|m| (m.0, m.1));
     let mut notices = Notices::default();
-    let (mut all, mut near) = (Vec::new(), Vec::new());
+    let (mut all, mut near) = (Vec::with_capacity(met.len()), Vec::new());
     let (mut slivers, mut narrow) = (Vec::new(), Vec::new());
-    for (pair, mut meetings) in pairs {
+    let mut met = met.into_iter().peekable();
+    while let Some(pair) = met.peek().map(|m| m.0) {
         let tolerance = scene.tolerance_between(pair[0], pair[1]);
-        meetings.sort_by_key(|m| (m.0, m.1));
-        let mut stretches = Vec::new();
-        for (_, _, meeting) in meetings {
+        let first = all.len();
+        while let Some((_, _, meeting)) = met.next_if(|m| m.0 == pair) {
             match meeting {
                 Meeting::Stretch(interface, distance) => {
                     if distance > 0.0 && FLAT * distance >= smallest {
@@ -106,7 +113,7 @@ pub(super) fn find(scene: &Scene) -> Interfaces {
                             distance,
                         });
                     }
-                    stretches.push(interface);
+                    all.push(interface);
                 }
                 Meeting::Short(interface) => {
                     notices.short(interface.length(), tolerance);
@@ -126,7 +133,10 @@ pub(super) fn find(scene: &Scene) -> Interfaces {
                 }
             }
         }
-        all.extend(joined(stretches, tolerance));
+        if all.len() > first + 1 {
+            let stretches = all.split_off(first);
+            all.extend(joined(stretches, tolerance));
+        }
     }
     let propped = propped(scene, &all, &narrow);
     Interfaces {
@@ -140,14 +150,14 @@ pub(super) fn find(scene: &Scene) -> Interfaces {
 
 /// What edge `a` of the first body and edge `b` of the second have in common.
 fn meeting(scene: &Scene, bodies: [BodyId; 2], a: &Side, b: &Side) -> Option<Meeting> {
-    let tolerance = scene.tolerance_between(bodies[0], bodies[1]);
     let near = a.near.min(b.near);
     let (a, b) = (a.edge, b.edge);
     let (va, vb) = (a.vector(), b.vector());
-    let (la, lb) = (va.norm(), vb.norm());
     if va.dot(&vb) >= 0.0 {
         return None;
     }
+    let (la, lb) = (va.norm(), vb.norm());
+    let tolerance = scene.tolerance_between(bodies[0], bodies[1]);
     // Noise of one gap at either end turns a short edge more than a long one.
     let within = |gap: f64| {
         let angle = (2.0 * gap / la.min(lb)).clamp(1e-9, tolerance.angle);
@@ -214,9 +224,6 @@ fn square_to(ends: [Point; 2]) -> Vector {
 
 /// Stretches of one pair that continue each other along one line, joined: a corner set into a straight edge changes nothing.
 fn joined(stretches: Vec<Interface>, tolerance: Tolerance) -> Vec<Interface> {
-    if stretches.len() < 2 {
-        return stretches;
-    }
     let reach = 4.0 * tolerance.gap;
     let mut left = Ends::of(stretches, reach);
     let mut done = Vec::new();

@@ -12,7 +12,7 @@
 
 use super::Forces;
 use crate::assembly::{Assembly, AssemblyBody};
-use crate::geometry::{Point, Sum, Triple, Vector, cross, least_scale, scale_at_most};
+use crate::geometry::{Point, Sum, Triple, Vector, cross, least_scale, scale_at_most, scale_bound};
 
 /// Rounding of a few sums and products, in parts of what is summed.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
@@ -93,12 +93,8 @@ impl Acting {
         [x, y, moment / self.radius]
     }
 
-    /// The smallest τ to which the body balances.
-    fn imbalance(mut self) -> f64 {
-        let left = self.left();
-        if left == [0.0; 3] {
-            return 0.0;
-        }
+    /// Adds what every body may lean on beside its forces: that they may be moved, and rounding.
+    fn complete(&mut self) {
         self.generators.push([0.0, 0.0, self.total]);
         let rounding = ROUNDING / FINEST * self.total;
         for cone in &self.cones {
@@ -114,6 +110,14 @@ impl Acting {
         };
         self.generators.push([turned, 0.0, 0.0]);
         self.generators.push([0.0, turned, 0.0]);
+    }
+
+    /// The smallest τ to which the body balances, once it is complete.
+    fn imbalance(&self) -> f64 {
+        let left = self.left();
+        if left == [0.0; 3] {
+            return 0.0;
+        }
         match scale_at_most(&self.generators, left) {
             Some(enough) if enough <= PLENTY => enough,
             _ => least_scale(&self.generators, left),
@@ -125,20 +129,38 @@ impl Acting {
 ///
 /// What is below 10⁻¹⁰ is an upper bound of it.
 pub fn imbalances(assembly: &Assembly, forces: &Forces) -> Vec<f64> {
-    let all = acting(assembly, forces).into_iter();
-    all.map(Acting::imbalance).collect()
+    let mut all = acting(assembly, forces);
+    all.iter_mut().for_each(Acting::complete);
+    all.iter().map(Acting::imbalance).collect()
 }
 
 /// The worst imbalance of all bodies, and the worst of what is left of one in parts of its own load.
+///
+/// Only bodies that may be the worst are looked at closely, those with the largest bound first.
 pub(super) fn worst(assembly: &Assembly, forces: &Forces) -> (f64, f64) {
-    let (mut imbalance, mut share): (f64, f64) = (0.0, 0.0);
-    for acting in acting(assembly, forces) {
-        let [x, y, moment] = acting.left();
-        let left = libm::hypot(x, y).max(moment.abs());
-        if acting.load > 0.0 {
-            share = share.max(left / acting.load);
+    let mut all = acting(assembly, forces);
+    let mut share: f64 = 0.0;
+    let mut bounds: Vec<(f64, usize)> = Vec::with_capacity(all.len());
+    for (number, acting) in all.iter_mut().enumerate() {
+        let left = acting.left();
+        if left == [0.0; 3] {
+            continue;
         }
-        imbalance = imbalance.max(acting.imbalance());
+        let [x, y, moment] = left;
+        if acting.load > 0.0 {
+            share = share.max(libm::hypot(x, y).max(moment.abs()) / acting.load);
+        }
+        acting.complete();
+        let bound = scale_bound(&acting.generators, left).unwrap_or(f64::INFINITY);
+        bounds.push((bound, number));
+    }
+    bounds.sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
+    let mut imbalance: f64 = 0.0;
+    for (bound, number) in bounds {
+        if bound <= imbalance {
+            break;
+        }
+        imbalance = imbalance.max(all[number].imbalance());
     }
     (imbalance, share)
 }

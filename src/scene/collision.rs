@@ -200,7 +200,7 @@ fn on_lattice(bodies: &[Numbered<'_>], lattice: Lattice, presence: &Presence) ->
                 .iter()
                 .fold(Vector::zeros(), |s, c| s + lattice.cell_centre(*c).coords);
             let count = cells.len() as f64;
-            let pieces = |id: BodyId| polygons.get(&id).map(|p| Pieces::of(p));
+            let pieces = |id: BodyId| polygons.get(&id).copied().map(Pieces::of);
             let deep = pieces(bodies[0])
                 .zip(pieces(bodies[1]))
                 .and_then(|(a, b)| overlap(&a, &b, 0.0));
@@ -243,14 +243,13 @@ fn off_lattice(bodies: &[Numbered<'_>], presence: &Presence) -> Vec<Found> {
             .collect(),
     );
     let mut found = Vec::new();
+    let mut near: Vec<usize> = Vec::new();
     for (i, (id, _)) in bodies.iter().enumerate() {
-        let mut near: Vec<usize> = nearby
-            .near(Boxed(boxes[i], i).envelope())
-            .map(|b| b.1)
-            .filter(|j| bodies[*j].0 < *id)
-            .collect();
+        near.clear();
+        let others = nearby.near(Boxed(boxes[i], i).envelope()).map(|b| b.1);
+        near.extend(others.filter(|j| bodies[*j].0 < *id));
         near.sort_unstable();
-        for j in near {
+        for j in near.iter().copied() {
             let pair = [bodies[j].0, *id];
             let gap = bodies[i].1.gap.min(bodies[j].1.gap);
             if let Some(frame) = presence.together(pair[0], pair[1])

@@ -410,16 +410,16 @@ pub(super) fn parse(text: &str) -> Option<SceneFile> {
 /// Whether the syntax tree of a text says what serde_json says, for tests of the reading.
 #[cfg(test)]
 pub(super) fn agrees(text: &str) -> bool {
-    use super::tree::{self, Node, NodeKind};
-    fn value(node: &Node<'_>) -> serde_json::Value {
+    use super::tree::{self, Node, NodeKind, Tree};
+    fn value(tree: &Tree<'_>, node: &Node<'_>) -> serde_json::Value {
         match &node.kind {
             NodeKind::Null => serde_json::Value::Null,
             NodeKind::Flag(flag) => (*flag).into(),
             NodeKind::Number(x) => (*x).into(),
             NodeKind::Text(text) => text.as_ref().into(),
-            NodeKind::List(items) => items.iter().map(value).collect(),
-            NodeKind::Object(entries) => (entries.iter())
-                .map(|e| (e.name.clone().into_owned(), value(&e.value)))
+            NodeKind::List(list) => (tree.items(list).iter().map(|n| value(tree, n))).collect(),
+            NodeKind::Object(object) => (tree.entries(object).iter())
+                .map(|e| (e.name.clone().into_owned(), value(tree, &e.value)))
                 .collect(),
         }
     }
@@ -435,7 +435,7 @@ pub(super) fn agrees(text: &str) -> bool {
         }
     }
     match (tree::parse(text), serde_json::from_str(text)) {
-        (Ok(node), Ok(other)) => value(&node) == floats(other),
+        (Ok(tree), Ok(other)) => value(&tree, &tree.root) == floats(other),
         (Err(_), Err(_)) => true,
         // A number beyond all floats is no fault of the text; the reader of values complains of it.
         (Ok(_), Err(error)) => error.to_string().contains("number out of range"),

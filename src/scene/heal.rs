@@ -5,6 +5,7 @@
 //! centroids and proofs all come from the healed outlines. A block's weight stays that of its outline as written. Invariant:
 //! where everything fits already, nothing changes by a single bit.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use super::{Block, Body, BodyId, Ground, Scene};
@@ -138,14 +139,11 @@ pub(super) fn heal(
     for (_, size) in numbers.iter().zip(&mut sizes).filter(|(n, _)| **n < parts) {
         *size = largest;
     }
-    let brought = |reach: Reach, outlines: &[Rings]| {
-        let gaps: Vec<f64> = sizes.iter().map(|s| reach.healing_of(*s)).collect();
-        snapped(outlines, &gaps, &fixed, NOISE)
-    };
+    let gaps = |reach: Reach| -> Vec<f64> { sizes.iter().map(|s| reach.healing_of(*s)).collect() };
     let mut kept = 0;
-    let mut outlines = drawn.clone();
+    let mut outlines = Cow::Borrowed(&drawn[..]);
     if reach.healing > 0.0 {
-        let outcome = brought(reach, &outlines);
+        let outcome = snapped(&drawn, &gaps(reach), &fixed, NOISE);
         (outlines, kept) = (outcome.bodies, outcome.kept.len());
     }
     if reach.usual > reach.healing {
@@ -154,12 +152,13 @@ pub(super) fn heal(
             usual: reach.usual,
             healing: reach.usual,
         };
-        let outcome = brought(noisy, &outlines);
+        let outcome = snapped(&outlines, &gaps(noisy), &fixed, NOISE);
         let all: usize = drawn.iter().flatten().map(Vec::len).sum();
         let moved: usize = outcome.moved.iter().map(|m| m.corners).sum();
         let (share, least) = NOISY;
         if moved >= least && moved as f64 >= share * all as f64 {
-            (outlines, kept) = (outcome.bodies, outcome.kept.len());
+            kept = outcome.kept.len();
+            outlines = Cow::Owned(outcome.bodies.into_owned());
             reach = noisy;
         }
     }
@@ -170,7 +169,11 @@ pub(super) fn heal(
         ..Healed::default()
     };
     let mut changed = BTreeMap::new();
-    for (((number, old), new), size) in numbers.into_iter().zip(&drawn).zip(&outlines).zip(&sizes) {
+    let new = match &outlines {
+        Cow::Borrowed(_) => &[][..],
+        Cow::Owned(new) => new,
+    };
+    for (((number, old), new), size) in numbers.into_iter().zip(&drawn).zip(new).zip(&sizes) {
         let corners = old.iter().flatten().zip(new.iter().flatten());
         // Less than a millionth of the gap is the rounding of numbers.
         let rounding = 1e-6 * reach.healing_of(*size);

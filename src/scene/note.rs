@@ -96,7 +96,7 @@ impl Lines {
     /// Of the file that a scene was read from.
     pub(super) fn of(source: &Source<'_>) -> Lines {
         let list = |key| {
-            let starts = source.starts(key).into_iter();
+            let starts = source.starts(key);
             starts.map(|byte| source.line(byte)).collect()
         };
         Lines {

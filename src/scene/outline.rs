@@ -204,7 +204,7 @@ pub(super) fn placed(
     findings: &mut Findings,
     trail: &Trail<'_>,
     lattice: Option<Lattice>,
-    outline: &Outline,
+    outline: Outline,
     at: Pair,
     angle: f64,
 ) -> Option<(Polygon, Option<Vec<Cell>>)> {
@@ -226,7 +226,7 @@ pub(super) fn placed(
             }
             let by = by?;
             let cells: Vec<Cell> = cells
-                .iter()
+                .into_iter()
                 .map(|c| c.turned(steps as i64).moved(by))
                 .collect();
             let polygon = lattice.polygon(&cells)?;

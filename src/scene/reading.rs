@@ -136,8 +136,8 @@ impl Scene {
 /// The scene file that a syntax tree holds, all that does not fit, and where that is.
 pub(super) fn read(source: &Source<'_>) -> (SceneFile, Vec<Finding>, Doubt) {
     let mut reader = Reader::new(source);
-    let file = match &source.root {
-        Some(root) => object::scene(&mut reader, root),
+    let file = match &source.tree {
+        Some(tree) => object::scene(&mut reader, &tree.root),
         None => SceneFile::default(),
     };
     (file, reader.findings.list, reader.doubt)
@@ -147,6 +147,7 @@ pub(super) fn read(source: &Source<'_>) -> (SceneFile, Vec<Finding>, Doubt) {
 mod tests {
     use super::*;
     use crate::scene::format;
+    use crate::scene::tree::{Node, NodeKind, Tree};
 
     /// What serde makes of a text, which knows the types only.
     fn by_types(text: &str) -> Option<SceneFile> {
@@ -190,7 +191,8 @@ mod tests {
         // Every value in turn is replaced, or its key changed.
         let source = Source::parse(EVERYTHING).expect("JSON");
         let mut places = Vec::new();
-        places_of(source.root.as_ref().expect("there"), &mut places);
+        let tree = source.tree.as_ref().expect("there");
+        places_of(tree, &tree.root, &mut places);
         assert!(places.len() > 100);
         let mut refused = 0;
         for range in places {
@@ -221,15 +223,16 @@ mod tests {
         assert!(refused > 800, "{refused}");
     }
 
-    fn places_of(node: &crate::scene::tree::Node<'_>, places: &mut Vec<std::ops::Range<usize>>) {
-        use crate::scene::tree::NodeKind;
+    fn places_of(tree: &Tree<'_>, node: &Node<'_>, places: &mut Vec<std::ops::Range<usize>>) {
         places.push(node.range.clone());
         match &node.kind {
-            NodeKind::List(items) => items.iter().for_each(|n| places_of(n, places)),
-            NodeKind::Object(entries) => {
-                for entry in entries {
+            NodeKind::List(list) => {
+                (tree.items(list).iter()).for_each(|n| places_of(tree, n, places))
+            }
+            NodeKind::Object(object) => {
+                for entry in tree.entries(object) {
                     places.push(entry.name_range.clone());
-                    places_of(&entry.value, places);
+                    places_of(tree, &entry.value, places);
                 }
             }
             _ => {}

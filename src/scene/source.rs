@@ -3,14 +3,14 @@
 use std::ops::Range;
 
 use super::path::{Path, Segment};
-use super::tree::{Entry, Fault, Node, NodeKind, parse};
+use super::tree::{Entry, Fault, NodeKind, Tree, parse};
 
 /// A text and its JSON values.
 pub(super) struct Source<'t> {
     /// The text, from which all byte ranges count.
     pub(super) text: &'t str,
-    /// The topmost value; absent where the text is no JSON.
-    pub(super) root: Option<Node<'t>>,
+    /// The values; absent where the text is no JSON.
+    pub(super) tree: Option<Tree<'t>>,
     /// First byte of every line.
     lines: Vec<usize>,
 }
@@ -27,9 +27,9 @@ pub(super) enum Mark {
 impl<'t> Source<'t> {
     /// A text with its values' places, or where it is no JSON.
     pub(super) fn parse(text: &'t str) -> Result<Source<'t>, Fault> {
-        let root = Some(parse(text)?);
+        let tree = Some(parse(text)?);
         Ok(Source {
-            root,
+            tree,
             ..Source::plain(text)
         })
     }
@@ -40,7 +40,7 @@ impl<'t> Source<'t> {
         let lines = std::iter::once(0).chain(ends.map(|(i, _)| i + 1)).collect();
         Source {
             text,
-            root: None,
+            tree: None,
             lines,
         }
     }
@@ -59,27 +59,29 @@ impl<'t> Source<'t> {
     }
 
     /// The first bytes of the entries of a list at the top.
-    pub(super) fn starts(&self, list: &str) -> Vec<usize> {
-        let Some(NodeKind::Object(entries)) = self.root.as_ref().map(|n| &n.kind) else {
-            return Vec::new();
-        };
-        match entries
-            .iter()
-            .find(|e| e.name == list)
-            .map(|e| &e.value.kind)
-        {
-            Some(NodeKind::List(items)) => items.iter().map(|n| n.range.start).collect(),
-            _ => Vec::new(),
-        }
+    pub(super) fn starts(&self, list: &str) -> impl Iterator<Item = usize> + '_ {
+        let items = self.tree.as_ref().and_then(|tree| {
+            let NodeKind::Object(top) = &tree.root.kind else {
+                return None;
+            };
+            let entry = tree.entries(top).iter().find(|e| e.name == list)?;
+            match &entry.value.kind {
+                NodeKind::List(list) => Some(tree.items(list)),
+                _ => None,
+            }
+        });
+        items.unwrap_or_default().iter().map(|n| n.range.start)
     }
 
     /// Where a path leads, or as far along it as the text goes; the first line of it.
     pub(super) fn find(&self, path: &Path, mark: Mark) -> Option<Range<usize>> {
-        let mut node = self.root.as_ref()?;
+        let tree = self.tree.as_ref()?;
+        let mut node = &tree.root;
         for (i, segment) in path.0.iter().enumerate() {
             let next = match (segment, &node.kind) {
-                (Segment::Index(number), NodeKind::List(entries)) => entries.get(*number),
-                (Segment::Key(key), NodeKind::Object(entries)) => {
+                (Segment::Index(number), NodeKind::List(list)) => tree.items(list).get(*number),
+                (Segment::Key(key), NodeKind::Object(object)) => {
+                    let entries = tree.entries(object);
                     // Of a key given twice the second is the one to point at.
                     let wanted = |e: &&Entry<'_>| e.name == *key;
                     let last = mark == Mark::Key && i + 1 == path.0.len();

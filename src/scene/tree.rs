@@ -1,4 +1,7 @@
-//! [`Node`]: a JSON text as a syntax tree, every value and key with its place.
+//! [`Tree`]: a JSON text as a syntax tree, every value and key with its place.
+//!
+//! The entries of all lists stand in one list, and those of all objects in another: a file of many points costs few
+//! allocations.
 //!
 //! Strict JSON (RFC 8259) and no more: what this file takes, serde_json takes, and the other way round; a test holds the
 //! two against each other. Reading ends at the first fault, of which [`Fault`] says what was expected there.
@@ -8,6 +11,43 @@ use std::ops::Range;
 
 /// So many brackets may be open at once.
 pub(super) const DEEPEST: usize = 127;
+
+/// A JSON text, read.
+#[derive(Debug)]
+pub(super) struct Tree<'t> {
+    /// The topmost value.
+    pub(super) root: Node<'t>,
+    /// What stands in one list after the other, and in one object after the other.
+    items: Vec<Node<'t>>,
+    entries: Vec<Entry<'t>>,
+}
+
+impl<'t> Tree<'t> {
+    /// What stands in a list.
+    pub(super) fn items(&self, list: &List) -> &[Node<'t>] {
+        &self.items[list.0.clone()]
+    }
+
+    /// What stands in an object, in its order, keys perhaps twice.
+    pub(super) fn entries(&self, object: &Object) -> &[Entry<'t>] {
+        &self.entries[object.0.clone()]
+    }
+}
+
+/// Which of the entries of all lists are a list's own.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct List(Range<usize>);
+
+impl List {
+    /// How many there are.
+    pub(super) fn len(&self) -> usize {
+        self.0.len()
+    }
+}
+
+/// Which of the entries of all objects are an object's own.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Object(Range<usize>);
 
 /// A JSON value with its place.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,9 +70,9 @@ pub(super) enum NodeKind<'t> {
     /// A string, its escapes resolved.
     Text(Cow<'t, str>),
     /// A list.
-    List(Vec<Node<'t>>),
-    /// An object's entries in their order, keys perhaps twice.
-    Object(Vec<Entry<'t>>),
+    List(List),
+    /// An object.
+    Object(Object),
 }
 
 /// A key and its value.
@@ -83,21 +123,32 @@ pub(super) enum Why {
 }
 
 /// Reads a text as one JSON value.
-pub(super) fn parse(text: &str) -> Result<Node<'_>, Fault> {
+pub(super) fn parse(text: &str) -> Result<Tree<'_>, Fault> {
     let mut reader = Parser {
         text,
         bytes: text.as_bytes(),
         at: 0,
         open: Vec::new(),
+        items: Vec::with_capacity(text.len() / BYTES_AN_ITEM),
+        entries: Vec::new(),
+        loose_items: Vec::new(),
+        loose_entries: Vec::new(),
     };
     reader.blanks();
     let root = reader.value()?;
     reader.blanks();
     match reader.peek() {
-        None => Ok(root),
+        None => Ok(Tree {
+            root,
+            items: reader.items,
+            entries: reader.entries,
+        }),
         Some(_) => Err(reader.fault(Why::Behind)),
     }
 }
+
+/// A list of points has a value for every so many bytes, or for more.
+const BYTES_AN_ITEM: usize = 8;
 
 struct Parser<'t> {
     text: &'t str,
@@ -105,6 +156,11 @@ struct Parser<'t> {
     at: usize,
     /// The brackets that are open, with their places.
     open: Vec<(char, usize)>,
+    items: Vec<Node<'t>>,
+    entries: Vec<Entry<'t>>,
+    /// What stands in lists and objects that are open, the innermost last.
+    loose_items: Vec<Node<'t>>,
+    loose_entries: Vec<Entry<'t>>,
 }
 
 impl<'t> Parser<'t> {
@@ -130,7 +186,7 @@ impl<'t> Parser<'t> {
     fn value(&mut self) -> Result<Node<'t>, Fault> {
         let start = self.at;
         let kind = match self.peek() {
-            Some(b'{') => NodeKind::Object(self.entries()?),
+            Some(b'{') => NodeKind::Object(self.object()?),
             Some(b'[') => NodeKind::List(self.list()?),
             Some(b'"') => NodeKind::Text(self.string()?),
             Some(b'-' | b'0'..=b'9') => NodeKind::Number(self.number()?),
@@ -224,21 +280,24 @@ impl<'t> Parser<'t> {
         Ok(true)
     }
 
-    fn list(&mut self) -> Result<Vec<Node<'t>>, Fault> {
+    fn list(&mut self) -> Result<List, Fault> {
         self.enter('[')?;
-        let mut nodes = Vec::new();
+        let outer = self.loose_items.len();
         let mut more = self.peek() != Some(b']');
         while more {
-            nodes.push(self.value()?);
+            let item = self.value()?;
+            self.loose_items.push(item);
             more = self.another(']')?;
         }
         self.leave();
-        Ok(nodes)
+        let first = self.items.len();
+        self.items.extend(self.loose_items.drain(outer..));
+        Ok(List(first..self.items.len()))
     }
 
-    fn entries(&mut self) -> Result<Vec<Entry<'t>>, Fault> {
+    fn object(&mut self) -> Result<Object, Fault> {
         self.enter('{')?;
-        let mut entries = Vec::new();
+        let outer = self.loose_entries.len();
         let mut more = self.peek() != Some(b'}');
         while more {
             let start = self.at;
@@ -254,7 +313,7 @@ impl<'t> Parser<'t> {
             self.at += 1;
             self.blanks();
             let value = self.value()?;
-            entries.push(Entry {
+            self.loose_entries.push(Entry {
                 name,
                 name_range,
                 value,
@@ -262,7 +321,9 @@ impl<'t> Parser<'t> {
             more = self.another('}')?;
         }
         self.leave();
-        Ok(entries)
+        let first = self.entries.len();
+        self.entries.extend(self.loose_entries.drain(outer..));
+        Ok(Object(first..self.entries.len()))
     }
 
     fn string(&mut self) -> Result<Cow<'t, str>, Fault> {

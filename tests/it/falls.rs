@@ -256,7 +256,7 @@ fn what_a_wall_lacks_just_past_its_edge_is_the_least_that_could_hold_it() {
     let options = Options::default()
         .margins(Ask::Yes)
         .margin_kinds(MarginKinds::of(&[MarginKind::Tilt]));
-    let upright = Analysis::with(&scene(&file), &options).frames.remove(0);
+    let upright = Analysis::with(scene(&file), &options).frames.remove(0);
     let tilt = upright.margins.expect("asked for").tilt;
     let edge = tilt.right.at().expect("it falls");
     let scene = scene(&turned(file, edge + 1e-4));

@@ -280,12 +280,12 @@ fn convex_is_what_never_turns_right() {
 #[test]
 fn placing_turns_about_the_origin_and_then_moves() {
     let polygon = sound(&[&[[1.0, 0.0], [3.0, 0.0], [1.0, 4.0]]]);
-    let placed = polygon.placed(90.0, Vector::new(10.0, 20.0));
+    let placed = polygon.clone().placed(90.0, Vector::new(10.0, 20.0));
     assert_eq!(
         placed.outline(),
         points(&[[10.0, 21.0], [10.0, 23.0], [6.0, 21.0]])
     );
-    let third = polygon.placed(30.0, Vector::zeros());
+    let third = polygon.clone().placed(30.0, Vector::zeros());
     let (sin, cos) = (0.5, 0.75_f64.sqrt());
     let wanted = points(&[
         [cos, sin],

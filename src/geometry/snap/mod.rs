@@ -9,6 +9,7 @@
 mod line;
 mod node;
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
 use rstar::{AABB, RTreeObject};
@@ -54,9 +55,9 @@ const ROUNDS: usize = 12;
 const EXACT: f64 = 1e-9;
 
 /// What became of some bodies.
-pub(crate) struct Outcome {
-    /// Their outlines.
-    pub(crate) bodies: Vec<Rings>,
+pub(crate) struct Outcome<'b> {
+    /// Their outlines; as they were given where none of them changed.
+    pub(crate) bodies: Cow<'b, [Rings]>,
     /// Which of them changed.
     pub(crate) moved: Vec<Moved>,
     /// Bodies that had to stay as they were drawn.
@@ -80,17 +81,25 @@ pub(crate) struct Moved {
 ///
 /// `gaps` holds each body's gap in metres, 0 for one that takes no part in it. A body of `fixed` stays as it is, and
 /// others come to it. An overlap of up to `noise`, in parts of the gap between two bodies, is none.
-pub(crate) fn snapped(bodies: &[Rings], gaps: &[f64], fixed: &[bool], noise: f64) -> Outcome {
+pub(crate) fn snapped<'b>(
+    bodies: &'b [Rings],
+    gaps: &[f64],
+    fixed: &[bool],
+    noise: f64,
+) -> Outcome<'b> {
     let mut kept = fixed.to_vec();
     for _ in 0..ROUNDS {
         let mut outcome = attempt(bodies, gaps, &kept);
-        let fresh: Vec<usize> = if outcome.moved.is_empty() {
+        if outcome.moved.is_empty() {
             // To the last bit, so that nothing can have come out worse.
-            outcome.bodies = bodies.to_vec();
-            Vec::new()
-        } else {
-            let wrong = spoilt(bodies, &outcome.bodies, gaps, noise);
-            wrong.into_iter().filter(|b| !kept[*b]).collect()
+            outcome.bodies = Cow::Borrowed(bodies);
+        }
+        let fresh: Vec<usize> = match &outcome.bodies {
+            Cow::Borrowed(_) => Vec::new(),
+            Cow::Owned(new) => {
+                let wrong = spoilt(bodies, new, gaps, noise);
+                wrong.into_iter().filter(|b| !kept[*b]).collect()
+            }
         };
         if fresh.is_empty() {
             outcome.kept = held(&kept, fixed);
@@ -101,7 +110,7 @@ pub(crate) fn snapped(bodies: &[Rings], gaps: &[f64], fixed: &[bool], noise: f64
         }
     }
     Outcome {
-        bodies: bodies.to_vec(),
+        bodies: Cow::Borrowed(bodies),
         moved: Vec::new(),
         kept: held(&vec![true; bodies.len()], fixed),
     }
@@ -145,7 +154,7 @@ struct Beside<'s> {
     off: f64,
 }
 
-fn attempt(bodies: &[Rings], gaps: &[f64], kept: &[bool]) -> Outcome {
+fn attempt<'b>(bodies: &'b [Rings], gaps: &[f64], kept: &[bool]) -> Outcome<'b> {
     let mut nodes = Nodes::of(bodies, gaps, kept);
     let nearby = Nearby::of(sides(bodies, &nodes));
     let found = beside(&nodes, &nearby, gaps, kept);
@@ -153,15 +162,16 @@ fn attempt(bodies: &[Rings], gaps: &[f64], kept: &[bool]) -> Outcome {
     let fits = |b: &Beside<'_>| !b.side.curved && b.off <= EXACT * nodes.all[b.node].gap;
     if nodes.exact && found.iter().all(fits) {
         return Outcome {
-            bodies: bodies.to_vec(),
+            bodies: Cow::Borrowed(bodies),
             moved: Vec::new(),
             kept: Vec::new(),
         };
     }
     let mut touching: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); bodies.len()];
     for node in &nodes.all {
-        for a in &node.bodies {
-            touching[*a].extend(node.bodies.iter().filter(|b| *b != a));
+        let there = nodes.bodies(node);
+        for a in there {
+            touching[*a].extend(there.iter().filter(|b| *b != a));
         }
     }
     // Where corners lie on straight sides, by the side; and those that curved sides take in, by how far along.
@@ -171,7 +181,7 @@ fn attempt(bodies: &[Rings], gaps: &[f64], kept: &[bool]) -> Outcome {
         node, side, reach, ..
     } in found
     {
-        for body in &nodes.all[node].bodies {
+        for body in nodes.bodies(&nodes.all[node]) {
             touching[*body].insert(side.body);
             touching[side.body].insert(*body);
         }
@@ -203,7 +213,7 @@ fn beside<'s>(
         }
         .grown(node.gap);
         for side in nearby.near(envelope(around)) {
-            if node.bodies.contains(&side.body) {
+            if nodes.bodies(node).contains(&side.body) {
                 continue;
             }
             let (from, to) = (nodes.all[side.ends[0]].at, nodes.all[side.ends[1]].at);
@@ -229,7 +239,7 @@ fn beside<'s>(
 }
 
 fn sides(bodies: &[Rings], nodes: &Nodes) -> Vec<Side> {
-    let mut sides = Vec::new();
+    let mut sides = Vec::with_capacity(bodies.iter().flatten().map(Vec::len).sum());
     for (body, rings) in bodies.iter().enumerate() {
         for (ring, corners) in rings.iter().enumerate() {
             for corner in 0..corners.len() {
@@ -260,7 +270,7 @@ fn rebuilt(
     mut taken: BTreeMap<(usize, usize, usize), Vec<(f64, usize)>>,
     mut touching: Vec<BTreeSet<usize>>,
     gaps: &[f64],
-) -> Outcome {
+) -> Outcome<'static> {
     let mut moved = Vec::new();
     let mut out = Vec::new();
     for (body, rings) in bodies.iter().enumerate() {
@@ -300,7 +310,7 @@ fn rebuilt(
         out.push(built);
     }
     Outcome {
-        bodies: out,
+        bodies: Cow::Owned(out),
         moved,
         kept: Vec::new(),
     }
@@ -326,7 +336,7 @@ fn spoilt(before: &[Rings], after: &[Rings], gaps: &[f64], noise: f64) -> BTreeS
         .iter()
         .map(|p| p.as_ref().map(Pieces::of))
         .collect();
-    let drawn = |body: usize| polygon(&before[body]).ok().map(|p| Pieces::of(&p));
+    let drawn = |body: usize| polygon(&before[body]).ok();
     let entries = polygons
         .iter()
         .enumerate()
@@ -346,7 +356,7 @@ fn spoilt(before: &[Rings], after: &[Rings], gaps: &[f64], noise: f64) -> BTreeS
             };
             let then = drawn(*a)
                 .zip(drawn(*b))
-                .and_then(|(one, two)| overlap(&one, &two, 0.0))
+                .and_then(|(one, two)| overlap(&Pieces::of(&one), &Pieces::of(&two), 0.0))
                 .map_or(0.0, |o| o.depth);
             if now.depth > then + noise {
                 wrong.extend([*a, *b]);

@@ -1,5 +1,7 @@
 //! [`Nodes`]: places that corners of several bodies share.
 
+use std::ops::Range;
+
 use rstar::AABB;
 use rstar::primitives::GeomWithData;
 
@@ -9,8 +11,8 @@ use crate::geometry::{Nearby, Point};
 /// A place and the corners there.
 pub(super) struct Node {
     pub(super) at: Point,
-    /// Bodies with a corner here, each once, in their order.
-    pub(super) bodies: Vec<usize>,
+    /// Where its bodies stand in the list of all nodes' bodies.
+    bodies: Range<usize>,
     /// The smallest gap of these bodies, metres.
     pub(super) gap: f64,
     /// Whether it may not move, because a body has to stay as it was drawn.
@@ -20,8 +22,11 @@ pub(super) struct Node {
 /// All nodes, and the node of every corner.
 pub(super) struct Nodes {
     pub(super) all: Vec<Node>,
-    /// First corner of each ring of each body, among all corners.
-    starts: Vec<Vec<usize>>,
+    /// The bodies of one node after the other.
+    bodies: Vec<usize>,
+    /// First ring of each body among all rings, and first corner of each ring among all corners.
+    first_ring: Vec<usize>,
+    first_corner: Vec<usize>,
     of_corner: Vec<usize>,
     /// Whether every corner lies exactly where its node does.
     pub(super) exact: bool,
@@ -36,76 +41,124 @@ impl Nodes {
     /// Corners of different bodies, no farther than their gaps from each other, become one node, the nearest first. It lies
     /// at the corner of the earliest body, or of one that has to stay.
     pub(super) fn of(bodies: &[Rings], gaps: &[f64], kept: &[bool]) -> Nodes {
-        let mut corners: Vec<Loose> = Vec::new();
-        let mut starts = Vec::new();
+        let rings = bodies.iter().flatten();
+        let mut corners: Vec<Loose> = Vec::with_capacity(rings.clone().map(Vec::len).sum());
+        let mut first_ring = Vec::with_capacity(bodies.len());
+        let mut first_corner = Vec::with_capacity(rings.count());
         for (body, rings) in bodies.iter().enumerate() {
-            let mut own = Vec::new();
+            first_ring.push(first_corner.len());
             for ring in rings {
-                own.push(corners.len());
+                first_corner.push(corners.len());
                 corners.extend(ring.iter().map(|c| Loose { at: c.at, body }));
             }
-            starts.push(own);
         }
-        let mut clusters: Vec<Vec<usize>> = (0..corners.len()).map(|i| vec![i]).collect();
-        let mut cluster_of: Vec<usize> = (0..corners.len()).collect();
-        for (_, i, j) in near(&corners, gaps) {
-            let (a, b) = (
-                cluster_of[i].min(cluster_of[j]),
-                cluster_of[i].max(cluster_of[j]),
-            );
-            if a == b {
+        let joined = joined(&corners, gaps, kept);
+        let mut members = Vec::new();
+        let mut number = vec![0; corners.len()];
+        let mut all: Vec<Node> = Vec::with_capacity(corners.len());
+        let mut bodies = Vec::with_capacity(corners.len());
+        for (first, corner) in corners.iter().enumerate() {
+            if joined.first[first] != first {
                 continue;
             }
-            let fits = clusters[a].iter().all(|k| {
-                clusters[b].iter().all(|l| {
-                    let (k, l) = (&corners[*k], &corners[*l]);
-                    k.body != l.body
-                        && (k.at - l.at).norm() <= gaps[k.body].min(gaps[l.body])
-                        && !(kept[k.body] && kept[l.body] && k.at != l.at)
-                })
-            });
-            if fits {
-                let joining = std::mem::take(&mut clusters[b]);
-                for k in &joining {
-                    cluster_of[*k] = a;
-                }
-                clusters[a].extend(joining);
-            }
-        }
-        let mut number = vec![0; clusters.len()];
-        let mut all = Vec::new();
-        for (cluster, mut members) in clusters.into_iter().enumerate() {
+            members.clear();
+            members.extend(joined.members(first));
             members.sort_unstable();
-            let Some(first) = members.first() else {
-                continue;
-            };
-            let fixed = members.iter().find(|k| kept[corners[**k].body]);
-            number[cluster] = all.len();
+            let begin = bodies.len();
+            let mut at = corner.at;
+            let mut gap = f64::INFINITY;
+            let mut fixed = false;
+            for k in &members {
+                let Loose { at: own, body } = corners[*k];
+                if kept[body] && !fixed {
+                    (at, fixed) = (own, true);
+                }
+                gap = gap.min(gaps[body]);
+                bodies.push(body);
+            }
+            number[first] = all.len();
             all.push(Node {
-                at: corners[*fixed.unwrap_or(first)].at,
-                bodies: members.iter().map(|k| corners[*k].body).collect(),
-                gap: members
-                    .iter()
-                    .map(|k| gaps[corners[*k].body])
-                    .fold(f64::INFINITY, f64::min),
-                fixed: fixed.is_some(),
+                at,
+                bodies: begin..bodies.len(),
+                gap,
+                fixed,
             });
         }
-        let of_corner: Vec<usize> = cluster_of.into_iter().map(|c| number[c]).collect();
+        let of_corner: Vec<usize> = joined.first.iter().map(|first| number[*first]).collect();
         let places = of_corner.iter().map(|n| all[*n].at);
         let exact = places.zip(&corners).all(|(at, corner)| at == corner.at);
         Nodes {
             all,
-            starts,
+            bodies,
+            first_ring,
+            first_corner,
             of_corner,
             exact,
         }
     }
 
+    /// Bodies with a corner at a node, each once, in their order.
+    pub(super) fn bodies(&self, node: &Node) -> &[usize] {
+        &self.bodies[node.bodies.clone()]
+    }
+
     /// The node of a corner.
     pub(super) fn number(&self, body: usize, ring: usize, corner: usize) -> usize {
-        self.of_corner[self.starts[body][ring] + corner]
+        self.of_corner[self.first_corner[self.first_ring[body] + ring] + corner]
     }
+}
+
+/// Corners parted into clusters. Those of one form a ring, so that none needs a list of its own.
+struct Clusters {
+    /// The first corner of each corner's cluster.
+    first: Vec<usize>,
+    /// Another corner of each corner's cluster, in no order; itself where it is alone.
+    next: Vec<usize>,
+}
+
+impl Clusters {
+    /// The corners of a cluster, the given one first.
+    fn members(&self, of: usize) -> impl Iterator<Item = usize> + '_ {
+        let following = move |k: &usize| Some(self.next[*k]).filter(|next| *next != of);
+        std::iter::successors(Some(of), following)
+    }
+
+    /// Makes two clusters one, by their first corners, the lower one first.
+    fn join(&mut self, a: usize, b: usize) {
+        let mut k = b;
+        while self.first[k] != a {
+            self.first[k] = a;
+            k = self.next[k];
+        }
+        self.next.swap(a, b);
+    }
+}
+
+/// Joins corners of different bodies that lie within their gaps of each other, the nearest first.
+fn joined(corners: &[Loose], gaps: &[f64], kept: &[bool]) -> Clusters {
+    let mut clusters = Clusters {
+        first: (0..corners.len()).collect(),
+        next: (0..corners.len()).collect(),
+    };
+    for (_, i, j) in near(corners, gaps) {
+        let (i, j) = (clusters.first[i], clusters.first[j]);
+        let (a, b) = (i.min(j), i.max(j));
+        if a == b {
+            continue;
+        }
+        let fits = clusters.members(a).all(|k| {
+            clusters.members(b).all(|l| {
+                let (k, l) = (&corners[k], &corners[l]);
+                k.body != l.body
+                    && (k.at - l.at).norm() <= gaps[k.body].min(gaps[l.body])
+                    && !(kept[k.body] && kept[l.body] && k.at != l.at)
+            })
+        });
+        if fits {
+            clusters.join(a, b);
+        }
+    }
+    clusters
 }
 
 /// Pairs of corners of different bodies within their gaps of each other, the nearest first.

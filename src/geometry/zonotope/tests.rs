@@ -2,6 +2,10 @@
 
 use super::*;
 
+fn merged(list: Vec<Triple>) -> Vec<Triple> {
+    super::merged(list.into_iter())
+}
+
 /// SplitMix64, from −1 to 1.
 fn chance(seed: &mut u64) -> f64 {
     *seed = seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
@@ -398,4 +402,29 @@ fn a_cell_holds_directions_that_are_alike() {
         [cell([1.0, 1.0, 1.0]), cell([-1.0, 1.0, 1.0])].iter().max(),
         Some(&107)
     );
+}
+
+#[test]
+fn a_bound_lies_above_the_answer_and_says_nothing_of_flat_ones() {
+    let mut seed = 13;
+    let mut told = 0;
+    for turn in 0..3000 {
+        let count = 3 + turn % 38;
+        // As thin along one axis as friction that is granted for rounding alone.
+        let thin = if turn % 2 == 0 { 3e-6 } else { 1.0 };
+        let squeezed = |[x, y, z]: Triple| [thin * x, y, z];
+        let g: Vec<Triple> = (0..count).map(|_| squeezed(triple(&mut seed))).collect();
+        let point = squeezed(triple(&mut seed));
+        let scale = least_scale(&g, point);
+        if let Some(bound) = scale_bound(&g, point) {
+            assert!(scale <= bound, "{scale} above {bound}");
+            told += 1;
+        }
+    }
+    assert!(told > 2500, "{told}");
+    let plane = [[1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [1.0, 1.0, 0.0]];
+    let box_of = [[1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 3.0]];
+    assert_eq!(scale_bound(&plane, [0.0, 0.0, 1e-12]), None);
+    assert_eq!(scale_bound(&box_of, [f64::NAN, 0.0, 0.0]), None);
+    assert_eq!(scale_bound(&[box_of[0]; 60], [1.0, 0.0, 0.0]), None);
 }

@@ -163,7 +163,7 @@ fn friction_pair<'t>(
 ) -> Option<FrictionPairEntry> {
     let o = r.object(node, at, FRICTION_PAIR)?;
     let between = r.required(o, at, "between", |r, n, at| match &n.kind {
-        NodeKind::List(items) if items.len() == 2 => r.entries(n, at, |r, n, at| r.text(n, at)),
+        NodeKind::List(list) if list.len() == 2 => r.entries(n, at, |r, n, at| r.text(n, at)),
         _ => {
             r.wrong(n, at, "a list of the names of two materials");
             None
@@ -189,7 +189,7 @@ fn grid<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<GridEn
 
 fn cell<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<CellEntry> {
     let items = match &node.kind {
-        NodeKind::List(items) if (2..=3).contains(&items.len()) => items,
+        NodeKind::List(list) if (2..=3).contains(&list.len()) => r.items(list),
         _ => {
             r.wrong(node, at, CELL);
             return None;

@@ -10,7 +10,7 @@ use super::super::format::{Map, Pair};
 use super::super::path::Trail;
 use super::super::problem::{self, Wording};
 use super::super::source::{Mark, Source};
-use super::super::tree::{Entry, Node, NodeKind};
+use super::super::tree::{Entry, List, Node, NodeKind};
 
 /// In objects of more keys than this a repeated one is looked for with a table.
 const FEW: usize = 16;
@@ -52,6 +52,12 @@ impl<'s, 't> Reader<'s, 't> {
         }
     }
 
+    /// What stands in a list.
+    pub(super) fn items(&self, list: &List) -> &'s [Node<'t>] {
+        let tree = self.source.tree.as_ref();
+        tree.map_or(&[], |tree| tree.items(list))
+    }
+
     fn misfit(&mut self, at: &Trail<'_>, mark: Mark, wording: Wording) {
         if self.findings.is_full() {
             // A file with so many misfits is not examined further.
@@ -87,7 +93,7 @@ impl<'s, 't> Reader<'s, 't> {
             NodeKind::Flag(flag) => flag.to_string(),
             NodeKind::Number(_) => format!("the number {}", problem::shortened(self.written(node))),
             NodeKind::Text(text) => format!("the string \"{}\"", problem::shortened(text)),
-            NodeKind::List(entries) => format!("a list of {}", entries.len()),
+            NodeKind::List(list) => format!("a list of {}", list.len()),
             NodeKind::Object(_) => "an object".into(),
         }
     }
@@ -156,7 +162,7 @@ impl<'s, 't> Reader<'s, 't> {
         at: &Trail<'_>,
         meaning: Meaning,
     ) -> Option<Pair> {
-        let NodeKind::List(items) = &node.kind else {
+        let NodeKind::List(list) = &node.kind else {
             let expected = match meaning {
                 Meaning::Point => "a point [x, y]",
                 Meaning::Vector => "a vector [x, y]",
@@ -164,6 +170,7 @@ impl<'s, 't> Reader<'s, 't> {
             self.wrong(node, at, expected);
             return None;
         };
+        let items = self.items(list);
         let mut numbers = [0.0; 2];
         let mut sound = true;
         for (i, item) in items.iter().take(2).enumerate() {
@@ -198,12 +205,12 @@ impl<'s, 't> Reader<'s, 't> {
     }
 
     /// An object with some of these keys and no others.
-    pub(super) fn object<'n>(
+    pub(super) fn object(
         &mut self,
-        node: &'n Node<'t>,
+        node: &Node<'t>,
         at: &Trail<'_>,
         keys: &[&str],
-    ) -> Option<Object<'n, 't>> {
+    ) -> Option<Object<'s, 't>> {
         let object = self.any_object(node, at)?;
         for entry in object.entries {
             if !keys.contains(&entry.name.as_ref()) {
@@ -216,11 +223,12 @@ impl<'s, 't> Reader<'s, 't> {
     }
 
     /// An object with any keys, each once.
-    fn any_object<'n>(&mut self, node: &'n Node<'t>, at: &Trail<'_>) -> Option<Object<'n, 't>> {
-        let NodeKind::Object(entries) = &node.kind else {
+    fn any_object(&mut self, node: &Node<'t>, at: &Trail<'_>) -> Option<Object<'s, 't>> {
+        let NodeKind::Object(object) = &node.kind else {
             self.wrong(node, at, "an object");
             return None;
         };
+        let entries = self.source.tree.as_ref()?.entries(object);
         for (second, first) in repeated(entries) {
             let (line, column) = self.source.place(first.name_range.start);
             let wording = problem::entry::duplicate_key(&second.name, line, column);
@@ -280,10 +288,11 @@ impl<'s, 't> Reader<'s, 't> {
         at: &Trail<'_>,
         mut read: impl FnMut(&mut Self, &Node<'t>, &Trail<'_>) -> Option<T>,
     ) -> Option<Vec<T>> {
-        let NodeKind::List(items) = &node.kind else {
+        let NodeKind::List(list) = &node.kind else {
             self.wrong(node, at, "a list");
             return None;
         };
+        let items = self.items(list);
         let mut list = Vec::with_capacity(items.len());
         for (i, item) in items.iter().enumerate() {
             list.push(read(self, item, &at.index(i)).unwrap_or_default());

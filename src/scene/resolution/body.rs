@@ -89,27 +89,24 @@ impl Resolution<'_> {
             ("cells", entry.cells.is_some()),
             ("shape", entry.shape.is_some()),
         ];
-        let given: Vec<&str> = given.iter().filter(|g| g.1).map(|g| g.0).collect();
-        let own;
-        let outline = match given.as_slice() {
-            [] => {
+        let mut given = given.iter().filter(|g| g.1).map(|g| g.0);
+        let outline = match (given.next(), given.next()) {
+            (None, _) => {
                 findings.add(at, problem::outline::no_outline());
                 None
             }
-            [first, second, ..] => {
+            (Some(first), Some(second)) => {
                 findings.add(at, problem::outline::two_outlines(first, second));
                 None
             }
-            ["shape"] => {
+            (Some("shape"), None) => {
                 if !entry.holes.is_empty() {
                     findings.add(&at.key("holes"), problem::outline::holes_alone());
                 }
                 self.shape(findings, &at.key("shape"), entry.shape.unwrap_or(""))
+                    .cloned()
             }
-            _ => {
-                own = self.outline(findings, at, entry.polygon, entry.holes, entry.cells);
-                own.as_ref()
-            }
+            (Some(_), None) => self.outline(findings, at, entry.polygon, entry.holes, entry.cells),
         };
         if !sound || !self.grid_known || findings.doubts(at) {
             return None;

@@ -62,7 +62,7 @@ fn all_corners_of_a_node_lie_within_the_gap_of_each_other() {
     // In a row of equal steps the second joins the first, and the third is too far from that one.
     let (nodes, numbers) = free(&[0.0, 0.75, 1.5, 2.25], &[1.0; 4]);
     assert_eq!(numbers, [0, 0, 1, 1]);
-    assert_eq!(nodes.all[1].bodies, [2, 3]);
+    assert_eq!(nodes.bodies(&nodes.all[1]), [2, 3]);
     assert!(!nodes.exact);
     // The nearest come together first, whatever their order.
     let (_, numbers) = free(&[0.0, 0.75, 1.25], &[1.0; 3]);
@@ -73,7 +73,7 @@ fn all_corners_of_a_node_lie_within_the_gap_of_each_other() {
     // Two and two become four where all are near enough.
     let (nodes, numbers) = free(&[0.0, 0.875, 0.125, 1.0], &[1.0; 4]);
     assert_eq!(numbers, [0; 4]);
-    assert_eq!(nodes.all[0].bodies, [0, 1, 2, 3]);
+    assert_eq!(nodes.bodies(&nodes.all[0]), [0, 1, 2, 3]);
     assert_eq!(nodes.all[0].at, Point::new(0.0, 7.0));
     // Nor does a corner with a small gap join others that lie beyond it.
     let (_, numbers) = free(&[0.0, 0.25, 0.75], &[1.0, 1.0, 0.5]);
@@ -85,8 +85,8 @@ fn of_pairs_that_are_as_near_the_earlier_bodies_come_together() {
     // 5 from the third to the first, and from either to one more; those two are 11 apart and all others 8.9.
     let all = bodies(&[&[[5.0, 0.0]], &[[-3.0, 4.0]], &[[0.0, 0.0]], &[[8.0, 4.0]]]);
     let nodes = Nodes::of(&all, &[9.0; 4], &[false; 4]);
-    assert_eq!(nodes.all[0].bodies, [0, 1, 2]);
-    assert_eq!(nodes.all[1].bodies, [3]);
+    assert_eq!(nodes.bodies(&nodes.all[0]), [0, 1, 2]);
+    assert_eq!(nodes.bodies(&nodes.all[1]), [3]);
 }
 
 #[test]

@@ -28,7 +28,14 @@ fn beside_first(bodies: &[Rings], gaps: &[f64], kept: &[bool]) -> Vec<(usize, us
     let found = beside(&nodes, &nearby, gaps, kept);
     let of_first = found.iter().filter(|b| b.side.body == 0);
     of_first
-        .map(|b| (nodes.all[b.node].bodies[0], b.side.corner, b.reach, b.off))
+        .map(|b| {
+            (
+                nodes.bodies(&nodes.all[b.node])[0],
+                b.side.corner,
+                b.reach,
+                b.off,
+            )
+        })
         .collect()
 }
 
