@@ -46,7 +46,7 @@ fn corners_run_anticlockwise_around_the_area_of_a_cell() {
         let polygon = Polygon::new(ring.clone(), vec![]).expect("sound");
         assert_eq!(
             polygon.rings(),
-            [ring.clone()],
+            std::slice::from_ref(&ring),
             "it is turned round where it runs clockwise"
         );
         assert!((polygon.area() - lattice.cell_area()).abs() < 1e-15);
