@@ -140,7 +140,7 @@ fn repeated_corners_are_dropped_and_straight_ones_stay() {
     assert_eq!(flaws(&[&[a, a, a]]), few(0, 1));
     assert_eq!(flaws(&[&[a, b, a]]), few(0, 2));
     assert_eq!(flaws(&[&[a, b, c, d], &[middle, c]]), few(1, 2));
-    // Every ring is listed, and numbered as listed.
+    // Every ring is told, and numbered as listed.
     let both = [few(0, 2), few(1, 1)].concat();
     assert_eq!(flaws(&[&[a, b], &[c]]), both);
 }
@@ -165,7 +165,7 @@ fn a_ring_on_a_line_encloses_nothing() {
         assert_eq!(flaws(&[&needle(6e-15)]), flat(0));
         assert_eq!(sound(&[&needle(1e-14)]).outline().len(), 3);
     }
-    // Where the areas on both sides of a crossing cancel the crossing is listed.
+    // Where the areas on both sides of a crossing cancel the crossing is told.
     let bow = [[0.0, 0.0], [2.0, 2.0], [2.0, 0.0], [0.0, 2.0]];
     assert_eq!(flaws(&[&bow]), [crossing([0, 2], [1.0, 1.0])]);
 }

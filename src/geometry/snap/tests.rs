@@ -264,7 +264,7 @@ fn what_moved_says_how_many_corners_how_far_and_to_what() {
     assert!((second.distance - 0.004).abs() < 1e-12);
     let last = moved(4).expect("the last one moves");
     assert_eq!((last.corners, &last.to), (1, &BTreeSet::from([2])));
-    assert!((last.distance - 0.001_f64.hypot(0.004)).abs() < 1e-12);
+    assert!((last.distance - libm::hypot(0.001, 0.004)).abs() < 1e-12);
     // An earlier body goes to the side of a later one.
     let tip = ring(&[(2.0, 1.004), (3.0, 5.0), (1.0, 5.0)]);
     let outcome = brought(&[tip, rectangle(0.0, 0.0, 4.0, 1.0)], 0.01);

@@ -154,7 +154,7 @@ fn the_closest_line_has_the_least_squares() {
             nodes
                 .all
                 .iter()
-                .map(|n| fit.distance(n.at).powi(2))
+                .map(|n| fit.distance(n.at) * fit.distance(n.at))
                 .sum::<f64>()
         };
         let least = squares(&fit);
