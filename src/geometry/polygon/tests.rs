@@ -53,10 +53,10 @@ fn an_edge_has_its_material_on_the_left() {
 #[test]
 fn a_box_is_as_large_as_what_it_is_around() {
     assert_eq!(Bounds::of([]), None);
-    let found = Bounds::of(points(&[[3.0, -1.0], [0.0, 2.0], [2.0, 3.0]])).expect("three points");
+    let found = Bounds::of(points(&[[4.0, -1.0], [1.0, 2.0], [3.0, 3.0]])).expect("three points");
     let wanted = Bounds {
-        min: Point::new(0.0, -1.0),
-        max: Point::new(3.0, 3.0),
+        min: Point::new(1.0, -1.0),
+        max: Point::new(4.0, 3.0),
     };
     assert_eq!(found, wanted);
     assert_eq!(
@@ -64,20 +64,20 @@ fn a_box_is_as_large_as_what_it_is_around() {
         (3.0, 4.0, 5.0)
     );
     assert_eq!(
-        sound(&[&[[3.0, -1.0], [0.0, 2.0], [2.0, 3.0]]]).bounds(),
+        sound(&[&[[4.0, -1.0], [1.0, 2.0], [3.0, 3.0]]]).bounds(),
         wanted
     );
     let grown = found.grown(0.5);
     assert_eq!(
         (grown.min, grown.max),
-        (Point::new(-0.5, -1.5), Point::new(3.5, 3.5))
+        (Point::new(0.5, -1.5), Point::new(4.5, 3.5))
     );
     let other = Bounds {
-        min: Point::new(1.0, -4.0),
+        min: Point::new(2.0, -4.0),
         max: Point::new(7.0, 0.0),
     };
     let both = Bounds {
-        min: Point::new(0.0, -4.0),
+        min: Point::new(1.0, -4.0),
         max: Point::new(7.0, 3.0),
     };
     assert_eq!((found.union(other), other.union(found)), (both, both));
@@ -402,10 +402,10 @@ fn the_first_twenty_crossings_are_told_in_the_order_of_the_sides() {
         ring.extend([[teeth as f64 + 1.0, 0.0], [-1.0, 0.0]]);
         ring
     };
-    for (teeth, told) in [(19, 19), (20, 20), (21, 20), (90, 20)] {
+    for (teeth, listed) in [(19, 19), (20, 20), (21, 20), (90, 20)] {
         let found = flaws(&[&zigzag(teeth)]);
         let line = teeth + 1;
-        let wanted: Vec<Flaw> = (0..told)
+        let wanted: Vec<Flaw> = (0..listed)
             .map(|k| crossing([k, line], [k as f64 + 0.5, 0.0]))
             .collect();
         assert_eq!(found, wanted, "{teeth}");

@@ -360,8 +360,8 @@ fn the_part_of_the_smaller_across_the_larger_is_what_is_lost() {
     let mut all: Vec<Triple> = (0..MOST - 2).map(|_| any(10.0)).collect();
     let small = [any(0.03), any(0.03)];
     let across = cross(all[0], small[0]);
-    let twin = across.map(|x| 1e-3 * x / norm(across));
-    all.extend([sum(all[0], twin), small[0], small[1]]);
+    let close = across.map(|x| 1e-3 * x / norm(across));
+    all.extend([sum(all[0], close), small[0], small[1]]);
     let kept = merged(all.clone());
     assert_eq!(kept.len(), MOST);
     assert!(small.iter().all(|g| kept.contains(g)));
