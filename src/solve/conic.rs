@@ -83,6 +83,15 @@ impl Answer {
             iterations: 0,
         }
     }
+
+    /// The same; without a status where some number is none.
+    pub(super) fn if_finite(self) -> Answer {
+        let sound = finite(&self.x) && finite(&self.z) && finite(&self.s);
+        Answer {
+            status: if sound { self.status } else { Status::Unsolved },
+            ..self
+        }
+    }
 }
 
 /// The tolerance of feasibility and gap the solver is asked for.
@@ -159,7 +168,6 @@ pub fn solve_within(problem: &Conic, settings: SolverSettings, iterations: usize
         finer,
         ..
     } = settings;
-    let finite = |list: &[f64]| list.iter().all(|v| v.is_finite());
     let entries = problem
         .matrix
         .iter()
@@ -190,7 +198,6 @@ pub fn by_clarabel(problem: &Conic, settings: SolverSettings, iterations: usize)
         conditioning,
         ..
     } = settings;
-    let finite = |list: &[f64]| list.iter().all(|v| v.is_finite());
     let rows = problem.bound.len();
     let quadratic = compressed(problem.unknowns, problem.unknowns, &problem.quadratic);
     let matrix = compressed(rows, problem.unknowns, &problem.matrix);
@@ -239,14 +246,18 @@ pub fn by_clarabel(problem: &Conic, settings: SolverSettings, iterations: usize)
         SolverStatus::DualInfeasible => Status::Unbounded,
         _ => Status::Unsolved,
     };
-    let sound = finite(&solution.x) && finite(&solution.z) && finite(&solution.s);
-    Answer {
-        status: if sound { status } else { Status::Unsolved },
+    let answer = Answer {
+        status,
         x: solution.x,
         z: solution.z,
         s: solution.s,
         iterations: solution.iterations as usize,
-    }
+    };
+    answer.if_finite()
+}
+
+fn finite(list: &[f64]) -> bool {
+    list.iter().all(|v| v.is_finite())
 }
 
 /// Compressed columns from (row, column, value) entries; entries of one place are added.

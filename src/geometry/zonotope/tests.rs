@@ -407,7 +407,7 @@ fn a_cell_holds_directions_that_are_alike() {
 #[test]
 fn a_bound_lies_above_the_answer_and_says_nothing_of_flat_ones() {
     let mut seed = 13;
-    let mut told = 0;
+    let mut bounded = 0;
     for turn in 0..3000 {
         let count = 3 + turn % 38;
         // As thin along one axis as friction that is granted for rounding alone.
@@ -418,10 +418,10 @@ fn a_bound_lies_above_the_answer_and_says_nothing_of_flat_ones() {
         let scale = least_scale(&g, point);
         if let Some(bound) = scale_bound(&g, point) {
             assert!(scale <= bound, "{scale} above {bound}");
-            told += 1;
+            bounded += 1;
         }
     }
-    assert!(told > 2500, "{told}");
+    assert!(bounded > 2500, "{bounded}");
     let plane = [[1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [1.0, 1.0, 0.0]];
     let box_of = [[1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 3.0]];
     assert_eq!(scale_bound(&plane, [0.0, 0.0, 1e-12]), None);

@@ -227,33 +227,32 @@ impl Form {
         }
     }
 
-    /// The optimum in the terms of the problem as it was written down.
+    /// The optimum of a pair in the terms of the problem as it was written down.
     fn answer(self, problem: &Conic, found: Optimum, velocities: Vec<f64>) -> Answer {
-        let status = match (found.ended, self) {
-            (None, _) => Status::Unsolved,
-            (Some(Ended::Optimal), _) => Status::Solved,
-            (Some(Ended::NothingBalances), Form::Kinematic | Form::Shortest)
-            | (Some(Ended::CostWithoutEnd), Form::Forces | Form::Smallest) => Status::Unbounded,
-            (Some(Ended::CostWithoutEnd), Form::Kinematic | Form::Shortest)
-            | (Some(Ended::NothingBalances), Form::Forces | Form::Smallest) => Status::Infeasible,
+        let in_amounts = self == Form::Forces;
+        let status = match found.ended {
+            None => Status::Unsolved,
+            Some(Ended::Optimal) => Status::Solved,
+            // The written half has no solution, or one without end.
+            Some(Ended::NothingBalances) if in_amounts => Status::Infeasible,
+            Some(Ended::CostWithoutEnd) if !in_amounts => Status::Infeasible,
+            Some(_) => Status::Unbounded,
         };
-        let (x, z, s) = match self {
-            Form::Kinematic | Form::Shortest => (velocities, found.amounts, found.slack),
-            Form::Forces | Form::Smallest => {
-                let signs = velocities.iter().map(|v| -v).chain(found.slack);
-                let nothing = std::iter::repeat_n(0.0, problem.equalities);
-                let s = nothing.chain(found.amounts.iter().copied()).collect();
-                (found.amounts, signs.collect(), s)
-            }
+        let (x, z, s) = if in_amounts {
+            let signs = velocities.iter().map(|v| -v).chain(found.slack);
+            let nothing = std::iter::repeat_n(0.0, problem.equalities);
+            let s = nothing.chain(found.amounts.iter().copied()).collect();
+            (found.amounts, signs.collect(), s)
+        } else {
+            (velocities, found.amounts, found.slack)
         };
-        let finite = |list: &[f64]| list.iter().all(|v| v.is_finite());
-        let sound = finite(&x) && finite(&z) && finite(&s);
-        Answer {
-            status: if sound { status } else { Status::Unsolved },
+        let answer = Answer {
+            status,
             x,
             z,
             s,
             iterations: found.iterations,
-        }
+        };
+        answer.if_finite()
     }
 }
