@@ -1,4 +1,5 @@
-//! Charts: [`scatter`], points on two logarithmic axes; [`bars`], how often what occurs; [`course`], step by step.
+//! Charts: [`scatter`], points on two logarithmic axes; [`growth`], what grows with a size, likewise; [`bars`], how often
+//! what occurs; [`course`], step by step.
 //!
 //! The one door to plotters is `plot`. plotters counts in whole pixels and lets labels collide; so the picture is drawn at ten times its size and the SVG's
 //! width and height are rewritten over the same view box. Logarithmic axes shorter than a decade lose their labels, so
@@ -104,6 +105,45 @@ pub fn power_of_ten(exponent: i32) -> String {
 /// ```
 pub fn scatter(chart: &Scatter) -> Result<String, Undrawn> {
     plot::document(SIZE, &chart.title, |svg| plot::scatter(chart, svg))
+}
+
+/// What grows with a size, on two logarithmic axes, each named beside its end.
+///
+/// Lines are told apart by their names and not by colours; those that matter are dark and thick.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Growth {
+    /// Above the picture.
+    pub title: String,
+    /// Below.
+    pub x: String,
+    /// Beside.
+    pub y: String,
+    /// What grows.
+    pub lines: Vec<Growing>,
+    /// What crosses in place of dots mean.
+    pub wrong: String,
+}
+
+/// One thing that grows.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Growing {
+    /// Its name.
+    pub name: String,
+    /// Whether it is one of those that matter.
+    pub ours: bool,
+    /// By rising size.
+    pub points: Vec<Point>,
+}
+
+/// Draws what grows as an SVG document.
+///
+/// # Errors
+/// Where plotters refuses, which no finite and positive points make it do; and for no points.
+pub fn growth(chart: &Growth) -> Result<String, Undrawn> {
+    if chart.lines.iter().any(|line| line.points.is_empty()) || chart.lines.is_empty() {
+        return Err(Undrawn::of("there is nothing to draw"));
+    }
+    plot::document(SIZE, &chart.title, |svg| plot::growth(chart, svg))
 }
 
 /// How often what occurs: a bar for every stretch between two edges.

@@ -7,7 +7,9 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{FontStyle, RGBColor, register_font};
 
-use super::{Bars, Course, SIZE, SMALL, Scatter, Undrawn, power_of_ten, round_step};
+use super::{
+    Bars, Course, Growing, Growth, Point, SIZE, SMALL, Scatter, Undrawn, power_of_ten, round_step,
+};
 use crate::drawing::Face;
 use crate::text::xml;
 
@@ -174,6 +176,120 @@ fn tick(value: f64) -> String {
     match f64::abs(rounded) {
         size if (1e-3..1e6).contains(&size) => format!("{rounded}"),
         _ => format!("{rounded:e}"),
+    }
+}
+
+/// Draws what grows.
+pub(super) fn growth(chart: &Growth, svg: &mut String) -> Drawn {
+    let (w, h) = ((SIZE.0 * FINE) as u32, (SIZE.1 * FINE) as u32);
+    let area = SVGBackend::with_string(svg, (w, h)).into_drawing_area();
+    area.fill(&WHITE)?;
+    let plain = |size: i32| (FONT, size * FINE).into_font();
+    let font = |size: i32| plain(size).color(&INK);
+    let all = || chart.lines.iter().flat_map(|line| &line.points);
+    let (low, high) = decades(all().map(|p| p.y));
+    let sizes = all().map(|p| p.x);
+    let (least, most) = sizes.fold((f64::INFINITY, 0.0), |(a, b), x| (x.min(a), x.max(b)));
+    let ten = |e: i32| libm::exp10(f64::from(e));
+    let mut axes = ChartBuilder::on(&area)
+        .margin(14 * FINE)
+        .margin_right(250 * FINE)
+        .caption(&chart.title, font(17))
+        .x_label_area_size(46 * FINE)
+        .y_label_area_size(66 * FINE)
+        .build_cartesian_2d(
+            (0.8 * least..1.25 * most).log_scale(),
+            (ten(low)..ten(high)).log_scale(),
+        )?;
+    axes.configure_mesh()
+        .x_labels(4)
+        .y_labels((high - low + 3).clamp(4, 10) as usize)
+        .x_label_formatter(&|v| grouped(*v))
+        .y_label_formatter(&|v| grouped(*v))
+        .x_desc(&chart.x)
+        .y_desc(&chart.y)
+        .label_style(font(12))
+        .axis_desc_style(font(13))
+        .axis_style(INK.stroke_width(FINE as u32))
+        .bold_line_style(GRID.stroke_width(FINE as u32))
+        .light_line_style(TRANSPARENT)
+        .draw()?;
+    let dark = RGBColor(20, 70, 130);
+    let pale = RGBColor(140, 140, 146);
+    let style = |ours: bool| if ours { (dark, 3) } else { (pale, 1) };
+    let mut ends: Vec<(i32, i32, &Growing)> = Vec::new();
+    // Ours lie above the others.
+    for ours in [false, true] {
+        let (colour, width) = style(ours);
+        for line in chart.lines.iter().filter(|line| line.ours == ours) {
+            let points = || line.points.iter().map(|p| (p.x, p.y));
+            let stroke = colour.stroke_width((width * FINE) as u32);
+            axes.draw_series(LineSeries::new(points(), stroke))?;
+            let right = line.points.iter().filter(|p| !p.wrong);
+            let dot = |p: &Point| Circle::new((p.x, p.y), (3 + width) * FINE, colour.filled());
+            axes.draw_series(right.map(dot))?;
+            let wrong = line.points.iter().filter(|p| p.wrong);
+            let cross = INK.stroke_width(2 * FINE as u32);
+            axes.draw_series(wrong.map(|p| Cross::new((p.x, p.y), 5 * FINE, cross)))?;
+            if let Some(end) = points().last() {
+                let (x, y) = axes.backend_coord(&end);
+                ends.push((y, x, line));
+            }
+        }
+    }
+    // Names stand beside the picture in the order of their lines' ends, pushed apart and joined to them.
+    ends.sort_by_key(|end| (end.0, end.1));
+    let apart = 17 * FINE;
+    let left = (SIZE.0 - 232) * FINE;
+    let mut places: Vec<i32> = ends.iter().map(|end| end.0).collect();
+    let mut free = 40 * FINE;
+    for place in &mut places {
+        *place = (*place).max(free);
+        free = *place + apart;
+    }
+    // Those that were pushed down make room for each other upwards, so that none is far from its line.
+    let mut below = (SIZE.1 - 66) * FINE;
+    for (place, end) in places.iter_mut().zip(&ends).rev() {
+        *place = (*place).min(below).min((*place + end.0) / 2 + apart);
+        below = *place - apart;
+    }
+    for (y, (end, x, line)) in places.into_iter().zip(ends) {
+        let (colour, _) = style(line.ours);
+        let joint = vec![
+            (x + 8 * FINE, end),
+            (left - 14 * FINE, y),
+            (left - 4 * FINE, y),
+        ];
+        let thin = colour.mix(0.8).stroke_width(FINE as u32 / 2);
+        area.draw(&PathElement::new(joint, thin))?;
+        let face = match line.ours {
+            true => plain(12).style(FontStyle::Bold).color(&dark),
+            false => font(12),
+        };
+        let words = face.pos(Pos::new(HPos::Left, VPos::Center));
+        area.draw(&Text::new(line.name.clone(), (left, y), words))?;
+    }
+    if all().any(|p| p.wrong) {
+        let y = (SIZE.1 - 24) * FINE;
+        let cross = INK.stroke_width(2 * FINE as u32);
+        area.draw(&Cross::new((left + 5 * FINE, y), 5 * FINE, cross))?;
+        let words = font(12).pos(Pos::new(HPos::Left, VPos::Center));
+        area.draw(&Text::new(
+            chart.wrong.clone(),
+            (left + 18 * FINE, y),
+            words,
+        ))?;
+    }
+    area.present()?;
+    Ok(())
+}
+
+/// A power of ten with its thousands set apart: `10 000`, `0.1`.
+fn grouped(value: f64) -> String {
+    let text = tick(value);
+    match text.strip_suffix("000").filter(|_| !text.contains('.')) {
+        Some(thousands) => format!("{thousands}\u{a0}000"),
+        None => text,
     }
 }
 

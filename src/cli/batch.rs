@@ -54,7 +54,7 @@ pub(crate) struct Batch {
     /// Draw every scene into this folder, by default 400 pixels wide as PNG, each file named after its scene's line or file
     #[arg(long, value_name = "FOLDER")]
     render: Option<PathBuf>,
-    /// Threads that work [default: all cores]
+    /// Threads that work [default: all cores, and half as many more with --render, whose pictures wait for the disk]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     jobs: Option<u16>,
     /// Tell every so many seconds on standard error how many scenes are done, how fast, and what time is left
@@ -92,7 +92,11 @@ impl Batch {
         }
         pace.skipped(done);
         let threads = self.jobs.map_or_else(
-            || thread::available_parallelism().map_or(1, usize::from),
+            || {
+                let cores = thread::available_parallelism().map_or(1, usize::from);
+                // A picture is waited for until it lies on the disk; meanwhile others are drawn.
+                cores + self.render.as_ref().map_or(0, |_| cores.div_ceil(2))
+            },
             usize::from,
         );
         let mut ending = Ending::Done;

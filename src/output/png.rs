@@ -37,15 +37,18 @@ pub enum Compression {
 }
 
 impl Compression {
-    /// Figures are flat: differences of neighbours, which help photographs, cost time here and make files larger.
-    fn set(self, encoder: &mut png::Encoder<'_, &mut Vec<u8>>) {
-        encoder.set_filter(png::Filter::NoFilter);
-        encoder.set_deflate_compression(png::DeflateCompression::Level(match self {
+    /// Of deflate.
+    fn level(self) -> u8 {
+        match self {
             Compression::Small => 6,
             Compression::Quick => 1,
-        }));
+        }
     }
 }
+
+/// The number by which a row says that it has no filter. Figures are flat: differences of neighbours, which help
+/// photographs, cost time here and make files larger.
+const NO_FILTER: u8 = 0;
 
 /// Why there is no picture.
 #[derive(Debug, thiserror::Error)]
@@ -165,7 +168,8 @@ pub fn animate(
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, first.width(), first.height());
     encoder.set_depth(png::BitDepth::Eight);
-    Compression::Small.set(&mut encoder);
+    encoder.set_filter(png::Filter::NoFilter);
+    encoder.set_deflate_compression(png::DeflateCompression::Level(Compression::Small.level()));
     encoder.set_color(png::ColorType::Rgba);
     encoder
         .set_animated(pictures.len() as u32, 0)
@@ -241,16 +245,19 @@ fn encode(
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, pixels.width(), pixels.height());
     encoder.set_depth(png::BitDepth::Eight);
-    compression.set(&mut encoder);
     encoder.set_pixel_dims(per_metre.map(|n| png::PixelDimensions {
         xppu: n,
         yppu: n,
         unit: png::Unit::Meter,
     }));
-    let data = colours.data(pixels, &mut encoder);
+    let rows = colours.rows(pixels, &mut encoder);
     let failed = |e: png::EncodingError| PngError::Encode(e.to_string());
     let mut writer = encoder.write_header().map_err(failed)?;
-    writer.write_image_data(&data).map_err(failed)?;
+    // All rows at once: handed over one by one, each costs as much again in buffers that are cleared for it.
+    let packed = miniz_oxide::deflate::compress_to_vec_zlib(&rows, compression.level());
+    writer
+        .write_chunk(png::chunk::IDAT, &packed)
+        .map_err(failed)?;
     writer.finish().map_err(failed)?;
     Ok(bytes)
 }
@@ -268,10 +275,15 @@ enum Colours {
 impl Colours {
     fn of(pixels: &Pixmap) -> Colours {
         let mut found = HashSet::new();
-        // Figures are flat: most pixels are as the one before.
+        // Figures are flat: most pixels are as the one before, and most others as one that was seen lately.
         let mut before = None;
+        let mut lately = [None; 256];
         for pixel in pixels.pixels() {
             if before.replace(*pixel) == Some(*pixel) {
+                continue;
+            }
+            let mixed = pixel.red() ^ pixel.green().rotate_left(3) ^ pixel.blue().rotate_left(6);
+            if lately[usize::from(mixed)].replace(*pixel) == Some(*pixel) {
                 continue;
             }
             found.insert(straight(*pixel));
@@ -289,7 +301,8 @@ impl Colours {
         Colours::Table(table)
     }
 
-    fn data(&self, pixels: &Pixmap, encoder: &mut png::Encoder<'_, &mut Vec<u8>>) -> Vec<u8> {
+    /// The rows of pixels, each behind the number of its filter.
+    fn rows(&self, pixels: &Pixmap, encoder: &mut png::Encoder<'_, &mut Vec<u8>>) -> Vec<u8> {
         match self {
             Colours::Table(table) => {
                 encoder.set_color(png::ColorType::Indexed);
@@ -299,29 +312,41 @@ impl Colours {
                     encoder.set_trns(table.iter().map(|c| c[3]).collect::<Vec<_>>());
                 }
                 let (mut before, mut number) = (None, 0);
-                let numbers = pixels.pixels().iter().map(|pixel| {
+                rows(pixels, |pixel| {
                     if before.replace(*pixel) != Some(*pixel) {
                         let found = table.binary_search(&straight(*pixel));
                         number = found.unwrap_or_default() as u8;
                     }
-                    number
-                });
-                numbers.collect()
+                    [number]
+                })
             }
             Colours::Opaque => {
                 encoder.set_color(png::ColorType::Rgb);
                 // Where nothing shows through, the premultiplied colours are the colours.
-                let (all, _) = pixels.data().as_chunks::<4>();
-                let colours: Vec<[u8; 3]> = all.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect();
-                colours.into_flattened()
+                rows(pixels, |p| [p.red(), p.green(), p.blue()])
             }
             Colours::All => {
                 encoder.set_color(png::ColorType::Rgba);
-                let colours: Vec<[u8; 4]> = pixels.pixels().iter().map(|p| straight(*p)).collect();
-                colours.into_flattened()
+                rows(pixels, |pixel| straight(*pixel))
             }
         }
     }
+}
+
+fn rows<const N: usize>(
+    pixels: &Pixmap,
+    mut bytes: impl FnMut(&PremultipliedColorU8) -> [u8; N],
+) -> Vec<u8> {
+    let (width, height) = (pixels.width() as usize, pixels.height() as usize);
+    let mut rows = vec![NO_FILTER; (1 + N * width) * height];
+    let all = pixels.pixels().chunks_exact(width);
+    for (row, pixels) in rows.chunks_exact_mut(1 + N * width).zip(all) {
+        let (places, _) = row[1..].as_chunks_mut::<N>();
+        for (place, pixel) in places.iter_mut().zip(pixels) {
+            *place = bytes(pixel);
+        }
+    }
+    rows
 }
 
 /// Red, green, blue and how opaque; the colours not weakened by it.

@@ -51,10 +51,11 @@ pub fn write(drawing: &Drawing) -> String {
     document(drawing, None, &mark, Form::Names)
 }
 
-/// As [`write()`], for what is only turned into pixels: no other figure shares its page, so its names need no mark.
+/// As [`write()`], for what is only turned into pixels: no other figure shares its page, so its names need no mark, and
+/// what nobody sees is left out, titles and groups, since reading it takes as long as reading what is drawn.
 #[cfg(all(feature = "cli", feature = "png"))]
 pub(crate) fn for_pixels(drawing: &Drawing) -> String {
-    document(drawing, None, "d", Form::Names)
+    document(drawing, None, "d", Form::Pixels)
 }
 
 /// A drawing as an SVG document of a size in print, or with words that do not depend on a reader's fonts.
@@ -130,6 +131,9 @@ fn mark_of(drawing: &Drawing, options: &Options) -> String {
 enum Form<'f> {
     /// In fonts by their names.
     Names,
+    /// Likewise, and nothing beside them that is not seen.
+    #[cfg(all(feature = "cli", feature = "png"))]
+    Pixels,
     /// Likewise, and each line of words has its number as its name.
     #[cfg(feature = "png")]
     Numbered,
@@ -170,14 +174,16 @@ fn document(drawing: &Drawing, width_mm: Option<f64>, mark: &str, form: Form<'_>
          stroke-linejoin=\"round\" stroke-linecap=\"round\" paint-order=\"stroke\" font-family=\"{}\">\n",
         svg.families(USUAL)
     ));
-    svg.put(&format!(
-        "<title id=\"{mark}-title\">{}</title>\n",
-        xml(&drawing.title)
-    ));
-    svg.put(&format!(
-        "<desc id=\"{mark}-desc\">{}</desc>\n",
-        xml(&drawing.description)
-    ));
+    if !svg.is_bare() {
+        svg.put(&format!(
+            "<title id=\"{mark}-title\">{}</title>\n",
+            xml(&drawing.title)
+        ));
+        svg.put(&format!(
+            "<desc id=\"{mark}-desc\">{}</desc>\n",
+            xml(&drawing.description)
+        ));
+    }
     #[cfg(feature = "embed")]
     if let Form::Embedded(sheet) = form {
         svg.put(&format!("<style>\n{sheet}</style>\n"));
@@ -213,6 +219,15 @@ impl Writer<'_> {
         let _ = write!(self.text, " {name}=\"{value}\"");
     }
 
+    /// Whether only what is seen is written.
+    fn is_bare(&self) -> bool {
+        match self.form {
+            #[cfg(all(feature = "cli", feature = "png"))]
+            Form::Pixels => true,
+            _ => false,
+        }
+    }
+
     fn item(&mut self, item: &Item) {
         match item {
             Item::Path(path) => self.path(path),
@@ -234,6 +249,16 @@ impl Writer<'_> {
                 number(rect.height)
             ));
             clip = Some(id);
+        }
+        if self.is_bare() {
+            if let Some(id) = &clip {
+                self.put(&format!("<g clip-path=\"url(#{id})\">"));
+            }
+            group.items.iter().for_each(|item| self.item(item));
+            if clip.is_some() {
+                self.put("</g>");
+            }
+            return;
         }
         self.put("<g");
         if let Some(id) = &group.id {
@@ -288,8 +313,9 @@ impl Writer<'_> {
         if path.outline.segments.is_empty() {
             return;
         }
-        self.put("<path");
-        self.attribute("d", &steps(&path.outline));
+        self.put("<path d=\"");
+        steps(&mut self.text, &path.outline);
+        self.put("\"");
         let fill = path.fill.map_or_else(|| "none".to_owned(), |c| c.css());
         self.attribute("fill", &fill);
         if let Some(stroke) = &path.stroke {

@@ -31,6 +31,7 @@ mod lines;
 mod notes;
 mod oracle;
 mod pages;
+mod peers;
 mod margins;
 mod mechanism;
 mod pictures;

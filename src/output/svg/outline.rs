@@ -1,7 +1,5 @@
 //! Numbers, and the steps of outlines: as few characters as tell a hundredth of a pixel.
 
-use std::fmt::Write as _;
-
 use crate::drawing::{Outline, PagePoint, Segment};
 
 /// The one number printer: at most two decimals, a hundredth of a pixel, no needless zero, no −0.
@@ -19,9 +17,12 @@ pub(super) fn number(value: f64) -> String {
     if text == "-0" { "0".to_owned() } else { text }
 }
 
-/// The path data of an outline.
-pub(super) fn steps(outline: &Outline) -> String {
-    let mut pen = Steps::default();
+/// Writes the path data of an outline.
+pub(super) fn steps(data: &mut String, outline: &Outline) {
+    let mut pen = Steps {
+        data: std::mem::take(data),
+        ..Steps::default()
+    };
     for segment in &outline.segments {
         match *segment {
             Segment::Move(p) => pen.begin(p),
@@ -30,7 +31,7 @@ pub(super) fn steps(outline: &Outline) -> String {
             Segment::Close => pen.close(),
         }
     }
-    pen.data
+    *data = pen.data;
 }
 
 /// Path data in the making. Steps are told from where the last one ended, which takes fewer digits than places on the
@@ -67,14 +68,15 @@ impl Steps {
 
     /// A curve through its control points to its end: `q` has one of them, `c` two.
     pub fn curve(&mut self, letter: char, points: &[PagePoint]) {
-        let places: Vec<(i64, i64)> = points.iter().map(|p| hundredths(*p)).collect();
         let from = self.at;
-        let steps: Vec<i64> = places
-            .iter()
-            .flat_map(|p| [p.0 - from.0, p.1 - from.1])
-            .collect();
-        self.put(letter, &steps);
-        self.at = places.last().copied().unwrap_or(from);
+        for (number, point) in points.iter().enumerate() {
+            self.at = hundredths(*point);
+            let step = [self.at.0 - from.0, self.at.1 - from.1];
+            match number {
+                0 => self.put(letter, &step),
+                _ => self.more(&step),
+            }
+        }
     }
 
     /// Straight back to where the part began.
@@ -90,8 +92,20 @@ impl Steps {
             self.data.push(letter);
             self.letter = letter;
         }
-        for (place, number) in numbers.iter().enumerate() {
-            if (stated || place > 0) && *number >= 0 {
+        let Some((first, more)) = numbers.split_first() else {
+            return;
+        };
+        match stated {
+            true => self.more(&[*first]),
+            false => put(&mut self.data, *first),
+        }
+        self.more(more);
+    }
+
+    /// Numbers behind another one.
+    fn more(&mut self, numbers: &[i64]) {
+        for number in numbers {
+            if *number >= 0 {
                 self.data.push(' ');
             }
             put(&mut self.data, *number);
@@ -112,7 +126,7 @@ fn hundredths(point: PagePoint) -> (i64, i64) {
     (whole(point.x), whole(point.y))
 }
 
-/// Hundredths as a decimal number without a needless zero.
+/// Hundredths as a decimal number without a needless zero. A drawing has thousands of them, so no formatter is asked.
 fn put(data: &mut String, hundredths: i64) {
     let (whole, part) = (
         hundredths.unsigned_abs() / 100,
@@ -121,19 +135,35 @@ fn put(data: &mut String, hundredths: i64) {
     if hundredths < 0 {
         data.push('-');
     }
-    // A `String` takes every character; this cannot fail.
-    let _ = match (whole, part) {
-        (whole, 0) => write!(data, "{whole}"),
-        (0, part) if part % 10 == 0 => write!(data, ".{}", part / 10),
-        (0, part) => write!(data, ".{part:02}"),
-        (whole, part) if part % 10 == 0 => write!(data, "{whole}.{}", part / 10),
-        (whole, part) => write!(data, "{whole}.{part:02}"),
-    };
+    if whole > 0 || part == 0 {
+        let digits = whole.checked_ilog10().unwrap_or(0);
+        for place in (0..=digits).rev() {
+            data.push(digit(whole / 10_u64.pow(place)));
+        }
+    }
+    if part > 0 {
+        data.push('.');
+        data.push(digit(part / 10));
+        if part % 10 > 0 {
+            data.push(digit(part));
+        }
+    }
+}
+
+/// The last digit of a number.
+fn digit(number: u64) -> char {
+    char::from(b'0' + (number % 10) as u8)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn written(outline: &Outline) -> String {
+        let mut data = String::new();
+        steps(&mut data, outline);
+        data
+    }
 
     #[test]
     fn numbers_are_short_and_never_minus_zero() {
@@ -180,13 +210,13 @@ mod tests {
             ],
         };
         let expected = "M10 20h5.5v-7.75l-1.5-.25-1 1c-12-11-10-10 .5-.04zM0-1h0";
-        assert_eq!(steps(&outline), expected);
+        assert_eq!(written(&outline), expected);
     }
 
     #[test]
     fn roundings_do_not_add_up() {
         let outline = Outline::line((0..=3000).map(|i| PagePoint::new(f64::from(i) / 3.0, 0.5)));
-        let data = steps(&outline);
+        let data = written(&outline);
         let sum: f64 = data
             .trim_start_matches("M0 .5h")
             .split(' ')

@@ -1,7 +1,10 @@
 """How other programs answer the same scenes: right or wrong, how fast, or how they failed to install.
 
     python3 -m venv env && env/bin/pip install -r requirements.txt
-    cargo build --release && env/bin/python peers.py ../../../target/release/drystone
+    cargo build --release && env/bin/python peers.py ../../../target/release/drystone --csv peers.csv
+    UPDATE_SNAPSHOTS=1 cargo test --test it peers
+
+The last line draws the README's picture from that table anew; --csv keeps the rows of what was not asked this time.
 
 Every peer is asked once outside the count and then timed several times, in turns with the others; medians are told. Solvers
 of programs are handed the source's program with contacts found for them, and their time is that of one call of the solver; the
@@ -12,6 +15,7 @@ contacts themselves. A peer whose last answer took longer than --patience is not
 
 import argparse
 import contextlib
+import csv
 import importlib.metadata
 import io
 import json
@@ -282,6 +286,7 @@ def main():
     arguments.add_argument("--only", help="peers whose names have this in them")
     arguments.add_argument("--rounds", type=int, default=5)
     arguments.add_argument("--patience", type=float, default=20.0, metavar="SECONDS")
+    arguments.add_argument("--csv", type=pathlib.Path, help="writes the medians here too, in place of older ones")
     wanted = arguments.parse_args()
     binary = os.path.abspath(wanted.drystone)
     contestants = [
@@ -327,6 +332,7 @@ def run(scene, path, kind, stands, contestants, wanted, tired):
                 times[name] = [seconds]
                 tired.add((name, kind))
     own = statistics.median(times["drystone"])
+    table = read(wanted.csv)
     for name, _ in contestants:
         if name not in times:
             continue
@@ -338,7 +344,32 @@ def run(scene, path, kind, stands, contestants, wanted, tired):
             word = {stands: "right", None: "none"}.get(answer, "WRONG")
             rest = f"{1000 * seconds:.3g} | {seconds / own:.2g} |"
         blocks = len(scene["blocks"])
+        if not isinstance(answer, str):
+            row = kind, blocks, "yes" if stands else "no", name, word.lower()
+            table[row[:4]] = (*row, f"{1000 * seconds:.3g}")
         print(f"| {kind} | {blocks} | {'yes' if stands else 'no'} | {name} | {word} | {rest}", flush=True)
+    write(wanted.csv, table)
+
+
+HEAD = "structure,blocks,stands,program,answer,milliseconds"
+
+
+def read(path):
+    """The rows of a table by structure, blocks, whether it stands, and program."""
+    if path is None or not path.exists():
+        return {}
+    with path.open(newline="") as file:
+        rows = list(csv.reader(file))[1:]
+    return {(kind, int(blocks), stands, name): (kind, int(blocks), stands, name, word, ms) for kind, blocks, stands, name, word, ms in rows}
+
+
+def write(path, table):
+    if path is None:
+        return
+    with path.open("w", newline="") as file:
+        print(HEAD, file=file)
+        for kind, blocks, stands, name, word, ms in table.values():
+            print(f'{kind},{blocks},{stands},"{name}",{word},{float(ms):g}', file=file)
 
 
 if __name__ == "__main__":

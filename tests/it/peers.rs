@@ -1,0 +1,138 @@
+//! The README's picture of other programs beside drystone is that of the table that `tests/bench/peers/peers.py` wrote.
+
+use std::fs;
+use std::path::Path;
+
+use drystone::internals::chart::{Growing, Growth, Point, growth};
+
+/// A row of the table: structure, blocks, whether it stands, program, answer, milliseconds.
+type Row = (String, f64, bool, String, String, f64);
+
+fn rows() -> Vec<Row> {
+    let text = include_str!("../bench/peers/peers.csv");
+    let mut lines = text.lines();
+    let head = "structure,blocks,stands,program,answer,milliseconds";
+    assert_eq!(lines.next(), Some(head));
+    lines.map(row).collect()
+}
+
+fn row(line: &str) -> Row {
+    let parts: Vec<&str> = line.split('"').collect();
+    let [before, program, behind] = parts[..] else {
+        panic!("a name in quotes: {line}");
+    };
+    let before: Vec<&str> = before.split(',').collect();
+    let behind: Vec<&str> = behind.split(',').collect();
+    let number = |cell: &str| cell.parse::<f64>().expect(line);
+    (
+        before[0].to_owned(),
+        number(before[1]),
+        before[2] == "yes",
+        program.to_owned(),
+        behind[1].to_owned(),
+        number(behind[2]),
+    )
+}
+
+/// What stands beside a line of the picture for a program's name in the table; `None` where it is left out.
+fn name(program: &str) -> Option<String> {
+    match program {
+        "drystone --accuracy draft" => return None,
+        "drystone" => return Some("drystone, everything found out".to_owned()),
+        "drystone batch, one of many" => return Some(MANY.to_owned()),
+        _ => {}
+    }
+    let (name, version) = program.rsplit_once(' ').unwrap_or((program, ""));
+    let name = if version.contains('.') { name } else { program };
+    Some(name.to_owned())
+}
+
+const MANY: &str = "drystone, one of many scenes";
+
+/// Standing walls: every program by its name without a version, in the order of the table.
+fn walls() -> Vec<Growing> {
+    let mut lines: Vec<Growing> = Vec::new();
+    for (structure, blocks, stands, program, answer, milliseconds) in rows() {
+        let Some(name) = name(&program).filter(|_| structure == "wall" && stands) else {
+            continue;
+        };
+        let ours = program.starts_with("drystone");
+        let point = Point {
+            x: blocks,
+            y: milliseconds,
+            wrong: answer != "right",
+        };
+        match lines.iter_mut().find(|line| line.name == name) {
+            Some(line) => line.points.push(point),
+            None => lines.push(Growing {
+                name,
+                ours,
+                points: vec![point],
+            }),
+        }
+    }
+    for line in &mut lines {
+        line.points.sort_by(|a, b| a.x.total_cmp(&b.x));
+    }
+    lines
+}
+
+fn drawn() -> String {
+    let chart = Growth {
+        title: "How long a standing wall takes".into(),
+        x: "blocks".into(),
+        y: "milliseconds of processor time, median".into(),
+        lines: walls(),
+        wrong: "wrong answer".into(),
+    };
+    growth(&chart).expect("drawn")
+}
+
+/// `UPDATE_SNAPSHOTS=1` draws it anew.
+#[test]
+fn the_readmes_picture_of_other_programs_shows_the_table_that_was_measured() {
+    let drawn = drawn();
+    let shown = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/peers.svg");
+    if std::env::var_os("UPDATE_SNAPSHOTS").is_some() && std::env::var_os("CI").is_none() {
+        fs::write(&shown, &drawn).expect("writable");
+    }
+    let kept = fs::read_to_string(&shown).expect("in the repository");
+    assert!(
+        kept == drawn,
+        "look at it, and run once with UPDATE_SNAPSHOTS=1"
+    );
+}
+
+/// What its words in the README say.
+#[test]
+fn one_of_many_is_ahead_of_all_others_at_ten_blocks_and_at_a_thousand() {
+    let lines = walls();
+    let at = |line: &Growing, least: f64| line.points.iter().find(|p| p.x >= least).map(|p| p.y);
+    let many = lines.iter().find(|line| line.name == MANY);
+    let many = many.expect("in the table");
+    for size in [10.0, 1000.0] {
+        let own = at(many, size).expect("measured");
+        for other in lines.iter().filter(|line| !line.ours) {
+            let others = at(other, size);
+            assert!(
+                others.is_none_or(|y| y > 2.0 * own),
+                "{} at {size}",
+                other.name
+            );
+        }
+    }
+}
+
+#[test]
+fn every_program_is_named_once_and_inside_the_picture() {
+    let drawn = drawn();
+    for line in walls() {
+        assert_eq!(
+            drawn.matches(&format!("\n{}\n", line.name)).count(),
+            1,
+            "{}",
+            line.name
+        );
+    }
+    assert!(drawn.len() < 40_000, "{}", drawn.len());
+}
