@@ -231,7 +231,7 @@ pub(super) fn growth(chart: &Growth, svg: &mut String) -> Drawn {
             let wrong = line.points.iter().filter(|p| p.wrong);
             let cross = INK.stroke_width(2 * FINE as u32);
             axes.draw_series(wrong.map(|p| Cross::new((p.x, p.y), 5 * FINE, cross)))?;
-            if let Some(end) = points().last() {
+            if let Some(end) = points().next_back() {
                 let (x, y) = axes.backend_coord(&end);
                 ends.push((y, x, line));
             }
