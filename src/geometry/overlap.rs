@@ -260,6 +260,9 @@ mod tests {
         assert!(overlap(&slab, &stone, 0.2499).is_some());
     }
 
+    /// 2⁵⁰ metres.
+    const FAR: f64 = 1_125_899_906_842_624.0;
+
     #[test]
     fn pieces_cover_the_whole_once() {
         let ring = |x: f64, size: f64| rectangle(x, x, size, size).outline().to_vec();
@@ -276,6 +279,19 @@ mod tests {
             area += part;
         }
         assert!((area - 71.0).abs() < 1e-12);
+        // So far away that only quarters of a metre have a number.
+        let far = |p: [f64; 2]| p.map(|v| v / 4.0 + FAR);
+        let corners = [
+            [0.0, 0.0],
+            [3.0, 0.0],
+            [3.0, 1.0],
+            [1.0, 1.0],
+            [1.0, 3.0],
+            [0.0, 3.0],
+        ];
+        let Pieces { pieces: l } = self::pieces(&corners.map(far));
+        let parts = l.iter().map(|(_, t)| cross(t[1] - t[0], t[2] - t[0]) / 2.0);
+        assert_eq!(parts.sum::<f64>(), 5.0 / 16.0);
         let whole = Pieces::of(&rectangle(0.0, 0.0, 1.0, 1.0)).pieces;
         assert_eq!(
             (whole.len(), whole[0].1.len()),

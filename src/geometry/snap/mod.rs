@@ -79,7 +79,7 @@ pub(crate) struct Moved {
 /// The bodies with what lies within their gaps of each other brought together. The earlier body stays where two meet.
 ///
 /// `gaps` holds each body's gap in metres, 0 for one that takes no part in it. A body of `fixed` stays as it is, and
-/// others come to it. An overlap of up to `noise`, in parts of the gap between two bodies, is none.
+/// corners of others come to it; their sides do not. An overlap of up to `noise`, in parts of the gap between two bodies, is none.
 pub(crate) fn snapped(bodies: &[Rings], gaps: &[f64], fixed: &[bool], noise: f64) -> Outcome {
     let mut kept = fixed.to_vec();
     for _ in 0..ROUNDS {
