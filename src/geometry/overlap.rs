@@ -291,6 +291,9 @@ mod tests {
         assert!(deep(&slab, &stone, 0.2499).is_some());
     }
 
+    /// 2⁵⁰ metres.
+    const FAR: f64 = 1_125_899_906_842_624.0;
+
     #[test]
     fn pieces_cover_the_whole_once() {
         let ring = |x: f64, size: f64| rectangle(x, x, size, size).outline().to_vec();
@@ -308,6 +311,23 @@ mod tests {
             area += part;
         }
         assert!((area - 71.0).abs() < 1e-12);
+        // So far away that only quarters of a metre have a number.
+        let far = |p: [f64; 2]| p.map(|v| v / 4.0 + FAR);
+        let corners = [
+            [0.0, 0.0],
+            [3.0, 0.0],
+            [3.0, 1.0],
+            [1.0, 1.0],
+            [1.0, 3.0],
+            [0.0, 3.0],
+        ];
+        let l = polygon(&corners.map(far));
+        let pieces = Pieces::of(&l);
+        let parts = pieces.all().map(|piece| {
+            let t = &piece.corners;
+            cross(t[1] - t[0], t[2] - t[0]) / 2.0
+        });
+        assert_eq!(parts.sum::<f64>(), 5.0 / 16.0);
         let square = rectangle(0.0, 0.0, 1.0, 1.0);
         let pieces = Pieces::of(&square);
         let whole: Vec<usize> = pieces.all().map(|piece| piece.corners.len()).collect();

@@ -481,11 +481,8 @@ fn meeting(a: Edge, b: Edge) -> Option<Point> {
             return Some(point);
         }
     }
-    if (a_from > 0.0) != (a_to > 0.0)
-        && (b_from > 0.0) != (b_to > 0.0)
-        && a_from * a_to != 0.0
-        && b_from * b_to != 0.0
-    {
+    // An end on the line of the other side, but not on that side, has both of the other's ends to one side of its own.
+    if (a_from > 0.0) != (a_to > 0.0) && (b_from > 0.0) != (b_to > 0.0) {
         let share = a_from / (a_from - a_to);
         return Some(a.from + a.vector() * share);
     }

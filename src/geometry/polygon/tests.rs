@@ -419,3 +419,30 @@ fn the_first_twenty_crossings_are_told_in_the_order_of_the_sides() {
         .collect();
     assert_eq!(found, wanted);
 }
+
+#[test]
+fn crossings_are_found_at_any_size() {
+    let crossed = [[0.0, 0.0], [4.0, 4.0], [4.0, 1.0], [0.0, 3.0]];
+    // A U with a corner below its right inner side, on the line of that side, and two upper sides on one line.
+    let apart = [
+        [0.0, 0.0],
+        [3.0, 0.0],
+        [5.0, 0.0],
+        [5.0, 4.0],
+        [3.0, 4.0],
+        [3.0, 1.0],
+        [2.0, 1.0],
+        [2.0, 4.0],
+        [0.0, 4.0],
+    ];
+    for size in [1.0, 1e-90, 1e90] {
+        let crossed = crossed.map(|p| p.map(|v| size * v));
+        let [Flaw::Crossing { corners, at, .. }] = flaws(&[&crossed])[..] else {
+            unreachable!("one crossing at size {size}");
+        };
+        assert_eq!(corners, [0, 2]);
+        assert!((at.coords / size - Vector::new(2.0, 2.0)).norm() < 1e-12);
+        let apart = apart.map(|p| p.map(|v| size * v));
+        assert_eq!(sound(&[&apart]).outline(), points(&apart));
+    }
+}

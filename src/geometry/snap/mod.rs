@@ -80,7 +80,8 @@ pub(crate) struct Moved {
 /// The bodies with what lies within their gaps of each other brought together. The earlier body stays where two meet.
 ///
 /// `gaps` holds each body's gap in metres, 0 for one that takes no part in it. A body of `fixed` stays as it is, and
-/// others come to it. An overlap of up to `noise`, in parts of the gap between two bodies, is none.
+/// corners of others come to it; their sides do not. An overlap of up to `noise`, in parts of the gap between two bodies, is
+/// none.
 pub(crate) fn snapped<'b>(
     bodies: &'b [Rings],
     gaps: &[f64],
