@@ -67,7 +67,7 @@ fn is_vague(solved: &Dual) -> bool {
 }
 
 /// What share of the columns in use may as well not be.
-pub(super) fn vagueness(solved: &Dual) -> f64 {
+fn vagueness(solved: &Dual) -> f64 {
     let count = |margin: f64| {
         let active = solved.active(margin).into_iter();
         active.filter(|active| *active).count() as f64

@@ -6,7 +6,7 @@
 //! for a little of that: then no rounding is left to doubt. Where something is, contacts that cannot open stay closed to
 //! rounding.
 
-use super::{Conditioning, Effort, Status, solved_with_retry};
+use super::{Conditioning, Effort, SolverSettings, Status, TOLERANCE, solved_with_retry};
 use crate::program::{Column, Force, Program, columns, shortest};
 
 /// How far contacts are opened, in parts of the fastest speed: beyond the rounding of a speed, and far below what matters.
@@ -17,6 +17,11 @@ const NEAR: f64 = 1e3;
 
 /// Where contacts cannot open a change may leave so much of a violation to the next.
 const LEFT: f64 = 1e-4;
+
+/// A change is sought to so small a part of what it may leave, but no coarser than this: mostly the motion that comes in
+/// violates nothing but by rounding, and half the iterations do.
+const ENOUGH: f64 = 1e-2;
+const COARSEST: f64 = 1e-3;
 
 /// Violations that are the rounding of speeds.
 const ROUNDED: f64 = 16.0 * f64::EPSILON;
@@ -81,7 +86,11 @@ fn changed(
             }
         }
         let conic = shortest(motion.len(), &rows, held.len());
-        let answer = solved_with_retry(&conic, Conditioning::Plain, effort);
+        let settings = SolverSettings {
+            tolerance: (ENOUGH * small / worst).clamp(TOLERANCE, COARSEST),
+            ..Conditioning::Plain.into()
+        };
+        let answer = solved_with_retry(&conic, settings, effort);
         if answer.status != Status::Solved {
             return (hair == 0.0 && round > 0).then_some(motion);
         }

@@ -9,7 +9,6 @@
 //! the order of the file; a tie between mirror images stays a tie, and the figure of a mirrored scene is the mirrored
 //! figure.
 
-use super::balance::vagueness;
 use super::limit::columns_in;
 use super::slanted::Slanted;
 use super::{
@@ -55,8 +54,10 @@ impl Size {
     }
 }
 
-/// Of many blocks, when so large a share of the columns in use may as well not be, the optimum of the first stage is kept.
-const NEARLY_ALL: f64 = 0.18;
+/// Of many blocks the optimum of the first stage is kept where the columns in use have so much slack in all, in parts of what
+/// sums of sticking may differ by. The sticking would grow by that slack if each carried the largest load. Of 46 walls of 200 to
+/// 2 000 bricks the second stage had an answer that counts up to 0.11, and none from 0.96 on.
+const SLACK_IN_USE: f64 = 0.5;
 
 /// Of many blocks the first stage is solved so much more sharply. In a wall of 2 000 bricks turned by 40° the second stage had
 /// no balance on the columns found without.
@@ -209,7 +210,12 @@ fn chosen(
         (sticking_sum(face, amounts) - least).abs() <= same * least + slight
     };
     let found = || whole.clone().with(first.amounts.clone());
-    if size == Size::Many && vagueness(first) > NEARLY_ALL {
+    let in_use = first.slack.iter().zip(first.active(1.0));
+    let slack: f64 = in_use
+        .filter(|(_, active)| *active)
+        .map(|(slack, _)| slack)
+        .sum();
+    if size == Size::Many && slack > SLACK_IN_USE * (same * least + slight) {
         return found();
     }
     let mut face = None;
@@ -241,7 +247,9 @@ fn chosen(
         Size::Few => settings,
     };
     for little in LITTLE {
-        let few = concentrated(&face, little, &unchanged, size, settings, effort);
+        let Some(few) = concentrated(&face, little, &unchanged, size, settings, effort) else {
+            continue;
+        };
         let amounts = least_squares_amounts(&few.loads, &few.columns, squares, effort);
         if let Some(amounts) = amounts.filter(|amounts| unchanged(&few, amounts)) {
             return few.with(amounts);
@@ -271,7 +279,8 @@ fn later(
     }
 }
 
-/// The face with few points that stick, by making little sticking dear, round by round.
+/// The face with few points that stick, by making little sticking dear, round by round; `None` where the columns of many
+/// blocks turn out to have no balance.
 fn concentrated(
     face: &Face,
     little: f64,
@@ -279,7 +288,7 @@ fn concentrated(
     size: Size,
     settings: SolverSettings,
     effort: &mut Effort,
-) -> Face {
+) -> Option<Face> {
     let mut face = face.clone();
     for _ in 0..ROUNDS {
         if face.columns.iter().filter(|c| c.force.sticks()).count() < 2 {
@@ -294,6 +303,10 @@ fn concentrated(
         let solved = later(&face, size, settings, effort, |c| {
             if c.force.sticks() { c.cost } else { 0.0 }
         });
+        // The least squares would take ten times as long to find it out.
+        if size == Size::Many && solved.status == Status::Unbounded {
+            return None;
+        }
         if solved.status != Status::Solved || !unchanged(&face, &solved.amounts) {
             break;
         }
@@ -306,7 +319,7 @@ fn concentrated(
             break;
         }
     }
-    face
+    Some(face)
 }
 
 fn sticking_amounts<'a>(face: &'a Face, amounts: &'a [f64]) -> impl Iterator<Item = f64> + 'a {

@@ -187,6 +187,27 @@ fn the_verdict_alone_of_a_high_turned_stack_takes_one_program() {
     assert_eq!(frame.solve.programs, 1);
 }
 
+/// A stack that leans by nine tenths of what it may. Where any balance has no proof the least force has: the least residual
+/// would end without a status after 200 iterations.
+#[test]
+fn the_verdict_alone_of_ten_thousand_blocks_one_on_the_other_takes_few_programs() {
+    let at = |k: i32| rectangle(9e-5 * f64::from(k), 0.25 * f64::from(k), 1.0, 0.25);
+    let bricks: Vec<_> = (0..10_000)
+        .map(|k| block(&k.to_string(), at(k), 1.0))
+        .collect();
+    let asked = Options::default().verdict_only(Ask::Yes);
+    for (degrees, verdict) in [(0.0, Verdict::Stable), (40.0, Verdict::Unstable)] {
+        let scene = scene(&turned(on_floor(0.7, bricks.clone()), degrees));
+        let frame = Analysis::with(&scene, &asked).frames.remove(0);
+        assert_eq!(frame.verdict, verdict, "{degrees}°");
+        let solve = &frame.solve;
+        assert!(
+            solve.programs <= 5 && solve.iterations <= 60,
+            "{degrees}°: {solve:?}"
+        );
+    }
+}
+
 /// The program of a structure that hangs together.
 fn program(scene: &Scene) -> Program {
     let found = Interfaces::of(scene);

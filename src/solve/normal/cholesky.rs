@@ -14,7 +14,7 @@ pub(super) struct Cholesky {
     /// Where the values of each panel begin: column by column, each of its own width and rows.
     begin: Vec<usize>,
     values: Vec<f64>,
-    /// The columns that each panel takes.
+    /// The families of columns that each panel takes.
     taken: Vec<Vec<u32>>,
     scratch: Scratch,
 }
@@ -26,6 +26,10 @@ struct Scratch {
     local: Vec<u32>,
     /// What panels hand up, the last one last.
     handed: Vec<f64>,
+    /// Products of the columns of one family.
+    products: Vec<f64>,
+    /// Rows of a child that stand side by side in its parent's panel as well.
+    runs: Vec<Run>,
     packed: Packed,
 }
 
@@ -51,8 +55,8 @@ impl Cholesky {
             begin.push(begin[k] + panel.width * (panel.width + panel.rows.len()));
         }
         let mut taken = vec![Vec::new(); panels.panels.len()];
-        for k in 0..elements.count() {
-            if let Some(first) = elements.places(k).first() {
+        for k in 0..elements.families() {
+            if let Some(first) = elements.family(k).places.first() {
                 taken[of_column[*first as usize]].push(k as u32);
             }
         }
@@ -99,6 +103,8 @@ impl Cholesky {
         let Scratch {
             local,
             handed,
+            products,
+            runs,
             packed,
         } = &mut self.scratch;
         handed.clear();
@@ -131,25 +137,32 @@ impl Cholesky {
                 rest,
             };
             for k in &self.taken[p] {
-                let k = *k as usize;
-                let (places, entries) = (elements.places(k), elements.values(k));
-                for (i, (column, entry)) in places.iter().zip(entries).enumerate() {
-                    let by = weights[k] * entry;
+                let family = elements.family(*k as usize);
+                family.products(weights, products);
+                let places = family.places;
+                for (i, column) in places.iter().enumerate() {
                     let mut column = front.column(local[*column as usize] as usize);
-                    for (row, entry) in places[i..].iter().zip(&entries[i..]) {
-                        column[local[*row as usize] as usize] += by * entry;
+                    let sums = &products[i * places.len()..(i + 1) * places.len()];
+                    for (row, sum) in places[i..].iter().zip(&sums[i..]) {
+                        column[local[*row as usize] as usize] += sum;
                     }
                 }
             }
             let mut at = base;
             for child in waiting.drain(first_child..) {
                 let rows = &self.panels.rows[self.panels.panels[child].rows.clone()];
-                for (i, column) in rows.iter().enumerate() {
-                    let products = &children[at..at + rows.len() - i];
-                    at += products.len();
-                    let mut column = front.column(local[*column as usize] as usize);
-                    for (row, product) in rows[i..].iter().zip(products) {
-                        column[local[*row as usize] as usize] += product;
+                Run::all(rows, local, runs);
+                for (k, run) in runs.iter().enumerate() {
+                    for i in run.from..run.end {
+                        let mut column = front.column(run.to + i - run.from);
+                        let begin = at;
+                        at += rows.len() - i;
+                        let products = &children[begin..at];
+                        for run in &runs[k..] {
+                            let from = run.from.max(i);
+                            let to = run.to + from - run.from;
+                            column.add(to, &products[from - i..run.end - i]);
+                        }
                     }
                 }
             }
@@ -212,6 +225,32 @@ impl Cholesky {
     }
 }
 
+/// Rows of a panel that stand side by side in another one too.
+struct Run {
+    from: usize,
+    end: usize,
+    /// Where the first of them stands there.
+    to: usize,
+}
+
+impl Run {
+    /// All rows, where each stands elsewhere being given.
+    fn all(rows: &[u32], local: &[u32], runs: &mut Vec<Run>) {
+        runs.clear();
+        for (k, row) in rows.iter().enumerate() {
+            let to = local[*row as usize] as usize;
+            match runs.last_mut() {
+                Some(run) if run.to + (k - run.from) == to => run.end = k + 1,
+                _ => runs.push(Run {
+                    from: k,
+                    end: k + 1,
+                    to,
+                }),
+            }
+        }
+    }
+}
+
 /// The matrix of one panel: its own columns, and the lower triangle that it hands up.
 struct Front<'a> {
     width: usize,
@@ -244,6 +283,16 @@ impl Front<'_> {
 struct Shifted<'a> {
     list: &'a mut [f64],
     by: usize,
+}
+
+impl Shifted<'_> {
+    /// Adds a list to the rows from one on.
+    fn add(&mut self, row: usize, list: &[f64]) {
+        let begin = row - self.by;
+        for (v, w) in self.list[begin..begin + list.len()].iter_mut().zip(list) {
+            *v += w;
+        }
+    }
 }
 
 impl std::ops::Index<usize> for Shifted<'_> {

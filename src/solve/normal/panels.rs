@@ -74,23 +74,20 @@ struct Graph {
 
 impl Graph {
     fn of(elements: &Elements) -> Graph {
-        // The columns of one contact stand side by side and mostly touch the same unknowns.
-        let differs = |k: &usize| *k == 0 || elements.places(*k) != elements.places(*k - 1);
-        let distinct: Vec<usize> = (0..elements.count()).filter(differs).collect();
         let n = elements.unknowns();
         let mut begin = vec![0; n + 1];
-        let all = || distinct.iter().flat_map(|k| elements.places(*k));
-        for place in all() {
+        let families = || (0..elements.families()).map(|k| elements.family(k).places);
+        for place in families().flatten() {
             begin[*place as usize + 1] += 1;
         }
         for k in 0..n {
             begin[k + 1] += begin[k];
         }
         let mut next = begin.clone();
-        let mut columns_of = vec![0; begin[n]];
-        for k in &distinct {
-            for place in elements.places(*k) {
-                columns_of[next[*place as usize]] = *k;
+        let mut families_of = vec![0; begin[n]];
+        for (k, places) in families().enumerate() {
+            for place in places {
+                families_of[next[*place as usize]] = k;
                 next[*place as usize] += 1;
             }
         }
@@ -105,8 +102,8 @@ impl Graph {
             let first = graph.list.len();
             seen[unknown] = unknown;
             graph.list.push(unknown as u32);
-            for k in &columns_of[begin[unknown]..begin[unknown + 1]] {
-                for other in elements.places(*k) {
+            for k in &families_of[begin[unknown]..begin[unknown + 1]] {
+                for other in elements.family(*k).places {
                     if seen[*other as usize] != unknown {
                         seen[*other as usize] = unknown;
                         graph.list.push(*other);

@@ -189,25 +189,7 @@ impl Run {
             .iter()
             .filter(|e| e.0 < problem.equalities)
             .map(|(row, column, value)| (*column, *row, *value));
-        // All columns of a block have entries where one has.
-        let own = Elements::of(problem.equalities, n, balance);
-        let mut entries = Vec::with_capacity(6 * n);
-        for block in &squares.blocks {
-            let mut places: Vec<u32> = block
-                .clone()
-                .flat_map(|k| own.places(k).iter().copied())
-                .collect();
-            places.sort_unstable();
-            places.dedup();
-            for k in block.clone() {
-                for place in &places {
-                    let at = own.places(k).iter().position(|p| p == place);
-                    let value = at.map_or(0.0, |at| own.values(k)[at]);
-                    entries.push((k, *place as usize, value));
-                }
-            }
-        }
-        let mut given = Elements::of(problem.equalities, n, entries.into_iter());
+        let mut given = Elements::in_families(problem.equalities, &squares.blocks, balance);
         if given.widest() > super::MOST_ENTRIES {
             return None;
         }
@@ -304,15 +286,16 @@ impl Run {
                 lower[i * wide + i] += self.z[at] / self.s[at];
             }
             triangle(lower, wide);
-            let places = self.given.places(block.start).len();
+            let places = self.given.family(k).places.len();
+            let (given, whitened) = (self.given.family(k).values, self.whitened.values_mut(k));
             for p in 0..places {
                 let mut row = [0.0; MOST_COLUMNS];
-                for (v, at) in row.iter_mut().zip(block.clone()) {
-                    *v = self.given.values(at)[p];
+                for (v, column) in row.iter_mut().zip(given.chunks_exact(places)) {
+                    *v = column[p];
                 }
                 forward(lower, wide, &mut row[..wide]);
-                for (v, at) in row.iter().zip(block.clone()) {
-                    self.whitened.values_mut(at)[p] = *v;
+                for (v, column) in row.iter().zip(whitened.chunks_exact_mut(places)) {
+                    column[p] = *v;
                 }
             }
         }

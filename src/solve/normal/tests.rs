@@ -433,3 +433,41 @@ fn least_squares_above_floors_meet_their_conditions_and_cost_what_clarabel_finds
         assert!(off.abs() < 1e-6 * cost(&theirs.x), "{off}");
     }
 }
+
+#[test]
+fn columns_of_the_same_two_bodies_are_one_family_and_act_as_they_stood() {
+    let mut numbers = Numbers(3);
+    let mut column = |unknowns: &[usize]| -> Vec<(usize, f64)> {
+        unknowns.iter().map(|i| (*i, numbers.next())).collect()
+    };
+    // Bodies 0 and 1: normal forces, friction and both; body 1 and the ground; bodies 1 and 2; nobody; one unknown of body 2.
+    let columns = vec![
+        column(&[1, 2, 4, 5]),
+        column(&[0, 2, 3, 5]),
+        column(&[0, 1, 2, 3, 4, 5]),
+        column(&[4]),
+        column(&[3, 4, 5, 6, 7, 8]),
+        column(&[]),
+        column(&[8]),
+    ];
+    let mut elements = elements(9, &columns);
+    assert_eq!([elements.count(), elements.families()], [7, 2]);
+    assert_eq!(elements.family(0).places, [0, 1, 2, 3, 4, 5]);
+    assert_eq!(elements.family(1).places, [3, 4, 5, 6, 7, 8]);
+    assert_eq!(elements.family(1).first, 4);
+    let number: Vec<u32> = vec![4, 0, 8, 2, 6, 1, 7, 3, 5];
+    elements.renumber(&number);
+    let amounts: Vec<f64> = (0..7).map(|_| numbers.next()).collect();
+    let y: Vec<f64> = (0..9).map(|_| numbers.next()).collect();
+    let (mut sum, mut products) = (vec![0.0; 9], vec![0.0; 7]);
+    elements.add(&amounts, &mut sum);
+    elements.along(&y, &mut products);
+    for (k, column) in columns.iter().enumerate() {
+        let along: f64 = column.iter().map(|(i, v)| v * y[number[*i] as usize]).sum();
+        assert!((products[k] - along).abs() < 1e-14, "column {k}");
+        for (i, v) in column {
+            sum[number[*i] as usize] -= v * amounts[k];
+        }
+    }
+    assert!(sum.iter().all(|v| v.abs() < 1e-14), "{sum:?}");
+}

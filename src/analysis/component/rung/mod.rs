@@ -104,7 +104,9 @@ impl Rung {
     ///
     /// What is known to be at its edge begins with any balance: the least force would end without a status there.
     /// So do many blocks where any forces will do: walls of 410 and 915 bricks that fall take it 9 to 20 iterations, and
-    /// the least force 9 to 60; where they stand it is the same to either.
+    /// the least force 9 to 60; where they stand it is the same to either. Where that has no proof the first look comes next:
+    /// of a stack of 10 000 neither forces nor motion of any balance convince, those of the least force do, and the least
+    /// residual ends without a status.
     ///
     /// What falls wants its least sticking in any case, so that many blocks that have no balance come to it before the least
     /// residual, which takes them nearly as long and says less.
@@ -128,11 +130,19 @@ impl Rung {
                 }
                 rungs.splice(0..0, quick.map(Rung::FirstLook));
             }
-            Place::Anywhere if !many => {
+            Place::Anywhere if many => {
+                rungs.splice(0..0, residual);
+                let unique = |settings| SolverSettings {
+                    choice: Choice::Unique,
+                    ..settings
+                };
+                rungs.splice(1..1, quick.map(unique).map(Rung::FirstLook));
+            }
+            Place::Anywhere => {
                 let second = 1.min(rungs.len());
                 rungs.splice(second..second, residual);
             }
-            _ => {
+            Place::AtEdge => {
                 rungs.splice(0..0, residual);
             }
         }
