@@ -14,6 +14,8 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 pub use option::{Options, Words};
+#[cfg(feature = "png")]
+pub(super) use outline::{Pen, rounded, trace};
 use outline::{number, steps};
 
 #[cfg(feature = "png")]
@@ -56,6 +58,12 @@ pub fn write(drawing: &Drawing) -> String {
 #[cfg(all(feature = "cli", feature = "png"))]
 pub(crate) fn for_pixels(drawing: &Drawing) -> String {
     document(drawing, None, "d", Form::Pixels)
+}
+
+/// As [`write()`], each line of words with its number as its name: `t1`, `t2` …
+#[cfg(feature = "png")]
+pub(super) fn numbered(drawing: &Drawing) -> String {
+    document(drawing, None, "", Form::Numbered)
 }
 
 /// A drawing as an SVG document of a size in print, or with words that do not depend on a reader's fonts.
@@ -106,8 +114,7 @@ pub fn write_with(drawing: &Drawing, options: &Options) -> Result<String, WordsE
 /// The drawing with each line of words laid out, its number as its name.
 #[cfg(feature = "png")]
 fn laid_out(drawing: &Drawing, options: &Options) -> Result<resvg::usvg::Tree, WordsError> {
-    let numbered = document(drawing, None, "", Form::Numbered);
-    tree::read(&numbered, &options.fonts).map_err(WordsError)
+    tree::read(&numbered(drawing), &options.fonts).map_err(WordsError)
 }
 
 /// A name that other drawings, and other forms of this one, do not have as a rule.
