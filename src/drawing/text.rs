@@ -6,11 +6,11 @@
 
 use std::sync::OnceLock;
 
-#[cfg(feature = "png")]
+#[cfg(feature = "cli")]
 use skrifa::GlyphId;
 use skrifa::MetadataProvider;
 use skrifa::instance::{LocationRef, Size};
-#[cfg(feature = "png")]
+#[cfg(feature = "cli")]
 use skrifa::outline::{DrawSettings, OutlinePen};
 use skrifa::raw::{FileRef, FontRef};
 
@@ -93,7 +93,7 @@ impl Face {
 }
 
 /// One pull of the pen that draws a letter, in units of its font, y up.
-#[cfg(feature = "png")]
+#[cfg(feature = "cli")]
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Pull {
     /// Begin a new part here.
@@ -109,7 +109,7 @@ pub(crate) enum Pull {
 }
 
 /// Draws a glyph of a face; one without ink, a space, takes no pull.
-#[cfg(feature = "png")]
+#[cfg(feature = "cli")]
 pub(crate) fn outline(face: Face, glyph: u16, pen: impl FnMut(Pull)) {
     struct Pen<P>(P);
     impl<P: FnMut(Pull)> OutlinePen for Pen<P> {

@@ -1,15 +1,19 @@
 //! [`render`]: an SVG of ours as PNG bytes.
 
+#[cfg(feature = "cli")]
 mod letter;
 mod pack;
+#[cfg(feature = "cli")]
 mod paint;
+#[cfg(test)]
+mod tests;
 
-use resvg::tiny_skia::{Pixmap, Transform};
+use resvg::tiny_skia::{Color, IntSize, Pixmap, Transform};
 
 use self::pack::{encode, straight};
 use super::fonts::Fonts;
 use super::{MM_PER_INCH, svg, tree};
-use crate::drawing::Drawing;
+use crate::drawing::{Colour, Drawing};
 
 /// How large a picture is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -251,157 +255,50 @@ fn pixels(natural_width: f64, natural_height: f64, size: Size) -> Result<(f64, f
 fn raster(svg: &str, size: Size, fonts: &Fonts) -> Result<Pixmap, PngError> {
     let tree = tree::read(svg, fonts).map_err(PngError::Svg)?;
     let natural = (tree.size().width(), tree.size().height());
-    let (mut pixels, scale) = page(natural, size)?;
+    let (mut pixels, scale) = page(natural, size, None)?;
     resvg::render(&tree, scale, &mut pixels.as_mut());
     Ok(pixels)
 }
 
 #[cfg(feature = "cli")]
 fn painted(drawing: &Drawing, size: Size, fonts: &Fonts) -> Result<Pixmap, PngError> {
-    if fonts.more().is_empty() {
-        let natural = [drawing.width, drawing.height].map(|side| svg::rounded(side) as f32);
-        let (mut pixels, scale) = page(natural.into(), size)?;
-        paint::paint(drawing, scale, &mut pixels).map_err(PngError::Svg)?;
-        return Ok(pixels);
+    if !fonts.more().is_empty() {
+        // A page that is too large is refused before it is written out, which takes far more memory than the drawing.
+        check(drawing.width, drawing.height, size)?;
+        // Letters of other fonts may be pictures themselves, in many colours.
+        return raster(&svg::for_pixels(drawing), size, fonts);
     }
-    // A page that is too large is refused before it is written out, which takes far more memory than the drawing.
-    check(drawing.width, drawing.height, size)?;
-    // Letters of other fonts may be pictures themselves, in many colours.
-    raster(&svg::for_pixels(drawing), size, fonts)
+    let natural = [drawing.width, drawing.height].map(|side| svg::rounded(side) as f32);
+    let (mut pixels, scale) = page(natural.into(), size, drawing.background)?;
+    paint::paint(drawing, scale, &mut pixels).map_err(PngError::Svg)?;
+    Ok(pixels)
 }
 
-/// The clear pixels of a picture, and how a drawing is scaled to them.
-fn page((width, height): (f32, f32), size: Size) -> Result<(Pixmap, Transform), PngError> {
+/// The pixels of a picture, all of one colour or clear, and how a drawing is scaled to them.
+fn page(
+    (width, height): (f32, f32),
+    size: Size,
+    background: Option<Colour>,
+) -> Result<(Pixmap, Transform), PngError> {
     let natural = (f64::from(width), f64::from(height));
     let (width, height) = pixels(natural.0, natural.1, size)?;
-    let Some(pixels) = Pixmap::new(width as u32, height as u32) else {
-        return Err(PngError::Size { width, height });
-    };
     // Stretched to whole pixels, by less than one in all, so that no edge of the page is half covered.
     let scale = Transform::from_scale((width / natural.0) as f32, (height / natural.1) as f32);
+    let pixels = match (background, IntSize::from_wh(width as u32, height as u32)) {
+        // All bytes of a white page are alike: they are set once, and not cleared before.
+        (Some(Colour::WHITE), Some(size)) => {
+            let bytes = vec![u8::MAX; 4 * size.width() as usize * size.height() as usize];
+            Pixmap::from_vec(bytes, size)
+        }
+        (background, Some(size)) => {
+            let mut pixels = Pixmap::new(size.width(), size.height());
+            if let (Some(pixels), Some(Colour([r, g, b]))) = (&mut pixels, background) {
+                pixels.fill(Color::from_rgba8(r, g, b, u8::MAX));
+            }
+            pixels
+        }
+        (_, None) => None,
+    };
+    let pixels = pixels.ok_or(PngError::Size { width, height })?;
     Ok((pixels, scale))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::drawing::{Colour, Drawing, Face, PagePoint, Text};
-    use crate::output::svg;
-
-    fn words(words: &str, face: Face) -> String {
-        let text = Text::new(PagePoint::new(5.0, 30.0), words, face, 24.0, Colour::BLACK);
-        svg::write(&Drawing {
-            width: 120.0,
-            height: 40.0,
-            title: String::new(),
-            description: String::new(),
-            background: Some(Colour::WHITE),
-            items: vec![text.into()],
-        })
-    }
-
-    /// Share of dark pixels.
-    fn ink(svg: &str) -> f64 {
-        let bytes = render(svg, Size::Natural).expect("a picture");
-        let mut decoder = png::Decoder::new(std::io::Cursor::new(bytes));
-        decoder.set_transformations(png::Transformations::EXPAND);
-        let mut reader = decoder.read_info().expect("png");
-        let mut data = vec![0; reader.output_buffer_size().expect("size")];
-        reader.next_frame(&mut data).expect("frame");
-        data.chunks_exact(3).filter(|p| p[0] < 128).count() as f64 / (data.len() as f64 / 3.0)
-    }
-
-    #[test]
-    fn every_face_leaves_ink_and_bold_leaves_more() {
-        for face in Face::ALL {
-            assert!(ink(&words("Block 3", face)) > 0.02, "{face:?}");
-        }
-        assert!(
-            ink(&words("Block 3", Face::SerifBold)) > 1.15 * ink(&words("Block 3", Face::Serif))
-        );
-        assert!(ink(&words("Block 3", Face::SansBold)) > 1.05 * ink(&words("Block 3", Face::Sans)));
-        assert_eq!(ink(&words("", Face::Sans)), 0.0);
-    }
-
-    #[test]
-    fn characters_no_font_has_leave_a_question_mark_and_no_box() {
-        let picture =
-            |text: &str, face| render(&words(text, face), Size::Natural).expect("a picture");
-        for face in [Face::Serif, Face::Sans] {
-            for unknown in ["石", "🪨", "ア", "\u{e000}", "لوح"] {
-                let marks = "?".repeat(unknown.chars().count());
-                assert_eq!(picture(unknown, face), picture(&marks, face), "{unknown}");
-            }
-        }
-    }
-
-    fn decoded(bytes: Vec<u8>) -> Vec<u8> {
-        let mut decoder = png::Decoder::new(std::io::Cursor::new(bytes));
-        decoder.set_transformations(png::Transformations::ALPHA | png::Transformations::EXPAND);
-        let mut reader = decoder.read_info().expect("png");
-        let mut data = vec![0; reader.output_buffer_size().expect("size")];
-        reader.next_frame(&mut data).expect("frame");
-        data
-    }
-
-    #[test]
-    fn a_picture_has_the_pixels_drawn_however_it_is_packed() {
-        let ramp = "<linearGradient id='r'><stop stop-color='#f00'/><stop offset='0.5' stop-color='#0f0'/><stop offset='1' stop-color='#00f'/></linearGradient>\
-                    <rect width='600' height='40' fill='url(#r)'";
-        // A table of few colours, some half clear; many opaque ones; many half clear ones.
-        for (inside, colour_type) in [
-            (
-                "<rect width='9' height='9' fill='#123456' opacity='0.4'/>".to_owned(),
-                3,
-            ),
-            (format!("{ramp}/>"), 2),
-            (format!("{ramp} opacity='0.9'/>"), 6),
-        ] {
-            let svg = format!(
-                "<svg xmlns='http://www.w3.org/2000/svg' width='600' height='40'>{inside}</svg>"
-            );
-            let drawn = rgba(&svg, Size::Natural).expect("drawn").rgba.concat();
-            let [small, quick] = [Compression::Small, Compression::Quick].map(|compression| {
-                render_in(&svg, Size::Natural, &Fonts::default(), compression).expect("packed")
-            });
-            assert_eq!(small[25], colour_type, "the PNG's colour type");
-            assert!(small.len() <= quick.len());
-            for packed in [small, quick] {
-                assert!(decoded(packed) == drawn, "{inside}");
-            }
-        }
-    }
-
-    #[test]
-    fn the_same_text_gives_the_same_bytes() {
-        let svg = words("Same", Face::Serif);
-        assert_eq!(
-            render(&svg, Size::Scale(2.5)).expect("one"),
-            render(&svg, Size::Scale(2.5)).expect("two")
-        );
-    }
-
-    #[test]
-    fn absurd_sizes_and_foreign_text_are_refused_in_words() {
-        let svg = words("x", Face::Serif);
-        for size in [
-            Size::Width(0),
-            Size::Width(60_000),
-            Size::Scale(0.0),
-            Size::Scale(-1.0),
-            Size::Scale(f64::NAN),
-            Size::Scale(1e9),
-            Size::Width(31_000),
-        ] {
-            let refused = render(&svg, size).expect_err("out of range");
-            assert!(
-                matches!(refused, PngError::Size { .. })
-                    && refused.to_string().contains("at most 100 million")
-            );
-        }
-        assert!(matches!(
-            render("no svg", Size::Natural),
-            Err(PngError::Svg(_))
-        ));
-    }
 }

@@ -8,8 +8,8 @@ use std::sync::Arc;
 use std::vec::IntoIter;
 
 use resvg::tiny_skia::{
-    BlendMode, Color, FillRule, FilterQuality, IntRect, LineCap, LineJoin, Mask, MaskType,
-    NonZeroRect, Paint, Path, PathBuilder, Pattern, Pixmap, PixmapMut, Rect, SpreadMode, Stroke,
+    FillRule, FilterQuality, IntRect, LineCap, LineJoin, Mask, NonZeroRect, Paint, Path,
+    PathBuilder, Pattern, Pixmap, PixmapMut, PremultipliedColorU8, Rect, SpreadMode, Stroke,
     StrokeDash, Transform,
 };
 
@@ -17,7 +17,7 @@ use super::letter::{Line, lines};
 use crate::drawing::{self, Colour, Drawing, Item, Join, PageRect, Text};
 use crate::output::svg::{Pen, rounded, trace};
 
-/// Puts a drawing on clear pixels, scaled to fill them.
+/// Puts what is on a drawing's page on pixels that have the page's colour, scaled to fill them.
 ///
 /// # Errors
 /// What resvg has against the words.
@@ -31,10 +31,6 @@ pub(super) fn paint(
     let mut lines = lines(&texts)?.into_iter();
     let mut marks = Vec::new();
     collect(&drawing.items, &mut lines, &mut marks);
-    if let Some(Colour([r, g, b])) = drawing.background {
-        // The page is whole pixels wide and high: none is covered in part.
-        pixels.fill(Color::from_rgba8(r, g, b, u8::MAX));
-    }
     let (width, height) = (pixels.width(), pixels.height());
     let around = |side: u32| i32::try_from(side).unwrap_or(i32::MAX).saturating_mul(-2);
     let (x, y) = (around(width), around(height));
@@ -241,15 +237,9 @@ fn part(
     let layer = Layer::of(seen(within, clip)?, most, transform)?;
     let mut apart = layer.pixels()?;
     put(within, most, layer.transform, &mut apart.as_mut());
-    // What the rectangle covers is taken out of a full mask, and the mask turned over.
-    let mut rest = layer.pixels()?;
-    rest.fill(Color::BLACK);
-    let mut paint = paint_of(Colour::BLACK);
-    paint.blend_mode = BlendMode::Clear;
+    let mut mask = Mask::new(apart.width(), apart.height())?;
     let clip = PathBuilder::from_rect(clip);
-    rest.fill_path(&clip, &paint, FillRule::Winding, layer.transform, None);
-    let mut mask = Mask::from_pixmap(rest.as_ref(), MaskType::Alpha);
-    mask.invert();
+    mask.fill_path(&clip, FillRule::Winding, true, layer.transform);
     apart.apply_mask(&mask);
     layer.join(&apart, 1.0, pixels);
     Some(())
@@ -330,6 +320,9 @@ impl Layer {
 
     /// Lays what was drawn apart over the page.
     fn join(&self, apart: &Pixmap, opacity: f32, pixels: &mut PixmapMut<'_>) {
+        if opacity == 1.0 {
+            return self.cover(apart, pixels);
+        }
         let place = Transform::from_translate(self.place.x() as f32, self.place.y() as f32);
         let paint = Paint {
             shader: Pattern::new(
@@ -350,4 +343,48 @@ impl Layer {
             None,
         );
     }
+
+    /// Likewise, as it is. Most pixels are full or clear, and no more is done for them than has to be.
+    fn cover(&self, apart: &Pixmap, pixels: &mut PixmapMut<'_>) {
+        let (left, top) = (self.place.left(), self.place.top());
+        let (width, height) = (pixels.width() as i32, pixels.height() as i32);
+        let columns = left.max(0)..self.place.right().min(width);
+        let lines = top.max(0)..self.place.bottom().min(height);
+        if columns.is_empty() {
+            return;
+        }
+        let span = |row: i32, wide: u32, left: i32| {
+            let start = row as usize * wide as usize + (columns.start - left) as usize;
+            start..start + columns.len()
+        };
+        let page = pixels.pixels_mut();
+        for y in lines {
+            let above = &apart.pixels()[span(y - top, apart.width(), left)];
+            let below = &mut page[span(y, width as u32, 0)];
+            for (below, above) in below.iter_mut().zip(above) {
+                match above.alpha() {
+                    0 => {}
+                    u8::MAX => *below = *above,
+                    _ => *below = over(*above, *below),
+                }
+            }
+        }
+    }
+}
+
+/// A pixel that covers another in part, in the numbers in which the rasteriser reckons.
+fn over(above: PremultipliedColorU8, below: PremultipliedColorU8) -> PremultipliedColorU8 {
+    let unit = |byte: u8| f32::from(byte) * (1.0 / 255.0);
+    let rest = 1.0 - unit(above.alpha());
+    let mixed = |above: u8, below: u8| {
+        let mixed = unit(below) * rest + unit(above);
+        (mixed.clamp(0.0, 1.0) * 255.0).round_ties_even() as u8
+    };
+    PremultipliedColorU8::from_rgba(
+        mixed(above.red(), below.red()),
+        mixed(above.green(), below.green()),
+        mixed(above.blue(), below.blue()),
+        mixed(above.alpha(), below.alpha()),
+    )
+    .unwrap_or(above)
 }

@@ -21,7 +21,7 @@ pub(super) fn number(value: f64) -> String {
 ///
 /// # Panics
 /// As [`number`].
-#[cfg(feature = "png")]
+#[cfg(all(feature = "cli", feature = "png"))]
 pub(in crate::output) fn rounded(value: f64) -> f64 {
     let whole = (value * 100.0).round();
     // Half a hundredth goes to the even neighbour, and not, as here, away from zero.
@@ -32,7 +32,7 @@ pub(in crate::output) fn rounded(value: f64) -> f64 {
 }
 
 /// Where the path data of an outline leads.
-#[cfg(feature = "png")]
+#[cfg(all(feature = "cli", feature = "png"))]
 pub(in crate::output) trait Pen {
     /// Begins a new part.
     fn begin(&mut self, x: f64, y: f64);
@@ -45,7 +45,7 @@ pub(in crate::output) trait Pen {
 }
 
 /// Follows an outline as whoever reads its path data does: by steps of whole hundredths, added up.
-#[cfg(feature = "png")]
+#[cfg(all(feature = "cli", feature = "png"))]
 pub(in crate::output) fn trace(outline: &Outline, pen: &mut impl Pen) {
     let (mut begin, mut at, mut from) = ((0, 0), (0, 0), (0.0, 0.0));
     for segment in &outline.segments {
