@@ -7,7 +7,7 @@
 use std::collections::{HashMap, HashSet};
 use std::sync::{Arc, LazyLock, Mutex, MutexGuard, PoisonError};
 
-use resvg::tiny_skia::{Path, PathBuilder, Transform};
+use resvg::tiny_skia::{Path, PathBuilder, PathSegment, Point};
 use resvg::usvg;
 
 use crate::drawing::text::{Pull, outline};
@@ -32,12 +32,32 @@ struct Letter {
 impl Line {
     /// The letters of the line where its place is (x, y); `None` where they leave no ink.
     pub fn outline(&self, x: f32, y: f32) -> Option<Path> {
-        let mut all = PathBuilder::new();
+        let sum = |count: fn(&Path) -> usize| self.letters.iter().map(|l| count(&l.outline)).sum();
+        let mut all = PathBuilder::with_capacity(sum(Path::len), sum(|path| path.points().len()));
         for Letter { outline, scale, at } in &self.letters {
+            let (x, y) = (x + at.0, y + at.1);
             // The y of fonts is up.
-            let put = Transform::from_row(*scale, 0.0, 0.0, -scale, x + at.0, y + at.1);
-            if let Some(outline) = Path::clone(outline).transform(put) {
-                all.push_path(&outline);
+            let put = |p: Point| (p.x * scale + x, p.y * -scale + y);
+            for segment in outline.segments() {
+                match segment {
+                    PathSegment::MoveTo(p) => {
+                        let (x, y) = put(p);
+                        all.move_to(x, y);
+                    }
+                    PathSegment::LineTo(p) => {
+                        let (x, y) = put(p);
+                        all.line_to(x, y);
+                    }
+                    PathSegment::QuadTo(a, p) => {
+                        let ((a, b), (x, y)) = (put(a), put(p));
+                        all.quad_to(a, b, x, y);
+                    }
+                    PathSegment::CubicTo(a, c, p) => {
+                        let ((a, b), (c, d), (x, y)) = (put(a), put(c), put(p));
+                        all.cubic_to(a, b, c, d, x, y);
+                    }
+                    PathSegment::Close => all.close(),
+                }
             }
         }
         all.finish()

@@ -87,7 +87,8 @@ fn collect(items: &[Item], lines: &mut IntoIter<Arc<Line>>, marks: &mut Vec<Mark
 }
 
 fn shape(path: &drawing::Path) -> Option<Shape> {
-    let mut builder = PathBuilder::new();
+    let most = path.outline.segments.len();
+    let mut builder = PathBuilder::with_capacity(most, 3 * most);
     trace(&path.outline, &mut builder);
     Some(Shape {
         path: builder.finish()?,
