@@ -176,15 +176,8 @@ impl Picture {
             Format::Svg => svg::write_with(&drawing, &self.svg_options(fonts))
                 .map(String::into_bytes)
                 .map_err(|error| unwritten(&error)),
-            Format::Png => {
-                // A page that is too large is refused before it is written out, which takes far more memory than the drawing.
-                png::check(drawing.width, drawing.height, self.size())
-                    .and_then(|()| {
-                        let text = svg::for_pixels(&drawing);
-                        png::render_in(&text, self.size(), fonts, self.compression)
-                    })
-                    .map_err(|error| not_drawn(&error))
-            }
+            Format::Png => png::of_drawing(&drawing, self.size(), fonts, self.compression)
+                .map_err(|error| not_drawn(&error)),
             Format::Tikz => Ok(tikz::write(&drawing, self.width_mm).into_bytes()),
             Format::Pdf => {
                 pdf::write_in(&drawing, self.width_mm, fonts).map_err(|error| match error {
@@ -206,11 +199,9 @@ impl Picture {
             png::check(drawing.width, drawing.height, self.size())
                 .map_err(|error| not_drawn(&error))?;
         }
-        let svgs: Vec<String> = drawings
-            .into_iter()
-            .map(|drawing| svg::for_pixels(&self.on_page(drawing)))
-            .collect();
-        png::animate(&svgs, self.size(), seconds, fonts).map_err(|error| not_drawn(&error))
+        let drawings: Vec<Drawing> = drawings.into_iter().map(|d| self.on_page(d)).collect();
+        png::animate_drawings(&drawings, self.size(), seconds, fonts)
+            .map_err(|error| not_drawn(&error))
     }
 
     /// The width, in pixels, for which a figure is laid out; `None` for its own. On a page of so many millimetres its

@@ -4,6 +4,9 @@
 //! like one arrow with two heads. Each arrow is moved across its line by no more than keeps it clear of those before it,
 //! and the two arrows of one interface stay centred about their true line. Lengths and directions are untouched.
 
+mod place;
+
+use self::place::Places;
 use super::arrow::{ForceArrow, Marks};
 use crate::drawing::arrow::{HEAD_WIDTH, head_size};
 use crate::geometry::{Bounds, Point, Vector};
@@ -24,11 +27,13 @@ pub(crate) fn apart(marks: &mut Marks) {
         return;
     }
     let original = arrows.clone();
-    let mut boxes: Vec<Bounds> = original.iter().map(around).collect();
+    // The rooms of those that were set.
+    let mut rooms = Places::sized_for(original.iter().map(around));
     let mut by_place: Vec<(f64, usize)> = original.iter().map(|a| a.at.x).zip(0..).collect();
     by_place.sort_by(|a, b| a.0.total_cmp(&b.0));
     for i in 0..arrows.len() {
         let Some(across) = across(&original[i]) else {
+            rooms.put(around(&original[i]));
             continue;
         };
         let moved = |aside: f64| ForceArrow {
@@ -40,14 +45,12 @@ pub(crate) fn apart(marks: &mut Marks) {
         let ideal = opposite.map_or(0.0, |_| -0.5 * (1.0 + ROOM) * original[i].width);
         let clear = |place: &f64| {
             let there = moved(*place);
-            let near = around(&there);
-            let mut before = arrows[..i].iter().zip(&boxes);
-            !before.any(|(other, its)| near.meets(*its) && asked(&there, other))
+            !rooms.any(around(&there), |other| asked(&there, &arrows[other]))
         };
         // Most stand clear where they would stand best.
         if clear(&ideal) {
             arrows[i] = moved(ideal);
-            boxes[i] = around(&arrows[i]);
+            rooms.put(around(&arrows[i]));
             continue;
         }
         // To a millionth of a shaft: of two places as far as each other noise of the forces must not choose.
@@ -55,10 +58,8 @@ pub(crate) fn apart(marks: &mut Marks) {
         let far = |place: &f64| shafts((place - ideal).abs());
         let nearest = |within: Option<Bounds>| {
             let mut places = vec![ideal, 0.0];
-            for (other, its) in arrows[..i].iter().zip(&boxes) {
-                if within.is_some_and(|within| !within.meets(*its)) {
-                    continue;
-                }
+            for other in rooms.meeting(within) {
+                let other = &arrows[other];
                 // Just clear of one of those before it, on either side.
                 let aside = |at: Point| (at - other.at).dot(&across);
                 if let Some((needed, _)) = side_by_side(&original[i], other) {
@@ -76,7 +77,7 @@ pub(crate) fn apart(marks: &mut Marks) {
             .filter(|place| place.abs() < 0.5 * NEAR * width)
             .or_else(|| nearest(None));
         arrows[i] = moved(place.unwrap_or(ideal));
-        boxes[i] = around(&arrows[i]);
+        rooms.put(around(&arrows[i]));
     }
 }
 

@@ -1,6 +1,7 @@
 //! From a [`Drawing`](crate::drawing::Drawing) to files: SVG text, and PNG and PDF bytes made from that text.
 //!
-//! The SVG is the figure; the others are pictures of it, so that they cannot disagree. Same drawing, same bytes, on
+//! The SVG is the figure; the others are pictures of it, so that they cannot disagree. The program spares itself the text
+//! where it wants pixels alone, and a test holds each of them to those of the SVG. Same drawing, same bytes, on
 //! every machine: no clock, no path, no font but our own and those that are given.
 //!
 //! # Size in print

@@ -1,11 +1,19 @@
 //! [`render`]: an SVG of ours as PNG bytes.
 
-use std::collections::HashSet;
+#[cfg(feature = "cli")]
+mod letter;
+mod pack;
+#[cfg(feature = "cli")]
+mod paint;
+#[cfg(test)]
+mod tests;
 
-use resvg::tiny_skia::{Pixmap, PremultipliedColorU8, Transform};
+use resvg::tiny_skia::{Color, IntSize, Pixmap, Transform};
 
+use self::pack::{encode, straight};
 use super::fonts::Fonts;
-use super::{MM_PER_INCH, tree};
+use super::{MM_PER_INCH, svg, tree};
+use crate::drawing::{Colour, Drawing};
 
 /// How large a picture is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,10 +53,6 @@ impl Compression {
         }
     }
 }
-
-/// The number by which a row says that it has no filter. Figures are flat: differences of neighbours, which help
-/// photographs, cost time here and make files larger.
-const NO_FILTER: u8 = 0;
 
 /// Why there is no picture.
 #[derive(Debug, thiserror::Error)]
@@ -106,11 +110,26 @@ pub fn render_in(
     fonts: &Fonts,
     compression: Compression,
 ) -> Result<Vec<u8>, PngError> {
-    let per_metre = match size {
+    encode(raster(svg, size, fonts)?, per_metre(size), compression)
+}
+
+/// As [`render_in`], of a drawing that is not written out as SVG first: the same picture in half the time.
+#[cfg(feature = "cli")]
+pub(crate) fn of_drawing(
+    drawing: &Drawing,
+    size: Size,
+    fonts: &Fonts,
+    compression: Compression,
+) -> Result<Vec<u8>, PngError> {
+    encode(painted(drawing, size, fonts)?, per_metre(size), compression)
+}
+
+/// Pixels in a metre, where the picture is for print.
+fn per_metre(size: Size) -> Option<u32> {
+    match size {
         Size::Print { dpi, .. } => Some((dpi * 1000.0 / MM_PER_INCH).round() as u32),
         _ => None,
-    };
-    encode(&raster(svg, size, fonts)?, per_metre, compression)
+    }
 }
 
 /// The pixels of a picture, before they are packed.
@@ -149,14 +168,30 @@ pub fn animate(
     seconds: f64,
     fonts: &Fonts,
 ) -> Result<Vec<u8>, PngError> {
+    animated(svgs.iter().map(|svg| raster(svg, size, fonts)), seconds)
+}
+
+/// As [`animate`], of drawings that are not written out as SVG first.
+#[cfg(feature = "cli")]
+pub(crate) fn animate_drawings(
+    drawings: &[Drawing],
+    size: Size,
+    seconds: f64,
+    fonts: &Fonts,
+) -> Result<Vec<u8>, PngError> {
+    let each = drawings.iter();
+    animated(each.map(|drawing| painted(drawing, size, fonts)), seconds)
+}
+
+fn animated(
+    each: impl Iterator<Item = Result<Pixmap, PngError>>,
+    seconds: f64,
+) -> Result<Vec<u8>, PngError> {
     let wrong = |why: &str| Err(PngError::Encode(why.to_owned()));
     if !(0.01..=600.0).contains(&seconds) {
         return wrong("each picture is shown for 0.01 to 600 seconds");
     }
-    let mut pictures = Vec::new();
-    for svg in svgs {
-        pictures.push(raster(svg, size, fonts)?);
-    }
+    let pictures = each.collect::<Result<Vec<Pixmap>, PngError>>()?;
     let Some(first) = pictures.first() else {
         return wrong("there is nothing to show");
     };
@@ -219,262 +254,51 @@ fn pixels(natural_width: f64, natural_height: f64, size: Size) -> Result<(f64, f
 
 fn raster(svg: &str, size: Size, fonts: &Fonts) -> Result<Pixmap, PngError> {
     let tree = tree::read(svg, fonts).map_err(PngError::Svg)?;
-    let (natural_width, natural_height) = (
-        f64::from(tree.size().width()),
-        f64::from(tree.size().height()),
-    );
-    let (width, height) = pixels(natural_width, natural_height, size)?;
-    let Some(mut pixels) = Pixmap::new(width as u32, height as u32) else {
-        return Err(PngError::Size { width, height });
-    };
-    // Stretched to whole pixels, by less than one in all, so that no edge of the page is half covered.
-    let transform = Transform::from_scale(
-        (width / natural_width) as f32,
-        (height / natural_height) as f32,
-    );
-    resvg::render(&tree, transform, &mut pixels.as_mut());
+    let natural = (tree.size().width(), tree.size().height());
+    let (mut pixels, scale) = page(natural, size, None)?;
+    resvg::render(&tree, scale, &mut pixels.as_mut());
     Ok(pixels)
 }
 
-fn encode(
-    pixels: &Pixmap,
-    per_metre: Option<u32>,
-    compression: Compression,
-) -> Result<Vec<u8>, PngError> {
-    let colours = Colours::of(pixels);
-    let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, pixels.width(), pixels.height());
-    encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_pixel_dims(per_metre.map(|n| png::PixelDimensions {
-        xppu: n,
-        yppu: n,
-        unit: png::Unit::Meter,
-    }));
-    let rows = colours.rows(pixels, &mut encoder);
-    let failed = |e: png::EncodingError| PngError::Encode(e.to_string());
-    let mut writer = encoder.write_header().map_err(failed)?;
-    // All rows at once: handed over one by one, each costs as much again in buffers that are cleared for it.
-    let packed = miniz_oxide::deflate::compress_to_vec_zlib(&rows, compression.level());
-    writer
-        .write_chunk(png::chunk::IDAT, &packed)
-        .map_err(failed)?;
-    writer.finish().map_err(failed)?;
-    Ok(bytes)
+#[cfg(feature = "cli")]
+fn painted(drawing: &Drawing, size: Size, fonts: &Fonts) -> Result<Pixmap, PngError> {
+    if !fonts.more().is_empty() {
+        // A page that is too large is refused before it is written out, which takes far more memory than the drawing.
+        check(drawing.width, drawing.height, size)?;
+        // Letters of other fonts may be pictures themselves, in many colours.
+        return raster(&svg::for_pixels(drawing), size, fonts);
+    }
+    let natural = [drawing.width, drawing.height].map(|side| svg::rounded(side) as f32);
+    let (mut pixels, scale) = page(natural.into(), size, drawing.background)?;
+    paint::paint(drawing, scale, &mut pixels).map_err(PngError::Svg)?;
+    Ok(pixels)
 }
 
-/// The fewest bytes per pixel that lose nothing.
-enum Colours {
-    /// One: a number in a table of at most 256 colours, in order.
-    Table(Vec<[u8; 4]>),
-    /// Three: nothing shows through.
-    Opaque,
-    /// Four.
-    All,
-}
-
-impl Colours {
-    fn of(pixels: &Pixmap) -> Colours {
-        let mut found = HashSet::new();
-        // Figures are flat: most pixels are as the one before, and most others as one that was seen lately.
-        let mut before = None;
-        let mut lately = [None; 256];
-        for pixel in pixels.pixels() {
-            if before.replace(*pixel) == Some(*pixel) {
-                continue;
-            }
-            let mixed = pixel.red() ^ pixel.green().rotate_left(3) ^ pixel.blue().rotate_left(6);
-            if lately[usize::from(mixed)].replace(*pixel) == Some(*pixel) {
-                continue;
-            }
-            found.insert(straight(*pixel));
-            if found.len() > 256 {
-                let opaque = pixels.pixels().iter().all(|p| p.is_opaque());
-                return if opaque {
-                    Colours::Opaque
-                } else {
-                    Colours::All
-                };
-            }
+/// The pixels of a picture, all of one colour or clear, and how a drawing is scaled to them.
+fn page(
+    (width, height): (f32, f32),
+    size: Size,
+    background: Option<Colour>,
+) -> Result<(Pixmap, Transform), PngError> {
+    let natural = (f64::from(width), f64::from(height));
+    let (width, height) = pixels(natural.0, natural.1, size)?;
+    // Stretched to whole pixels, by less than one in all, so that no edge of the page is half covered.
+    let scale = Transform::from_scale((width / natural.0) as f32, (height / natural.1) as f32);
+    let pixels = match (background, IntSize::from_wh(width as u32, height as u32)) {
+        // All bytes of a white page are alike: they are set once, and not cleared before.
+        (Some(Colour::WHITE), Some(size)) => {
+            let bytes = vec![u8::MAX; 4 * size.width() as usize * size.height() as usize];
+            Pixmap::from_vec(bytes, size)
         }
-        let mut table: Vec<_> = found.into_iter().collect();
-        table.sort_unstable();
-        Colours::Table(table)
-    }
-
-    /// The rows of pixels, each behind the number of its filter.
-    fn rows(&self, pixels: &Pixmap, encoder: &mut png::Encoder<'_, &mut Vec<u8>>) -> Vec<u8> {
-        match self {
-            Colours::Table(table) => {
-                encoder.set_color(png::ColorType::Indexed);
-                let colours = table.iter().flat_map(|c| [c[0], c[1], c[2]]);
-                encoder.set_palette(colours.collect::<Vec<_>>());
-                if table.iter().any(|c| c[3] < 255) {
-                    encoder.set_trns(table.iter().map(|c| c[3]).collect::<Vec<_>>());
-                }
-                let (mut before, mut number) = (None, 0);
-                rows(pixels, |pixel| {
-                    if before.replace(*pixel) != Some(*pixel) {
-                        let found = table.binary_search(&straight(*pixel));
-                        number = found.unwrap_or_default() as u8;
-                    }
-                    [number]
-                })
+        (background, Some(size)) => {
+            let mut pixels = Pixmap::new(size.width(), size.height());
+            if let (Some(pixels), Some(Colour([r, g, b]))) = (&mut pixels, background) {
+                pixels.fill(Color::from_rgba8(r, g, b, u8::MAX));
             }
-            Colours::Opaque => {
-                encoder.set_color(png::ColorType::Rgb);
-                // Where nothing shows through, the premultiplied colours are the colours.
-                rows(pixels, |p| [p.red(), p.green(), p.blue()])
-            }
-            Colours::All => {
-                encoder.set_color(png::ColorType::Rgba);
-                rows(pixels, |pixel| straight(*pixel))
-            }
+            pixels
         }
-    }
-}
-
-fn rows<const N: usize>(
-    pixels: &Pixmap,
-    mut bytes: impl FnMut(&PremultipliedColorU8) -> [u8; N],
-) -> Vec<u8> {
-    let (width, height) = (pixels.width() as usize, pixels.height() as usize);
-    let mut rows = vec![NO_FILTER; (1 + N * width) * height];
-    let all = pixels.pixels().chunks_exact(width);
-    for (row, pixels) in rows.chunks_exact_mut(1 + N * width).zip(all) {
-        let (places, _) = row[1..].as_chunks_mut::<N>();
-        for (place, pixel) in places.iter_mut().zip(pixels) {
-            *place = bytes(pixel);
-        }
-    }
-    rows
-}
-
-/// Red, green, blue and how opaque; the colours not weakened by it.
-fn straight(pixel: PremultipliedColorU8) -> [u8; 4] {
-    let c = pixel.demultiply();
-    [c.red(), c.green(), c.blue(), c.alpha()]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::drawing::{Colour, Drawing, Face, PagePoint, Text};
-    use crate::output::svg;
-
-    fn words(words: &str, face: Face) -> String {
-        let text = Text::new(PagePoint::new(5.0, 30.0), words, face, 24.0, Colour::BLACK);
-        svg::write(&Drawing {
-            width: 120.0,
-            height: 40.0,
-            title: String::new(),
-            description: String::new(),
-            background: Some(Colour::WHITE),
-            items: vec![text.into()],
-        })
-    }
-
-    /// Share of dark pixels.
-    fn ink(svg: &str) -> f64 {
-        let bytes = render(svg, Size::Natural).expect("a picture");
-        let mut decoder = png::Decoder::new(std::io::Cursor::new(bytes));
-        decoder.set_transformations(png::Transformations::EXPAND);
-        let mut reader = decoder.read_info().expect("png");
-        let mut data = vec![0; reader.output_buffer_size().expect("size")];
-        reader.next_frame(&mut data).expect("frame");
-        data.chunks_exact(3).filter(|p| p[0] < 128).count() as f64 / (data.len() as f64 / 3.0)
-    }
-
-    #[test]
-    fn every_face_leaves_ink_and_bold_leaves_more() {
-        for face in Face::ALL {
-            assert!(ink(&words("Block 3", face)) > 0.02, "{face:?}");
-        }
-        assert!(
-            ink(&words("Block 3", Face::SerifBold)) > 1.15 * ink(&words("Block 3", Face::Serif))
-        );
-        assert!(ink(&words("Block 3", Face::SansBold)) > 1.05 * ink(&words("Block 3", Face::Sans)));
-        assert_eq!(ink(&words("", Face::Sans)), 0.0);
-    }
-
-    #[test]
-    fn characters_no_font_has_leave_a_question_mark_and_no_box() {
-        let picture =
-            |text: &str, face| render(&words(text, face), Size::Natural).expect("a picture");
-        for face in [Face::Serif, Face::Sans] {
-            for unknown in ["石", "🪨", "ア", "\u{e000}", "لوح"] {
-                let marks = "?".repeat(unknown.chars().count());
-                assert_eq!(picture(unknown, face), picture(&marks, face), "{unknown}");
-            }
-        }
-    }
-
-    fn decoded(bytes: Vec<u8>) -> Vec<u8> {
-        let mut decoder = png::Decoder::new(std::io::Cursor::new(bytes));
-        decoder.set_transformations(png::Transformations::ALPHA | png::Transformations::EXPAND);
-        let mut reader = decoder.read_info().expect("png");
-        let mut data = vec![0; reader.output_buffer_size().expect("size")];
-        reader.next_frame(&mut data).expect("frame");
-        data
-    }
-
-    #[test]
-    fn a_picture_has_the_pixels_drawn_however_it_is_packed() {
-        let ramp = "<linearGradient id='r'><stop stop-color='#f00'/><stop offset='0.5' stop-color='#0f0'/><stop offset='1' stop-color='#00f'/></linearGradient>\
-                    <rect width='600' height='40' fill='url(#r)'";
-        // A table of few colours, some half clear; many opaque ones; many half clear ones.
-        for (inside, colour_type) in [
-            (
-                "<rect width='9' height='9' fill='#123456' opacity='0.4'/>".to_owned(),
-                3,
-            ),
-            (format!("{ramp}/>"), 2),
-            (format!("{ramp} opacity='0.9'/>"), 6),
-        ] {
-            let svg = format!(
-                "<svg xmlns='http://www.w3.org/2000/svg' width='600' height='40'>{inside}</svg>"
-            );
-            let drawn = rgba(&svg, Size::Natural).expect("drawn").rgba.concat();
-            let [small, quick] = [Compression::Small, Compression::Quick].map(|compression| {
-                render_in(&svg, Size::Natural, &Fonts::default(), compression).expect("packed")
-            });
-            assert_eq!(small[25], colour_type, "the PNG's colour type");
-            assert!(small.len() <= quick.len());
-            for packed in [small, quick] {
-                assert!(decoded(packed) == drawn, "{inside}");
-            }
-        }
-    }
-
-    #[test]
-    fn the_same_text_gives_the_same_bytes() {
-        let svg = words("Same", Face::Serif);
-        assert_eq!(
-            render(&svg, Size::Scale(2.5)).expect("one"),
-            render(&svg, Size::Scale(2.5)).expect("two")
-        );
-    }
-
-    #[test]
-    fn absurd_sizes_and_foreign_text_are_refused_in_words() {
-        let svg = words("x", Face::Serif);
-        for size in [
-            Size::Width(0),
-            Size::Width(60_000),
-            Size::Scale(0.0),
-            Size::Scale(-1.0),
-            Size::Scale(f64::NAN),
-            Size::Scale(1e9),
-            Size::Width(31_000),
-        ] {
-            let refused = render(&svg, size).expect_err("out of range");
-            assert!(
-                matches!(refused, PngError::Size { .. })
-                    && refused.to_string().contains("at most 100 million")
-            );
-        }
-        assert!(matches!(
-            render("no svg", Size::Natural),
-            Err(PngError::Svg(_))
-        ));
-    }
+        (_, None) => None,
+    };
+    let pixels = pixels.ok_or(PngError::Size { width, height })?;
+    Ok((pixels, scale))
 }

@@ -9,11 +9,15 @@ mod font;
 mod glyph;
 mod option;
 mod outline;
+#[cfg(test)]
+mod tests;
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 pub use option::{Options, Words};
+#[cfg(all(feature = "cli", feature = "png"))]
+pub(super) use outline::{Pen, rounded, trace};
 use outline::{number, steps};
 
 #[cfg(feature = "png")]
@@ -56,6 +60,12 @@ pub fn write(drawing: &Drawing) -> String {
 #[cfg(all(feature = "cli", feature = "png"))]
 pub(crate) fn for_pixels(drawing: &Drawing) -> String {
     document(drawing, None, "d", Form::Pixels)
+}
+
+/// As [`write()`], each line of words with its number as its name: `t1`, `t2` …
+#[cfg(feature = "png")]
+pub(super) fn numbered(drawing: &Drawing) -> String {
+    document(drawing, None, "", Form::Numbered)
 }
 
 /// A drawing as an SVG document of a size in print, or with words that do not depend on a reader's fonts.
@@ -106,8 +116,7 @@ pub fn write_with(drawing: &Drawing, options: &Options) -> Result<String, WordsE
 /// The drawing with each line of words laid out, its number as its name.
 #[cfg(feature = "png")]
 fn laid_out(drawing: &Drawing, options: &Options) -> Result<resvg::usvg::Tree, WordsError> {
-    let numbered = document(drawing, None, "", Form::Numbered);
-    tree::read(&numbered, &options.fonts).map_err(WordsError)
+    tree::read(&numbered(drawing), &options.fonts).map_err(WordsError)
 }
 
 /// A name that other drawings, and other forms of this one, do not have as a rule.
@@ -417,86 +426,4 @@ fn fold(text: &str) -> u32 {
         (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3)
     });
     (hash ^ (hash >> 32)) as u32
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::drawing::{Colour, Outline, PagePoint, PageRect};
-
-    fn page(items: Vec<Item>) -> Drawing {
-        Drawing {
-            width: 40.0,
-            height: 30.0,
-            title: "t".into(),
-            description: "d".into(),
-            background: None,
-            items,
-        }
-    }
-
-    #[test]
-    #[should_panic(expected = "every number of a drawing is finite")]
-    fn a_number_that_is_none_is_refused() {
-        write(&page(vec![
-            Path::filled(
-                Outline::circle(PagePoint::new(f64::NAN, 0.0), 1.0),
-                Colour::BLACK,
-            )
-            .into(),
-        ]));
-    }
-
-    #[test]
-    fn hostile_words_stay_words() {
-        let nasty = "</text><script>'\"&\u{0}\u{1b}\u{fffe}\u{1ffff}石🪨";
-        let text = Text::new(
-            PagePoint::new(0.0, 9.0),
-            nasty,
-            Face::Sans,
-            9.0,
-            Colour::BLACK,
-        );
-        let group = Group {
-            id: Some(nasty.into()),
-            ..Group::of_class(nasty)
-        }
-        .titled(nasty)
-        .with(text);
-        let svg = write(&page(vec![group.into()]));
-        assert!(
-            svg.contains("&lt;/text&gt;&lt;script&gt;&#39;&quot;&amp;\u{fffd}\u{fffd}石🪨</text>"),
-            "{svg}"
-        );
-        assert!(!svg.contains("<script") && !svg.contains('\u{fffe}') && !svg.contains('\u{1b}'));
-    }
-
-    #[test]
-    fn names_carry_the_mark_of_their_figure() {
-        let clipped = |x: f64| {
-            let clip = Some(PageRect {
-                at: PagePoint::new(x, 0.0),
-                width: 5.0,
-                height: 5.0,
-            });
-            write(&page(vec![
-                Group {
-                    id: Some("a".into()),
-                    clip,
-                    ..Group::default()
-                }
-                .into(),
-            ]))
-        };
-        let (one, two) = (clipped(1.0), clipped(2.0));
-        let id = |svg: &str| {
-            svg.split("clipPath id=\"")
-                .nth(1)
-                .and_then(|s| s.split('"').next())
-                .map(str::to_owned)
-        };
-        assert_ne!(id(&one), id(&two));
-        assert!(one.contains(&format!("url(#{})", id(&one).expect("a clip"))));
-        assert_eq!(one, clipped(1.0));
-    }
 }

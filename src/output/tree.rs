@@ -125,7 +125,7 @@ pub(super) fn runs(span: &usvg::layout::Span) -> Vec<Run> {
 }
 
 /// Which of our faces a font of the tree is.
-fn face(id: fontdb::ID) -> Option<Face> {
+pub(super) fn face(id: fontdb::ID) -> Option<Face> {
     let known = &fonts().1;
     known
         .iter()

@@ -163,6 +163,7 @@ const DOORS: &[(&str, &[&str])] = &[
         &[
             "output/tree.rs",
             "output/png.rs",
+            "output/png/",
             "output/pdf.rs",
             "output/svg.rs",
             "output/svg/",
@@ -179,7 +180,10 @@ const DOORS: &[(&str, &[&str])] = &[
             "cli/snapshot/answer.rs",
         ],
     ),
-    ("png", &["output/png.rs", "snapshot/picture/"]),
+    (
+        "png",
+        &["output/png.rs", "output/png/", "snapshot/picture/"],
+    ),
     ("earcut", &["geometry/overlap.rs"]),
     ("robust", &["geometry/"]),
     ("skrifa", &["drawing/text.rs"]),

@@ -17,6 +17,70 @@ pub(super) fn number(value: f64) -> String {
     if text == "-0" { "0".to_owned() } else { text }
 }
 
+/// What [`number`] tells of a number, as a number again.
+///
+/// # Panics
+/// As [`number`].
+#[cfg(all(feature = "cli", feature = "png"))]
+pub(in crate::output) fn rounded(value: f64) -> f64 {
+    let whole = (value * 100.0).round();
+    // Half a hundredth goes to the even neighbour, and not, as here, away from zero.
+    match (value * 100.0 - whole).abs() < 0.49 {
+        true => whole / 100.0,
+        false => number(value).parse().unwrap_or_default(),
+    }
+}
+
+/// Where the path data of an outline leads.
+#[cfg(all(feature = "cli", feature = "png"))]
+pub(in crate::output) trait Pen {
+    /// Begins a new part.
+    fn begin(&mut self, x: f64, y: f64);
+    /// A straight line.
+    fn line(&mut self, x: f64, y: f64);
+    /// A curve by way of two control points.
+    fn curve(&mut self, points: [(f64, f64); 3]);
+    /// Straight back to where the part began.
+    fn close(&mut self);
+}
+
+/// Follows an outline as whoever reads its path data does: by steps of whole hundredths, added up.
+#[cfg(all(feature = "cli", feature = "png"))]
+pub(in crate::output) fn trace(outline: &Outline, pen: &mut impl Pen) {
+    let (mut begin, mut at, mut from) = ((0, 0), (0, 0), (0.0, 0.0));
+    for segment in &outline.segments {
+        let ahead = |to: PagePoint| {
+            let to = hundredths(to);
+            let step = |to: i64, at: i64| (to - at) as f64 / 100.0;
+            (from.0 + step(to.0, at.0), from.1 + step(to.1, at.1))
+        };
+        match *segment {
+            Segment::Move(p) => {
+                at = hundredths(p);
+                begin = at;
+                from = (at.0 as f64 / 100.0, at.1 as f64 / 100.0);
+                pen.begin(from.0, from.1);
+            }
+            Segment::Line(p) => {
+                from = ahead(p);
+                at = hundredths(p);
+                pen.line(from.0, from.1);
+            }
+            Segment::Curve(a, b, c) => {
+                let points = [ahead(a), ahead(b), ahead(c)];
+                from = points[2];
+                at = hundredths(c);
+                pen.curve(points);
+            }
+            Segment::Close => {
+                at = begin;
+                from = (at.0 as f64 / 100.0, at.1 as f64 / 100.0);
+                pen.close();
+            }
+        }
+    }
+}
+
 /// Writes the path data of an outline.
 pub(super) fn steps(data: &mut String, outline: &Outline) {
     let mut pen = Steps {

@@ -1,0 +1,122 @@
+//! [`Places`]: boxes on a grid of cells, so that those near another are found without a look at all.
+
+use std::collections::HashMap;
+
+use crate::geometry::{Bounds, Point};
+
+/// A box that lies in more cells than these is looked at every time.
+const MOST_CELLS: f64 = 64.0;
+
+/// Boxes by their numbers, from 0 in the order in which they were put.
+pub(super) struct Places {
+    /// Width and height of a cell, metres.
+    cell: f64,
+    boxes: Vec<Bounds>,
+    cells: HashMap<(i64, i64), Vec<usize>>,
+    large: Vec<usize>,
+}
+
+impl Places {
+    /// None yet, and cells as large as these boxes are on average.
+    pub fn sized_for(boxes: impl ExactSizeIterator<Item = Bounds>) -> Places {
+        let count = boxes.len();
+        Places {
+            cell: boxes.map(Bounds::diagonal).sum::<f64>() / count as f64,
+            boxes: Vec::new(),
+            cells: HashMap::new(),
+            large: Vec::new(),
+        }
+    }
+
+    /// One more box.
+    pub fn put(&mut self, its: Bounds) {
+        let number = self.boxes.len();
+        self.boxes.push(its);
+        match self.covered(its) {
+            None => self.large.push(number),
+            Some((low, high)) => {
+                for cell in grid(low, high) {
+                    self.cells.entry(cell).or_default().push(number);
+                }
+            }
+        }
+    }
+
+    /// Whether some box that meets this one is as asked.
+    pub fn any(&self, near: Bounds, mut asked: impl FnMut(usize) -> bool) -> bool {
+        let mut asked = |number: &usize| near.meets(self.boxes[*number]) && asked(*number);
+        let Some((low, high)) = self.covered(near) else {
+            return (0..self.boxes.len()).any(|number| asked(&number));
+        };
+        let mut cells = grid(low, high).filter_map(|cell| self.cells.get(&cell));
+        self.large.iter().any(&mut asked) || cells.any(|cell| cell.iter().any(&mut asked))
+    }
+
+    /// The numbers of the boxes that meet this one, in order; of all without one.
+    pub fn meeting(&self, near: Option<Bounds>) -> Vec<usize> {
+        let Some(near) = near else {
+            return (0..self.boxes.len()).collect();
+        };
+        let mut found = Vec::new();
+        self.any(near, |number| {
+            found.push(number);
+            false
+        });
+        // A box lies in several cells.
+        found.sort_unstable();
+        found.dedup();
+        found
+    }
+
+    /// The first and the last of the cells in which a box lies; `None` for too many.
+    fn covered(&self, its: Bounds) -> Option<((i64, i64), (i64, i64))> {
+        let cell = |p: Point| ((p.x / self.cell).floor(), (p.y / self.cell).floor());
+        let (low, high) = (cell(its.min), cell(its.max));
+        let few = (high.0 - low.0 + 1.0) * (high.1 - low.1 + 1.0) <= MOST_CELLS;
+        let whole = |(x, y): (f64, f64)| (x as i64, y as i64);
+        few.then(|| (whole(low), whole(high)))
+    }
+}
+
+fn grid(low: (i64, i64), high: (i64, i64)) -> impl Iterator<Item = (i64, i64)> {
+    (low.0..=high.0).flat_map(move |x| (low.1..=high.1).map(move |y| (x, y)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Vector;
+
+    #[test]
+    fn the_boxes_that_meet_are_those_of_a_look_at_all() {
+        let mut seed = 7_u64;
+        let mut random = || {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            (seed >> 40) as f64 / f64::from(1 << 24)
+        };
+        let mut boxes = Vec::new();
+        for number in 0..400 {
+            let min = Point::new(40.0 * random() - 20.0, 9.0 * random());
+            // Some are long, and one would fill the grid.
+            let long = if number % 50 == 0 { 300.0 } else { 1.5 };
+            let max = min + Vector::new(long * random(), random());
+            boxes.push(Bounds { min, max });
+        }
+        let mut places = Places::sized_for(boxes.iter().copied());
+        for (count, asked) in boxes.iter().enumerate() {
+            for near in [*asked, asked.grown(3.0), asked.grown(100.0)] {
+                let all = (0..count).filter(|n| near.meets(boxes[*n]));
+                assert_eq!(places.meeting(Some(near)), all.collect::<Vec<_>>());
+            }
+            assert_eq!(places.meeting(None).len(), count);
+            places.put(*asked);
+        }
+        let point = Bounds {
+            min: Point::origin(),
+            max: Point::origin(),
+        };
+        let mut one = Places::sized_for([point].into_iter());
+        one.put(point);
+        assert_eq!(one.meeting(Some(point)), [0]);
+    }
+}

@@ -1,0 +1,160 @@
+//! [`encode`]: pixels as PNG, in the fewest bytes each that lose nothing.
+
+use resvg::tiny_skia::{Pixmap, PremultipliedColorU8};
+
+use super::{Compression, PngError};
+
+/// The number by which a row says that it has no filter. Figures are flat: differences of neighbours, which help
+/// photographs, cost time here and make files larger.
+const NO_FILTER: u8 = 0;
+
+/// A picture as a PNG, and how many of its pixels a metre of print has.
+pub(super) fn encode(
+    pixels: Pixmap,
+    per_metre: Option<u32>,
+    compression: Compression,
+) -> Result<Vec<u8>, PngError> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, pixels.width(), pixels.height());
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_pixel_dims(per_metre.map(|n| png::PixelDimensions {
+        xppu: n,
+        yppu: n,
+        unit: png::Unit::Meter,
+    }));
+    let rows = fewest(pixels, &mut encoder);
+    let failed = |e: png::EncodingError| PngError::Encode(e.to_string());
+    let mut writer = encoder.write_header().map_err(failed)?;
+    // All rows at once: handed over one by one, each costs as much again in buffers that are cleared for it.
+    let packed = miniz_oxide::deflate::compress_to_vec_zlib(&rows, compression.level());
+    writer
+        .write_chunk(png::chunk::IDAT, &packed)
+        .map_err(failed)?;
+    writer.finish().map_err(failed)?;
+    Ok(bytes)
+}
+
+/// The rows of pixels, each behind the number of its filter: one byte a pixel for at most 256 colours, three where nothing
+/// shows through, else four.
+fn fewest(pixels: Pixmap, encoder: &mut png::Encoder<'_, &mut Vec<u8>>) -> Vec<u8> {
+    let mut table = Table::default();
+    if let Some(runs) = runs(&pixels, &mut table) {
+        // In order, so that the same picture is the same bytes.
+        let colours: Vec<[u8; 4]> = table.found.iter().map(|p| straight(*p)).collect();
+        let mut sorted = colours.clone();
+        sorted.sort_unstable();
+        let number = |colour| sorted.binary_search(colour).unwrap_or_default() as u8;
+        let numbers: Vec<u8> = colours.iter().map(number).collect();
+        let width = pixels.width() as usize;
+        let mut rows = Vec::with_capacity((1 + width) * pixels.height() as usize);
+        for (colour, alike) in runs {
+            if rows.len() % (1 + width) == 0 {
+                rows.push(NO_FILTER);
+            }
+            rows.resize(rows.len() + alike, numbers[usize::from(colour)]);
+        }
+        encoder.set_color(png::ColorType::Indexed);
+        let colours = sorted.iter().flat_map(|c| [c[0], c[1], c[2]]);
+        encoder.set_palette(colours.collect::<Vec<_>>());
+        if sorted.iter().any(|c| c[3] < 255) {
+            encoder.set_trns(sorted.iter().map(|c| c[3]).collect::<Vec<_>>());
+        }
+        return rows;
+    }
+    // Without a look at each alone, several are looked at at once.
+    let all = pixels.data().as_chunks::<4>().0;
+    if all.iter().fold(u8::MAX, |least, pixel| least & pixel[3]) == u8::MAX {
+        encoder.set_color(png::ColorType::Rgb);
+        // Where nothing shows through, the premultiplied colours are the colours.
+        return rows(&pixels, |p| [p.red(), p.green(), p.blue()]);
+    }
+    encoder.set_color(png::ColorType::Rgba);
+    rows(&pixels, straight)
+}
+
+/// Numbers of colours and how many pixels of a row have each, row by row; `None` for too many colours.
+fn runs(pixels: &Pixmap, table: &mut Table) -> Option<Vec<(u8, usize)>> {
+    let mut runs = Vec::new();
+    for row in pixels.pixels().chunks_exact(pixels.width() as usize) {
+        let mut rest = row;
+        while let Some(first) = rest.first() {
+            let alike = alike(rest, *first);
+            runs.push((table.number(*first)?, alike));
+            rest = &rest[alike..];
+        }
+    }
+    Some(runs)
+}
+
+/// How many pixels at the beginning are as the first. Figures are flat: mostly many, so several are looked at at once.
+fn alike(row: &[PremultipliedColorU8], first: PremultipliedColorU8) -> usize {
+    let (eights, _) = row.as_chunks::<8>();
+    let same = |eight: &&[PremultipliedColorU8; 8]| {
+        eight.iter().fold(true, |same, p| same & (*p == first))
+    };
+    let whole = 8 * eights.iter().take_while(same).count();
+    whole + row[whole..].iter().take_while(|p| **p == first).count()
+}
+
+/// Colours that a byte can number.
+const MOST_COLOURS: usize = 256;
+/// Places for them, most of which stay free: a power of two.
+const PLACES: usize = 4 * MOST_COLOURS;
+
+/// Colours in the order in which they were found.
+struct Table {
+    found: Vec<PremultipliedColorU8>,
+    /// Numbers of colours, each at the place that its bits say or behind it.
+    places: [Option<u8>; PLACES],
+}
+
+impl Default for Table {
+    fn default() -> Table {
+        Table {
+            found: Vec::new(),
+            places: [None; PLACES],
+        }
+    }
+}
+
+impl Table {
+    /// The number of a colour, a new one too; `None` where all numbers are given away.
+    fn number(&mut self, colour: PremultipliedColorU8) -> Option<u8> {
+        let bits =
+            u32::from_le_bytes([colour.red(), colour.green(), colour.blue(), colour.alpha()]);
+        // Multiplied by 2³² over the golden ratio, bits of all channels come to lie on top.
+        let mut place = (bits.wrapping_mul(0x9e37_79b9) >> 22) as usize;
+        while let Some(number) = self.places[place] {
+            if self.found[usize::from(number)] == colour {
+                return Some(number);
+            }
+            place = (place + 1) % PLACES;
+        }
+        let number = u8::try_from(self.found.len()).ok()?;
+        self.places[place] = Some(number);
+        self.found.push(colour);
+        Some(number)
+    }
+}
+
+fn rows<const N: usize>(
+    pixels: &Pixmap,
+    bytes: impl Fn(PremultipliedColorU8) -> [u8; N],
+) -> Vec<u8> {
+    let (width, height) = (pixels.width() as usize, pixels.height() as usize);
+    let mut rows = vec![NO_FILTER; (1 + N * width) * height];
+    let all = pixels.pixels().chunks_exact(width);
+    for (row, pixels) in rows.chunks_exact_mut(1 + N * width).zip(all) {
+        let (places, _) = row[1..].as_chunks_mut::<N>();
+        for (place, pixel) in places.iter_mut().zip(pixels) {
+            *place = bytes(*pixel);
+        }
+    }
+    rows
+}
+
+/// Red, green, blue and how opaque; the colours not weakened by it.
+pub(super) fn straight(pixel: PremultipliedColorU8) -> [u8; 4] {
+    let c = pixel.demultiply();
+    [c.red(), c.green(), c.blue(), c.alpha()]
+}
