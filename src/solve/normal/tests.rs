@@ -310,7 +310,13 @@ fn other_kinds_of_programs_are_left_to_clarabel() {
     let taken = |problem: &Conic| solve_where(problem, limits(), 0.0).is_some();
     assert!(taken(&plain) && taken(&forces(&loads, &list, &cost)));
     assert!(solve(&plain, limits()).is_none(), "too small");
-    assert!(solve_where(&plain, limits(), 1e9).is_none(), "too easy");
+    let few = Limits {
+        iterations: 1,
+        ..limits()
+    };
+    let unsolved = |least_work: f64| solve_where(&plain, few, least_work);
+    assert!(unsolved(0.0).is_some_and(|a| a.status == Status::Unsolved));
+    assert!(unsolved(1e9).is_none(), "a chain without a status");
     let mut squared = plain.clone();
     squared.quadratic.push((0, 0, 1.0));
     let mut heavy = plain.clone();
