@@ -158,17 +158,21 @@ impl<T, const D: usize> Tree<T, D> {
     }
 }
 
-/// How long boxes are in each direction, half of them at most; where they are but points, a part of how far they are spread.
+/// How long boxes are in each direction, half of them at most; where they are but points, a part of how far the inner half of
+/// them is spread. The ground may reach much farther than all else.
 fn usual<const D: usize>(order: &[(Around<D>, usize)]) -> [f64; D] {
     const PART: f64 = 1e-3;
-    let spread = spread(order);
-    let mut lengths = Vec::with_capacity(order.len());
+    let mut all = Vec::with_capacity(order.len());
+    let mut part = |of: &dyn Fn(&Around<D>) -> f64, quarters: usize| {
+        all.clear();
+        all.extend(order.iter().map(|(own, _)| of(own)));
+        let place = quarters * all.len() / 4;
+        *all.select_nth_unstable_by(place, f64::total_cmp).1
+    };
     std::array::from_fn(|d| {
-        lengths.clear();
-        lengths.extend(order.iter().map(|(own, _)| own.max[d] - own.min[d]));
-        let half = lengths.len() / 2;
-        let (_, length, _) = lengths.select_nth_unstable_by(half, f64::total_cmp);
-        *length + PART * spread[d] + f64::MIN_POSITIVE
+        let length = part(&|own| own.max[d] - own.min[d], 2);
+        let middle = |own: &Around<D>| own.middle(d);
+        length + PART * (part(&middle, 3) - part(&middle, 1)) + f64::MIN_POSITIVE
     })
 }
 
