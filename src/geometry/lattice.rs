@@ -196,13 +196,13 @@ impl Lattice {
 
 const HALF_SQRT_3: f64 = 0.866_025_403_784_438_6;
 
-/// The boundary of a set of cells as directed edges, the cells on their left.
-pub(crate) fn boundary(cells: &[Cell]) -> BTreeSet<Step> {
-    let all: BTreeSet<Step> = cells.iter().flat_map(|c| c.steps()).collect();
-    all.iter()
-        .filter(|(a, b)| !all.contains(&(*b, *a)))
-        .copied()
-        .collect()
+/// The boundary of a set of cells as directed edges, the cells on their left, in their order.
+pub(crate) fn boundary(cells: &[Cell]) -> Vec<Step> {
+    let mut all: Vec<Step> = cells.iter().flat_map(|c| c.steps()).collect();
+    all.sort_unstable();
+    all.dedup();
+    let is_outer = |(a, b): &&Step| all.binary_search(&(*b, *a)).is_err();
+    all.iter().filter(is_outer).copied().collect()
 }
 
 /// Outer ring first, then the holes from the smallest, straight runs joined. `None` unless the cells hang together by edges.
@@ -211,28 +211,25 @@ fn trace(cells: &[Cell]) -> Option<Vec<Vec<Node>>> {
         return None;
     }
     let edges = boundary(cells);
-    let mut from: BTreeMap<Node, Vec<Node>> = BTreeMap::new();
-    for (a, b) in &edges {
-        from.entry(*a).or_default().push(*b);
-    }
+    let mut left = vec![true; edges.len()];
     let mut rings = Vec::new();
-    let mut left = edges;
-    while let Some(first) = left.iter().next().copied() {
+    for first in 0..edges.len() {
         let mut ring = vec![];
-        let (mut a, mut b) = first;
-        while left.remove(&(a, b)) {
+        let mut at = first;
+        while std::mem::replace(&mut left[at], false) {
+            let (a, b) = edges[at];
             ring.push(a);
             // Where rings touch in a node, turn as far left as possible, so that each cell stays with its own ring. Of
             // several ways on only one can turn left, and where none does one goes straight on.
-            let next = from[&b]
-                .iter()
-                .filter(|c| left.contains(&(b, **c)))
-                .max_by_key(|c| turn(a, b, **c))
-                .copied();
-            let Some(c) = next else { break };
-            (a, b) = (b, c);
+            let begin = edges.partition_point(|edge| edge.0 < b);
+            let ways = (begin..edges.len()).take_while(|k| edges[*k].0 == b);
+            let next = (ways.filter(|k| left[*k])).max_by_key(|k| turn(a, b, edges[*k].1));
+            let Some(next) = next else { break };
+            at = next;
         }
-        rings.push(straightened(&ring));
+        if !ring.is_empty() {
+            rings.push(straightened(&ring));
+        }
     }
     rings.sort_by_key(|ring| std::cmp::Reverse(doubled_area(ring)));
     Some(rings)

@@ -5,7 +5,7 @@
 
 use std::borrow::Cow;
 
-use super::{Bounds, Point, Polygon, Vector, cross};
+use super::{Bounds, Point, Polygon, Vector, cross, quarter_turn};
 
 /// A polygon cut into convex pieces: itself where it is convex.
 #[derive(Clone, Debug)]
@@ -14,11 +14,52 @@ pub struct Pieces<'p> {
     triangles: Vec<Piece<'p>>,
 }
 
-/// Corners of a convex piece, anticlockwise, with its box.
+/// Corners of a convex piece, anticlockwise, with its box and the band between its longest side and the corner farthest
+/// from it: many thin pieces that lie side by side are apart by that alone.
 #[derive(Clone, Debug)]
 struct Piece<'p> {
     around: Bounds,
+    /// Square to the longest side, as long as that is, and how far the piece reaches along it.
+    across: Vector,
+    reach: [f64; 2],
     corners: Cow<'p, [Point]>,
+}
+
+impl<'p> Piece<'p> {
+    fn of(corners: Cow<'p, [Point]>) -> Option<Piece<'p>> {
+        let around = Bounds::of(corners.iter().copied())?;
+        let last = corners.len() - 1;
+        let mut longest = corners[0] - corners[last];
+        for i in 0..last {
+            let side = corners[i + 1] - corners[i];
+            if side.norm_squared() > longest.norm_squared() {
+                longest = side;
+            }
+        }
+        let across = quarter_turn(longest);
+        Some(Piece {
+            around,
+            across,
+            reach: reach(&corners, across),
+            corners,
+        })
+    }
+
+    /// Whether another piece lies beside this one's band.
+    fn is_beside(&self, other: &Piece<'_>) -> bool {
+        let [least, most] = reach(&other.corners, self.across);
+        least > self.reach[1] || most < self.reach[0]
+    }
+}
+
+/// How far points reach along a vector, times its length.
+fn reach(points: &[Point], along: Vector) -> [f64; 2] {
+    points
+        .iter()
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], p| {
+            let at = along.dot(&p.coords);
+            [least.min(at), most.max(at)]
+        })
 }
 
 /// Two bodies in the same place.
@@ -37,10 +78,7 @@ impl<'p> Pieces<'p> {
     pub fn of(polygon: &'p Polygon) -> Pieces<'p> {
         if polygon.is_convex() {
             return Pieces {
-                whole: Some(Piece {
-                    around: polygon.bounds(),
-                    corners: Cow::Borrowed(polygon.outline()),
-                }),
+                whole: Piece::of(Cow::Borrowed(polygon.outline())),
                 triangles: Vec::new(),
             };
         }
@@ -65,12 +103,7 @@ impl<'p> Pieces<'p> {
                 triangle
             })
             .filter(|t| cross(t[1] - t[0], t[2] - t[0]) > 0.0)
-            .filter_map(|t| {
-                Some(Piece {
-                    around: Bounds::of(t.iter().copied())?,
-                    corners: Cow::Owned(t),
-                })
-            })
+            .filter_map(|t| Piece::of(Cow::Owned(t)))
             .collect();
         Pieces {
             whole: None,
@@ -89,6 +122,9 @@ pub fn overlap(a: &Pieces<'_>, b: &Pieces<'_>, gap: f64) -> Option<Overlap> {
     let mut close = Vec::new();
     for one in a.all() {
         for two in b.all().filter(|two| one.around.meets(two.around)) {
+            if one.is_beside(two) || two.is_beside(one) {
+                continue;
+            }
             let mut d = penetration(&one.corners, &two.corners);
             if d > 0.0 {
                 d = d.min(penetration(&two.corners, &one.corners));

@@ -4,9 +4,7 @@
 //! of an edge and [`Edge::outward`] always points out of it. Repeated corners are dropped; corners on a straight line
 //! stay, they are the author's.
 
-use rstar::{AABB, Envelope, RTreeObject};
-
-use super::{Nearby, Point, Vector, cross};
+use super::{Around, Nearby, Point, Vector, cross};
 
 /// A simple polygon, perhaps with holes.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,6 +36,15 @@ impl Edge {
     pub fn outward(&self) -> Vector {
         let d = self.vector().normalize();
         Vector::new(d.y, -d.x)
+    }
+
+    /// The box around it.
+    pub(crate) fn around(&self) -> Around {
+        let (a, b) = (self.from, self.to);
+        Around {
+            min: [a.x.min(b.x), a.y.min(b.y)],
+            max: [a.x.max(b.x), a.y.max(b.y)],
+        }
     }
 }
 
@@ -384,17 +391,11 @@ struct Side {
     edge: Edge,
 }
 
-impl RTreeObject for Side {
-    type Envelope = AABB<[f64; 2]>;
-    fn envelope(&self) -> Self::Envelope {
-        AABB::from_corners(
-            [self.edge.from.x, self.edge.from.y],
-            [self.edge.to.x, self.edge.to.y],
-        )
-    }
-}
-
 impl Side {
+    fn around(&self) -> Around {
+        self.edge.around()
+    }
+
     /// A point that it has in common with a later side, where it should have none.
     fn meets(&self, later: &Side) -> Option<Point> {
         let (a, b) = (self, later);
@@ -426,7 +427,7 @@ fn crossings(rings: &[Vec<Point>], repeats: &Repeats) -> Vec<Flaw> {
             edge,
         }));
     }
-    let nearby = (all.len() > FEW_SIDES).then(|| Nearby::of(all.clone()));
+    let nearby = (all.len() > FEW_SIDES).then(|| Nearby::of(all.clone(), Side::around));
     let mut flaws = Vec::new();
     for (number, a) in all.iter().enumerate() {
         let before = flaws.len();
@@ -440,10 +441,10 @@ fn crossings(rings: &[Vec<Point>], repeats: &Repeats) -> Vec<Flaw> {
                 flaws.push(((b.ring, b.position), crossing));
             }
         };
-        let around = a.envelope();
+        let around = a.around();
         match &nearby {
             None => (all[number + 1..].iter())
-                .filter(|b| around.intersects(&b.envelope()))
+                .filter(|b| around.meets(&b.around()))
                 .for_each(compare),
             Some(nearby) => (nearby.near(around))
                 .filter(|b| (a.ring, a.position) < (b.ring, b.position))

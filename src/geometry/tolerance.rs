@@ -26,6 +26,8 @@ impl Tolerance {
     pub const STRETCH: f64 = 0.25;
     /// Stretch in parts of the shorter edge, where that is less.
     pub const OF_EDGE: f64 = 1e-3;
+    /// The largest angle between two edges that face each other.
+    pub const ANGLE: f64 = 0.01;
     /// The reach counts for at most so many typical block sizes, so that a far-flung scene keeps its small contacts.
     pub const REACH: f64 = 1000.0;
 
@@ -42,7 +44,7 @@ impl Tolerance {
             gap,
             stretch: Self::STRETCH * gap,
             rounding: Self::STRETCH * gap,
-            angle: 0.01,
+            angle: Self::ANGLE,
         }
     }
 

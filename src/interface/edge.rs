@@ -2,15 +2,19 @@
 
 use std::collections::BTreeMap;
 
-use rstar::{AABB, RTreeObject};
-
 use super::held::{FLAT, propped};
 use super::{ContactKind, Interface, Interfaces, Near, bodies, ordered};
-use crate::geometry::{Edge, Nearby, Point, Tolerance, Vector, cross, quarter_turn};
+use crate::geometry::{Around, Edge, Nearby, Point, Tolerance, Vector, cross, quarter_turn};
 use crate::scene::{BodyId, Scene, size};
 
 /// Edges farther apart than this many gaps are not worth a notice.
 const NEAR: f64 = 30.0;
+
+/// Edges that are parallel to the last digits always face each other, however short the gap.
+const PARALLEL: f64 = 1e-9;
+
+/// A whole turn, measured by [`direction`].
+const TURN: f64 = 4.0;
 
 /// Edges of a block farther apart than this part of its size were not drawn to touch.
 const BESIDE: f64 = 0.01;
@@ -23,13 +27,49 @@ struct Side {
     near: f64,
 }
 
-impl RTreeObject for Side {
-    type Envelope = AABB<[f64; 2]>;
-    fn envelope(&self) -> Self::Envelope {
-        AABB::from_corners(
-            [self.edge.from.x, self.edge.from.y],
-            [self.edge.to.x, self.edge.to.y],
-        )
+impl Side {
+    /// The box around it, and the directions from which one that faces it differs by less than either of them may be off: of
+    /// the stones of an arch, thin and leaning, boxes overlap by the hundred, and every joint has a direction of its own.
+    fn around(&self) -> Around<3> {
+        let along = self.edge.vector();
+        let angle = (2.0 * self.near / along.norm()).clamp(PARALLEL, Tolerance::ANGLE);
+        // A sine is less than its angle by less than a thousandth, and directions differ by less than angles.
+        let angle = 1.001 * angle;
+        let (flat, direction) = (self.edge.around(), direction(along));
+        Around {
+            min: [flat.min[0], flat.min[1], direction - angle],
+            max: [flat.max[0], flat.max[1], direction + angle],
+        }
+    }
+
+    /// Boxes around everything that faces it, within its reach. Next to where directions begin and end there are two.
+    fn facing(&self) -> impl Iterator<Item = Around<3>> {
+        let mut around = self.around();
+        for d in 0..2 {
+            around.min[d] -= self.near;
+            around.max[d] += self.near;
+        }
+        let turned = [-0.5 * TURN, 0.5 * TURN].map(|by| {
+            let mut turned = around;
+            turned.min[2] += by;
+            turned.max[2] += by;
+            turned
+        });
+        let margin = 2.0 * Tolerance::ANGLE;
+        let is_one =
+            move |around: &Around<3>| around.max[2] >= -margin && around.min[2] <= TURN + margin;
+        turned.into_iter().filter(is_one)
+    }
+}
+
+/// Which way a vector points, from 0 to 4 anticlockwise, quarter by quarter: grows by at most 1 for every radian.
+fn direction(v: Vector) -> f64 {
+    let part = v.y.abs() / (v.x.abs() + v.y.abs());
+    match (v.x >= 0.0, v.y >= 0.0) {
+        (true, true) => part,
+        (false, true) => 2.0 - part,
+        (false, false) => 2.0 + part,
+        (true, false) => TURN - part,
     }
 }
 
@@ -69,23 +109,13 @@ pub(super) fn find(scene: &Scene) -> Interfaces {
             near,
         }));
     }
-    let nearby = Nearby::of(sides);
+    let nearby = Nearby::of(sides, Side::around);
     // With the bodies and the numbers of the two edges, whose order is that of the interfaces.
     let mut met: Vec<([BodyId; 2], [usize; 2], Meeting)> =
         Vec::with_capacity(2 * scene.blocks.len());
-    for a in nearby.all().filter(|a| matches!(a.body, BodyId::Block(_))) {
-        let reach = a.near;
-        let around = AABB::from_corners(
-            [
-                a.edge.from.x.min(a.edge.to.x) - reach,
-                a.edge.from.y.min(a.edge.to.y) - reach,
-            ],
-            [
-                a.edge.from.x.max(a.edge.to.x) + reach,
-                a.edge.from.y.max(a.edge.to.y) + reach,
-            ],
-        );
-        for b in nearby.near(around) {
+    let sides = nearby.all().map(|(_, side)| side);
+    for a in sides.filter(|a| matches!(a.body, BodyId::Block(_))) {
+        for b in a.facing().flat_map(|around| nearby.near(around)) {
             let Some(pair) = ordered(a.body, b.body).filter(|p| p[0] == a.body && a.body != b.body)
             else {
                 continue;
@@ -160,7 +190,7 @@ fn meeting(scene: &Scene, bodies: [BodyId; 2], a: &Side, b: &Side) -> Option<Mee
     let tolerance = scene.tolerance_between(bodies[0], bodies[1]);
     // Noise of one gap at either end turns a short edge more than a long one.
     let within = |gap: f64| {
-        let angle = (2.0 * gap / la.min(lb)).clamp(1e-9, tolerance.angle);
+        let angle = (2.0 * gap / la.min(lb)).clamp(PARALLEL, tolerance.angle);
         cross(va, vb).abs() <= angle * la * lb
     };
     if !within(near) {

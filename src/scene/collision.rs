@@ -4,14 +4,12 @@
 
 use std::collections::BTreeMap;
 
-use rstar::{AABB, RTreeObject};
-
 use super::finding::Findings;
 use super::frame::Frame;
 use super::path::Trail;
 use super::problem;
 use super::{BlockId, Body, BodyId, size};
-use crate::geometry::{Bounds, Cell, Lattice, Nearby, Pieces, Point, Polygon, Vector, overlap};
+use crate::geometry::{Around, Cell, Lattice, Nearby, Pieces, Point, Polygon, Vector, overlap};
 
 /// So many overlaps are listed; a scene with more has one cause for them all.
 const MOST: usize = 1000;
@@ -216,37 +214,21 @@ fn on_lattice(bodies: &[Numbered<'_>], lattice: Lattice, presence: &Presence) ->
         .collect()
 }
 
-/// A body's box with its number among the bodies.
-struct Boxed(Bounds, usize);
-
-impl RTreeObject for Boxed {
-    type Envelope = AABB<[f64; 2]>;
-    fn envelope(&self) -> Self::Envelope {
-        AABB::from_corners([self.0.min.x, self.0.min.y], [self.0.max.x, self.0.max.y])
-    }
-}
-
 fn off_lattice(bodies: &[Numbered<'_>], presence: &Presence) -> Vec<Found> {
-    let boxes: Vec<Bounds> = bodies
+    let boxes: Vec<Around<4>> = bodies
         .iter()
-        .map(|(_, body)| body.polygon.bounds())
+        .map(|(_, body)| Around::leaning(body.polygon.outline()))
         .collect();
     let pieces: Vec<Pieces> = bodies
         .iter()
         .map(|(_, body)| Pieces::of(&body.polygon))
         .collect();
-    let nearby = Nearby::of(
-        boxes
-            .iter()
-            .enumerate()
-            .map(|(i, b)| Boxed(*b, i))
-            .collect(),
-    );
+    let nearby = Nearby::of((0..bodies.len()).collect(), |i: &usize| boxes[*i]);
     let mut found = Vec::new();
     let mut near: Vec<usize> = Vec::new();
     for (i, (id, _)) in bodies.iter().enumerate() {
         near.clear();
-        let others = nearby.near(Boxed(boxes[i], i).envelope()).map(|b| b.1);
+        let others = nearby.near(boxes[i]).copied();
         near.extend(others.filter(|j| bodies[*j].0 < *id));
         near.sort_unstable();
         for j in near.iter().copied() {

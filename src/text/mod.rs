@@ -148,6 +148,11 @@ pub fn shell(word: &str) -> String {
 /// JSON whose strings hold nothing that a terminal would act on: the same values, written with escapes. Outside of strings
 /// there are no such characters.
 pub fn json(text: &str) -> String {
+    // Most text has no such character, and is looked through byte by byte at a fraction of the cost.
+    let is_plain = |b: &u8| matches!(b, b' '..=b'~' | b'\n' | b'\t' | b'\r');
+    if text.as_bytes().iter().all(is_plain) {
+        return text.to_string();
+    }
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         let kept = matches!(c, '\n' | '\t' | '\r');

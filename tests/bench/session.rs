@@ -1,7 +1,8 @@
 //! How fast a step of a session is: walls laid brick by brick on a square lattice, and what is done to them then.
 //!
 //! `cargo bench --bench session` prints medians in microseconds, and how many steps were answered by what was known. From
-//! scratch means a scene file of the same blocks, in Rust, read and examined.
+//! scratch means a scene file of the same blocks, in Rust, read and examined. `BLOCKS=20 cargo bench --bench session` lays walls
+//! of 20 alone.
 
 #![allow(
     clippy::print_stdout,
@@ -23,7 +24,8 @@ const ROUNDS: usize = 41;
 fn main() {
     println!("| blocks | step | µs, median | of them answered by what was known |");
     println!("|---|---|---|---|");
-    for blocks in [20, 200] {
+    let asked = std::env::var("BLOCKS").ok().and_then(|n| n.parse().ok());
+    for blocks in asked.map_or(vec![20, 200], |blocks: usize| vec![blocks]) {
         let mut steps = Steps::default();
         let rounds = if blocks > 100 { 5 } else { ROUNDS };
         let mut wholes = Vec::new();

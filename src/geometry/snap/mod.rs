@@ -12,9 +12,7 @@ mod node;
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
-use rstar::{AABB, RTreeObject};
-
-use super::{Bounds, Flaw, Nearby, Pieces, Point, Polygon, cross, overlap};
+use super::{Around, Edge, Flaw, Nearby, Pieces, Point, Polygon, cross, overlap};
 use line::Lines;
 use node::Nodes;
 
@@ -132,18 +130,6 @@ struct Side {
     corner: usize,
     ends: [usize; 2],
     curved: bool,
-    bounds: Bounds,
-}
-
-impl RTreeObject for Side {
-    type Envelope = AABB<[f64; 2]>;
-    fn envelope(&self) -> Self::Envelope {
-        envelope(self.bounds)
-    }
-}
-
-fn envelope(b: Bounds) -> AABB<[f64; 2]> {
-    AABB::from_corners([b.min.x, b.min.y], [b.max.x, b.max.y])
 }
 
 /// A node beside a side of another body, within their gaps.
@@ -157,8 +143,8 @@ struct Beside<'s> {
 
 fn attempt<'b>(bodies: &'b [Rings], gaps: &[f64], kept: &[bool]) -> Outcome<'b> {
     let mut nodes = Nodes::of(bodies, gaps, kept);
-    let nearby = Nearby::of(sides(bodies, &nodes));
-    let found = beside(&nodes, &nearby, gaps, kept);
+    let sides = sides(bodies, &nodes);
+    let found = beside(&nodes, &sides, gaps, kept);
     // Where everything fits already there is nothing to draw together.
     let fits = |b: &Beside<'_>| !b.side.curved && b.off <= EXACT * nodes.all[b.node].gap;
     if nodes.exact && found.iter().all(fits) {
@@ -199,34 +185,33 @@ fn attempt<'b>(bodies: &'b [Rings], gaps: &[f64], kept: &[bool]) -> Outcome<'b> 
     rebuilt(bodies, &nodes, taken, touching, gaps)
 }
 
-/// The nodes that lie beside sides of other bodies.
-fn beside<'s>(
-    nodes: &Nodes,
-    nearby: &'s Nearby<Side>,
-    gaps: &[f64],
-    kept: &[bool],
-) -> Vec<Beside<'s>> {
+/// The nodes that lie beside sides of other bodies. Nodes are looked for about sides, and not the other way round: boxes
+/// around the sides of thin stones overlap by the hundred, and points do not.
+fn beside<'s>(nodes: &Nodes, sides: &'s [Side], gaps: &[f64], kept: &[bool]) -> Vec<Beside<'s>> {
+    let nearby = Nearby::of((0..nodes.all.len()).collect(), |n: &usize| {
+        let at = nodes.all[*n].at.into();
+        Around { min: at, max: at }
+    });
     let mut found = Vec::new();
-    for (number, node) in nodes.all.iter().enumerate() {
-        let around = Bounds {
-            min: node.at,
-            max: node.at,
+    for side in sides {
+        if side.curved && kept[side.body] {
+            continue;
         }
-        .grown(node.gap);
-        for side in nearby.near(envelope(around)) {
+        let (from, to) = (nodes.all[side.ends[0]].at, nodes.all[side.ends[1]].at);
+        let along = to - from;
+        let length = along.norm();
+        let around = Edge { from, to }.around().grown(gaps[side.body]);
+        for number in nearby.near(around).copied() {
+            let node = &nodes.all[number];
             if nodes.bodies(node).contains(&side.body) {
                 continue;
             }
-            let (from, to) = (nodes.all[side.ends[0]].at, nodes.all[side.ends[1]].at);
-            let along = to - from;
-            let length = along.norm();
             let reach = (node.at - from).dot(&along) / length;
             let foot = from + along * (reach / length);
             let off = (node.at - foot).norm();
             // Written so that a side of no length takes nothing.
             let gap = node.gap.min(gaps[side.body]);
-            let beside = reach > 0.0 && reach < length && off <= gap;
-            if beside && !(side.curved && kept[side.body]) {
+            if reach > 0.0 && reach < length && off <= gap {
                 found.push(Beside {
                     node: number,
                     side,
@@ -246,17 +231,12 @@ fn sides(bodies: &[Rings], nodes: &Nodes) -> Vec<Side> {
             for corner in 0..corners.len() {
                 let ends =
                     [corner, (corner + 1) % corners.len()].map(|c| nodes.number(body, ring, c));
-                let places = ends.map(|n| nodes.all[n].at);
-                let Some(bounds) = Bounds::of(places) else {
-                    continue;
-                };
                 sides.push(Side {
                     body,
                     ring,
                     corner,
                     ends,
                     curved: corners[corner].curved,
-                    bounds,
                 });
             }
         }
@@ -289,7 +269,7 @@ fn rebuilt(
                 }
                 new.push(Corner { at, ..*corner });
                 if let Some(mut more) = taken.remove(&(body, ring, i)) {
-                    more.sort_by(|a, b| a.0.total_cmp(&b.0));
+                    more.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
                     corners += more.len();
                     let come_in = |m: &(f64, usize)| Corner {
                         at: nodes.all[m.1].at,
@@ -341,10 +321,10 @@ fn spoilt(before: &[Rings], after: &[Rings], gaps: &[f64], noise: f64) -> BTreeS
     let entries = polygons
         .iter()
         .enumerate()
-        .filter_map(|(i, p)| p.as_ref().map(|p| Boxed(p.bounds(), i)));
-    let nearby = Nearby::of(entries.collect());
-    for Boxed(own, a) in nearby.all() {
-        for Boxed(_, b) in nearby.near(envelope(*own)) {
+        .filter_map(|(i, p)| p.as_ref().map(|p| (Around::leaning(p.outline()), i)));
+    let nearby = Nearby::of(entries.collect(), |entry| entry.0);
+    for (own, (_, a)) in nearby.all() {
+        for (_, b) in nearby.near(*own) {
             if b <= a {
                 continue;
             }
@@ -365,15 +345,6 @@ fn spoilt(before: &[Rings], after: &[Rings], gaps: &[f64], noise: f64) -> BTreeS
         }
     }
     wrong
-}
-
-struct Boxed(Bounds, usize);
-
-impl RTreeObject for Boxed {
-    type Envelope = AABB<[f64; 2]>;
-    fn envelope(&self) -> Self::Envelope {
-        envelope(self.0)
-    }
 }
 
 #[cfg(test)]

@@ -2,11 +2,8 @@
 
 use std::ops::Range;
 
-use rstar::AABB;
-use rstar::primitives::GeomWithData;
-
 use super::Rings;
-use crate::geometry::{Nearby, Point};
+use crate::geometry::{Around, Nearby, Point};
 
 /// A place and the corners there.
 pub(super) struct Node {
@@ -163,18 +160,19 @@ fn joined(corners: &[Loose], gaps: &[f64], kept: &[bool]) -> Clusters {
 
 /// Pairs of corners of different bodies within their gaps of each other, the nearest first.
 fn near(corners: &[Loose], gaps: &[f64]) -> Vec<(f64, usize, usize)> {
-    let points = corners
-        .iter()
-        .enumerate()
-        .map(|(i, c)| GeomWithData::new([c.at.x, c.at.y], i));
-    let nearby = Nearby::of(points.collect());
+    let nearby = Nearby::of((0..corners.len()).collect(), |i: &usize| {
+        let at = corners[*i].at.into();
+        Around { min: at, max: at }
+    });
     let mut pairs = Vec::new();
     for (i, corner) in corners.iter().enumerate() {
         let (x, y) = (corner.at.x, corner.at.y);
         let gap = gaps[corner.body];
-        let around = AABB::from_corners([x - gap, y - gap], [x + gap, y + gap]);
-        for other in nearby.near(around) {
-            let j = other.data;
+        let around = Around {
+            min: [x - gap, y - gap],
+            max: [x + gap, y + gap],
+        };
+        for j in nearby.near(around).copied() {
             let distance = (corners[j].at - corner.at).norm();
             let gap = gap.min(gaps[corners[j].body]);
             if j < i && corners[j].body != corner.body && distance <= gap {

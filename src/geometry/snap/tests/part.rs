@@ -24,8 +24,8 @@ fn areas_are_positive_anticlockwise() {
 /// What lies beside the sides of the first body: of a body, how far along and off which side.
 fn beside_first(bodies: &[Rings], gaps: &[f64], kept: &[bool]) -> Vec<(usize, usize, f64, f64)> {
     let nodes = Nodes::of(bodies, gaps, kept);
-    let nearby = Nearby::of(sides(bodies, &nodes));
-    let found = beside(&nodes, &nearby, gaps, kept);
+    let sides = sides(bodies, &nodes);
+    let found = beside(&nodes, &sides, gaps, kept);
     let of_first = found.iter().filter(|b| b.side.body == 0);
     of_first
         .map(|b| {
@@ -189,9 +189,4 @@ fn sides_go_round_every_ring() {
         (1, 1, 2, [9, 7]),
     ];
     assert_eq!(named, wanted);
-    let around = all[9].bounds;
-    assert_eq!(
-        (around.min, around.max),
-        (Point::new(1.0, 1.0), Point::new(3.0, 1.0))
-    );
 }
