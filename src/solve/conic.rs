@@ -73,8 +73,8 @@ pub struct Answer {
 }
 
 impl Answer {
-    /// The answer of a solver that was not begun.
-    fn none(problem: &Conic) -> Answer {
+    /// The answer of a solver that has none.
+    pub(super) fn none(problem: &Conic) -> Answer {
         Answer {
             status: Status::Unsolved,
             x: vec![0.0; problem.unknowns],
