@@ -26,9 +26,12 @@ const MOST_COLUMNS: usize = 6;
 /// forces off by some 10⁻⁵ of themselves, and one or two steps more are cheap.
 const FINER: f64 = 1e-3;
 
-/// Steps shorter than this hardly lead anywhere, and so many of them in a row nowhere: it is so where nothing balances.
+/// Steps shorter than this hardly lead anywhere; nor do long ones that leave more than a share of what was unbalanced, where
+/// others leave a third. So many of them in a row lead nowhere: it is so where nothing balances.
 const SHORT: f64 = 0.1;
-const SHORT_STEPS: usize = 3;
+const LONG: f64 = 0.8;
+const STAYS: f64 = 0.8;
+const IDLE_STEPS: usize = 3;
 
 /// The least squares of a problem with one row = for each velocity, and one for each floor; `None` where it is of another
 /// kind, or ends without an optimum.
@@ -39,17 +42,20 @@ pub(super) fn solve(problem: &Conic, limits: Limits) -> Option<Answer> {
     let squares = Squares::of(problem)?;
     let mut run = Run::of(squares, problem)?;
     run.start();
-    let (mut iterations, mut short) = (0, 0);
+    let (mut iterations, mut idle) = (0, 0);
     while !run.is_optimal(limits.tolerance, FINER * limits.tolerance) {
         let late = limits.deadline.is_some_and(|end| Instant::now() >= end);
-        if iterations == limits.iterations || late || short == SHORT_STEPS {
+        if iterations == limits.iterations || late || idle == IDLE_STEPS {
             if run.is_optimal(limits.tolerance, limits.tolerance) {
                 break;
             }
             return None;
         }
+        let before = largest(&run.left.balance);
         let by = run.step();
-        short = if by < SHORT { short + 1 } else { 0 };
+        let stays = largest(&run.left.balance) > STAYS * before;
+        let in_vain = by > LONG && stays && !run.is_balanced(limits.tolerance);
+        idle = if by < SHORT || in_vain { idle + 1 } else { 0 };
         if !run.mean().is_finite() {
             return None;
         }
@@ -260,14 +266,18 @@ impl Run {
         dot(&self.s, &self.z) / self.s.len().max(1) as f64
     }
 
+    fn is_balanced(&self, tolerance: f64) -> bool {
+        largest(&self.left.balance) <= tolerance * f64::max(1.0, self.left.size[0])
+    }
+
     fn is_optimal(&self, tolerance: f64, gap: f64) -> bool {
-        let [balanced, squared, along] = self.left.size;
+        let [_, squared, along] = self.left.size;
         let small = |list: &[f64], of: f64| largest(list) <= tolerance * f64::max(1.0, of);
         // The gap, since what the equations leave is little by then.
         let mut product = vec![0.0; self.x.len()];
         self.squares.times(&self.x, &mut product);
         let cost = 0.5 * dot(&self.x, &product) + dot(&self.linear, &self.x);
-        small(&self.left.balance, balanced)
+        self.is_balanced(tolerance)
             && small(&self.left.cost, squared.max(along))
             && small(&self.left.floor, largest(&self.x))
             && dot(&self.s, &self.z) <= gap * f64::max(1.0, cost.abs())
