@@ -113,7 +113,7 @@ pub fn render_in(
     encode(raster(svg, size, fonts)?, per_metre(size), compression)
 }
 
-/// As [`render_in`], of a drawing that is not written out as SVG first: the same picture in half the time.
+/// As [`render_in`], of a drawing that is not written out as SVG first: the same picture, sooner.
 #[cfg(feature = "cli")]
 pub(crate) fn of_drawing(
     drawing: &Drawing,

@@ -1,7 +1,7 @@
 //! The one door to the solvers: a [`Conic`] goes in, a status of our own and plain vectors come out.
 //!
 //! Linear programs of many blocks go to the normal equations first ([`super::normal`]), all others to clarabel, and so does
-//! what ended there without a status and is tried again with full conditioning.
+//! what ended there without a status: of chains at once, of others when it is tried again with full conditioning.
 //!
 //! Settings that are not the solver's own, and why: `qdldl` because the automatic choice takes faer on large programs,
 //! 13.1 s against 4.6 s at 10⁴ blocks; tolerance 1e-9 because it is the loosest that decides every frame measured in [`doc::accuracy`](crate::doc::accuracy);
