@@ -9,6 +9,7 @@
 mod balance;
 mod conic;
 mod correction;
+mod determinate;
 mod exact;
 mod factor;
 mod limit;

@@ -12,8 +12,8 @@
 use super::limit::columns_in;
 use super::slanted::Slanted;
 use super::{
-    Amounts, Conditioning, Dual, Effort, Face, SolverSettings, Status, dual, in_forces, largest,
-    least_squares_amounts, of_velocities, once, refined,
+    Amounts, Conditioning, Dual, Effort, Face, SolverSettings, Status, determinate, dual,
+    in_forces, largest, least_squares_amounts, of_velocities, once, refined,
 };
 use crate::program::{Column, Program, kinematic, sticking_columns};
 
@@ -99,6 +99,11 @@ pub fn stick(program: &Program, conditioning: Conditioning) -> Stuck {
 /// Of many blocks it is posed with a largest load of 1. With loads of 300 a wall of 410 bricks just past its edge ends
 /// without a status, six times after a hundred iterations; with loads of 1 it is solved in 69.
 pub fn stick_in(program: &Program, settings: SolverSettings) -> Stuck {
+    determinate::stick(program).unwrap_or_else(|| by_programs(program, settings))
+}
+
+/// Solves it whatever contacts there are.
+pub(super) fn by_programs(program: &Program, settings: SolverSettings) -> Stuck {
     let mut effort = Effort::default();
     let size = Size::of(program);
     let load = match largest(&program.loads) {

@@ -14,7 +14,7 @@ use drystone::internals::solve::{Conditioning, Status, TOLERANCE, solve};
 use drystone::scene::{BodyId, Scene};
 use serde_json::{Value, json};
 
-use crate::structure::{arch, block, on_floor, rectangle, scene, wall};
+use crate::structure::{arch, block, first, on_floor, rectangle, scene, wall};
 
 /// The same file with gravity turned to the right.
 fn turned(mut file: Value, degrees: f64) -> Value {
@@ -206,6 +206,38 @@ fn the_verdict_alone_of_ten_thousand_blocks_one_on_the_other_takes_few_programs(
             "{degrees}°: {solve:?}"
         );
     }
+}
+
+/// Above a joint lie m bricks whose middle is half a brick and (m − 1)/2 shifts from its end; what that is beyond the face, times
+/// their weight, the other end has to pull.
+#[test]
+fn what_a_stack_of_ten_thousand_lacks_is_what_the_balance_above_each_joint_says() {
+    let (bricks, shift) = (10_000, 1.1e-4);
+    let at = |k: usize| rectangle(shift * k as f64, 0.25 * k as f64, 1.0, 0.25);
+    let all = (0..bricks).map(|k| block(&k.to_string(), at(k), 1.0));
+    let mut file = on_floor(0.7, all.collect());
+    file["contact_tolerance"] = json!(1e-9);
+    let frame = first(&file);
+    let pulls: Vec<f64> = (0..bricks)
+        .map(|k| {
+            let above = (bricks - k) as f64;
+            let face = if k == 0 { 1.0 } else { 1.0 - shift };
+            f64::max(
+                0.0,
+                above * (0.5 + 0.5 * shift * (above - 1.0) - face) / face,
+            )
+        })
+        .collect();
+    let total: f64 = pulls.iter().sum();
+    assert_eq!(frame.verdict, Verdict::Unstable);
+    assert!((frame.total_sticking - total).abs() < 1e-9 * total);
+    let joints = pulls.iter().filter(|pull| **pull > 0.0).count();
+    assert_eq!(frame.failures.len(), joints);
+    assert!(
+        joints > 900 && frame.solve.programs <= 3,
+        "{:?}",
+        frame.solve
+    );
 }
 
 /// The program of a structure that hangs together.

@@ -7,6 +7,7 @@ use std::process::Stdio;
 use serde_json::{Value, json};
 
 use super::{Bench, FALLS, STANDS, WRONG};
+use crate::structure::rectangle;
 
 /// A scene file on one line.
 fn line(text: &str) -> String {
@@ -287,7 +288,16 @@ fn pictures_are_400_pixels_wide_and_named_after_their_lines() {
 #[test]
 fn a_limit_of_time_is_that_of_each_scene() {
     let bench = Bench::new();
-    let input = format!("{}{}", tower("a", 30, 0.001), tower("b", 30, 0.001));
+    // A tower leaves no choice of forces, and takes no program that could run out of time; a bridge does.
+    let bridge = |title: &str| {
+        let posts = [rectangle(0.0, 0.0, 1.0, 3.0), rectangle(3.0, 0.0, 1.0, 3.0)];
+        let polygons = posts.into_iter().chain([rectangle(0.0, 3.0, 4.0, 1.0)]);
+        let blocks: Vec<Value> = polygons.map(|p| json!({ "polygon": p })).collect();
+        let ground = json!([{ "polygon": rectangle(-9.0, -1.0, 99.0, 1.0) }]);
+        let scene = json!({ "drystone": 1, "title": title, "ground": ground, "blocks": blocks });
+        format!("{scene}\n")
+    };
+    let input = format!("{}{}", bridge("a"), bridge("b"));
     let ran = bench.run_with("batch --time-limit 0", input.as_bytes());
     assert_eq!(ran.code, 3, "{}", ran.out);
     assert!(
