@@ -105,13 +105,26 @@ pub const ITERATIONS: usize = 100;
 pub struct SolverSettings {
     /// The tolerance of feasibility and gap the solver is asked for.
     pub tolerance: f64,
-    /// In so small a part of the tolerance the normal equations end, where they are used and can: two to eleven iterations
-    /// more, after which the columns of an optimum stand out. Clarabel keeps to the tolerance.
-    pub finer: f64,
+    /// Where the normal equations end; `None`, and with clarabel, at the tolerance.
+    pub finer: Option<Finer>,
     /// How its linear systems are conditioned.
     pub conditioning: Conditioning,
     /// Which of several balances is wanted.
     pub choice: Choice,
+}
+
+/// Where the normal equations end that are to tell the columns of an optimum from all others.
+///
+/// Where these columns stand out, two to eleven iterations beyond the tolerance leave them next to no slack. Where they do not, as in
+/// walls near their edge, no number of iterations does, and the last ten are saved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Finer {
+    /// In so small a part of the tolerance they end, where they can.
+    pub by: f64,
+    /// Where more slack than this is expected then of all columns in use, in parts of the cost, they end before.
+    pub slack: f64,
+    /// Namely within so many tolerances.
+    pub before: f64,
 }
 
 /// Which of several balances of the same cost is wanted.
@@ -128,7 +141,7 @@ impl From<Conditioning> for SolverSettings {
     fn from(conditioning: Conditioning) -> SolverSettings {
         SolverSettings {
             tolerance: TOLERANCE,
-            finer: 1.0,
+            finer: None,
             conditioning,
             choice: Choice::Unique,
         }
@@ -180,7 +193,7 @@ pub fn solve_within(problem: &Conic, settings: SolverSettings, iterations: usize
     if conditioning == Conditioning::Plain || normal::is_squares(problem) {
         let limits = Limits {
             tolerance,
-            finer: finer * tolerance,
+            finer,
             iterations,
             deadline: DEADLINE.get(),
         };

@@ -27,8 +27,8 @@ mod wedge;
 pub use balance::{Balance, balance, balance_at_first_look, balance_in};
 pub(crate) use conic::Until;
 pub use conic::{
-    Answer, Choice, Conditioning, ITERATIONS, SolverSettings, Status, TOLERANCE, by_clarabel,
-    solve, solve_within,
+    Answer, Choice, Conditioning, Finer, ITERATIONS, SolverSettings, Status, TOLERANCE,
+    by_clarabel, solve, solve_within,
 };
 pub use limit::{Extreme, Limit, least, most};
 pub use nearest::{Nearest, generators};

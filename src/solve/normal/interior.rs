@@ -17,6 +17,7 @@ use super::cholesky::Cholesky;
 use super::elements::Elements;
 use super::point::{LEAST_PIVOT, NEARLY, Point, largest};
 use super::product::dot as product;
+use super::trend::Trend;
 
 /// min Σ cost·amount  s.t.  Σ amount·column = loads, amount ≥ 0.
 pub(super) struct Posed<'a> {
@@ -65,20 +66,36 @@ const BAND: f64 = 10.0;
 /// How often balance is restored at most.
 const RESTORED: usize = 3;
 
+/// An amount that is so many times its slack is not due to the products amount·slack being above 0 yet.
+const CLEARLY: f64 = 100.0;
+
 /// Steps shorter than this lead nowhere.
 const SHORTEST: f64 = 1e-6;
 
 pub(super) fn solve(posed: Posed, factor: &mut Cholesky, limits: Limits) -> Optimum {
     let mut run = Run::of(&posed, factor);
     let (mut iterations, mut restored) = (0, 0);
+    let finest = limits.finer.map_or(1.0, |finer| finer.by) * limits.tolerance;
+    let mut trend = Trend::default();
     let ended = loop {
         let residual = Residual::of(&posed, &run.at, &mut run.left);
-        if let Some(ended) = residual.ended(&posed, limits.finer) {
+        if let Some(ended) = residual.ended(&posed, finest) {
             break Some(ended);
+        }
+        if let Some(finer) = limits.finer {
+            let near = finer.before * limits.tolerance;
+            let now = residual.in_parts_of_cost(run.at.slack_in_use());
+            let remains = trend
+                .expected(now, finest)
+                .is_some_and(|slack| slack > finer.slack);
+            if remains && residual.within(&posed, near) == (true, true) {
+                run.leave_out(&posed, factor, near);
+                break Some(Ended::Optimal);
+            }
         }
         let late = limits.deadline.is_some_and(|end| Instant::now() >= end);
         // Where an end is near, what remains unbalanced is rounding: of steps, not of amounts.
-        if restored < RESTORED && residual.wants_balance(&posed, limits.finer) {
+        if restored < RESTORED && residual.wants_balance(&posed, finest) {
             run.restore(&posed, factor);
             restored += 1;
             continue;
@@ -176,6 +193,11 @@ impl Residual {
         )
     }
 
+    /// The gap between the two costs, and a slack, in parts of the cost.
+    fn in_parts_of_cost(&self, slack: f64) -> [f64; 2] {
+        [self.primal - self.dual, slack].map(|v| v.abs() / self.primal.abs())
+    }
+
     /// Whether only the balance is missing.
     fn wants_balance(&self, posed: &Posed, tolerance: f64) -> bool {
         self.within(posed, tolerance) == (false, true)
@@ -262,6 +284,23 @@ impl Run {
         let by = f64::min(1.0, NEARLY / most.fold(NEARLY, f64::max));
         for (f, room) in self.at.f.iter_mut().zip(&self.room) {
             *f += by * *f * *f * room;
+        }
+    }
+
+    /// Leaves out the dear amounts that hardly outweigh their slack, where the others are an optimum to the tolerance without them.
+    fn leave_out(&mut self, posed: &Posed, factor: &mut Cholesky, tolerance: f64) {
+        let before = self.at.f.clone();
+        let slack = self.at.z.iter().zip(posed.cost);
+        for (f, (z, cost)) in self.at.f.iter_mut().zip(slack) {
+            if *cost > 0.0 && *f <= CLEARLY * z {
+                *f = 0.0;
+            }
+        }
+        Residual::of(posed, &self.at, &mut self.left);
+        self.restore(posed, factor);
+        let residual = Residual::of(posed, &self.at, &mut self.left);
+        if residual.within(posed, tolerance) != (true, true) {
+            self.at.f = before;
         }
     }
 

@@ -25,12 +25,13 @@ mod panels;
 mod point;
 mod product;
 mod squares;
+mod trend;
 #[cfg(test)]
 mod tests;
 
 use std::time::Instant;
 
-use super::{Answer, Status};
+use super::{Answer, Finer, Status};
 use crate::program::Conic;
 use cholesky::Cholesky;
 use elements::Elements;
@@ -58,8 +59,8 @@ const ROUNDS: usize = 3;
 pub(super) struct Limits {
     /// The tolerance of feasibility and gap.
     pub tolerance: f64,
-    /// The one it goes on to; where that is out of reach, the tolerance does.
-    pub finer: f64,
+    /// Where it goes on to; where that is out of reach, the tolerance does.
+    pub finer: Option<Finer>,
     pub iterations: usize,
     pub deadline: Option<Instant>,
 }

@@ -72,6 +72,12 @@ impl Point {
         at
     }
 
+    /// Σ slack of the columns whose amount outweighs it.
+    pub fn slack_in_use(&self) -> f64 {
+        let both = self.f.iter().zip(&self.z);
+        both.filter(|(f, z)| f > z).map(|(_, z)| z).sum()
+    }
+
     /// The longest step along a direction that leaves nothing below 0, at most 1/[`NEARLY`].
     pub fn longest(&self, direction: &Point) -> f64 {
         let pair = [(self.tau, direction.tau), (self.kappa, direction.kappa)];

@@ -79,7 +79,7 @@ fn forces(loads: &[f64], columns: &[Vec<(usize, f64)>], cost: &[f64]) -> Conic {
 fn limits() -> Limits {
     Limits {
         tolerance: TOLERANCE,
-        finer: TOLERANCE,
+        finer: None,
         iterations: 100,
         deadline: None,
     }
