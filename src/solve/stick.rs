@@ -31,7 +31,8 @@ const ROUNDS_OF_MANY: usize = 1;
 const PRICES: [f64; 2] = [1e-6, 1e-4];
 
 /// How little an amount may be, in parts of the largest, to be left out of the sticking. The finer value is for the case
-/// that so little is needed after all, such as against a light load.
+/// that so little is needed after all, such as against a light load. Of many blocks it is the only one: the least squares
+/// take long to find out that something is missing.
 const LITTLE: [f64; 2] = [1e-5, 1e-9];
 
 /// How large a program is.
@@ -277,7 +278,11 @@ fn chosen(
         },
         Size::Few => settings,
     };
-    for little in LITTLE {
+    let littles = match size {
+        Size::Few => &LITTLE[..],
+        Size::Many => &LITTLE[1..],
+    };
+    for little in littles.iter().copied() {
         let Some(few) = concentrated(&face, little, &unchanged, size, settings, effort) else {
             continue;
         };

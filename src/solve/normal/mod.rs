@@ -41,7 +41,7 @@ use interior::{Ended, Optimum, Posed};
 ///
 /// From here on optima are also sharper: of a wall of 410 bricks 10⁻⁵ past its edge the least sticking is found to 10⁻⁶ of itself,
 /// where clarabel's is off by half a hundredth, since velocities may violate a column by 10⁻⁸ that carries 10⁷ times as much.
-const FEWEST_BLOCKS: usize = 200;
+const FEWEST_BLOCKS: usize = 60;
 
 /// Where the factor takes fewer operations for an unknown, as those of chains do, what ends without a status is left to
 /// clarabel: chains are the quickest for either, and long ones lose digits in the normal equations. An arch of 10 000 stones
