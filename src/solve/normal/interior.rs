@@ -69,6 +69,10 @@ const RESTORED: usize = 3;
 /// An amount that is so many times its slack is not due to the products amount·slack being above 0 yet.
 const CLEARLY: f64 = 100.0;
 
+/// Where τ is this small a part of κ a certificate is a few iterations away, and waited for.
+const NEXT_TO_NONE: f64 = 1e-4;
+const FEW: usize = 3;
+
 /// Steps shorter than this lead nowhere.
 const SHORTEST: f64 = 1e-6;
 
@@ -100,7 +104,11 @@ pub(super) fn solve(posed: Posed, factor: &mut Cholesky, limits: Limits) -> Opti
             restored += 1;
             continue;
         }
-        let over = iterations == limits.iterations || late || !residual.mean.is_finite();
+        let most = match residual.tau < NEXT_TO_NONE * residual.kappa {
+            true => limits.iterations + FEW,
+            false => limits.iterations,
+        };
+        let over = iterations >= most || late || !residual.mean.is_finite();
         if over || !run.step(&posed, factor, &residual) {
             break residual.ended(&posed, limits.tolerance);
         }
