@@ -1,24 +1,42 @@
-//! Least sticking of what is statically determinate: stacks, and all else in which every contact is the only one that
-//! joins what lies beyond it to the ground.
+//! What is statically determinate: stacks, and all else in which every contact is the only one that joins what lies beyond it
+//! to the ground.
 //!
-//! There the balance of what lies beyond a contact says what the contact has to give: N1, N2 and T, with no choice. What of
-//! them it cannot give has to stick: a pull −N, and friction beyond μ(N1 + N2). Where μ ≤ 1 no other way takes less: one more
-//! newton pressed and pulled at once would allow μ newtons of friction, and cost one. No program is solved, and no
-//! digits are lost to the length of a chain, of which an interior-point method loses all at 10 000 blocks.
+//! There the balance of what lies beyond a contact says what the contact has to give: N1, N2 and T, with no choice. Where it can,
+//! these are the forces. What of them it cannot give has to stick: a pull −N, and friction beyond μ(N1 + N2). Where μ ≤ 1 no
+//! other way takes less: one more newton pressed and pulled at once would allow μ newtons of friction, and cost one. No
+//! program is solved, and no digits are lost to the length of a chain, of which an interior-point method loses all at 10 000
+//! blocks.
 
 use super::{Amounts, Effort, Stuck};
 use crate::geometry::{Vector, cross, quarter_turn};
 use crate::program::{ContactTerm, Program};
 
 /// Points less than this apart, in parts of a usual face, take no moment.
-const SHORTEST: f64 = 1e-6;
+const SHORTEST: f64 = 1e-9;
 
-/// Less of what a contact gives is the rounding of sums, and moves nothing.
+/// Less of what a contact gives is the rounding of sums: it neither moves nor fails.
 const ROUNDING: f64 = 1e-12;
 
-/// What would have to stick, and the motion that shows that it takes so much; `None` where forces have a choice.
-pub(super) fn stick(program: &Program) -> Option<Stuck> {
+/// The forces, where there is no choice and every contact can give them.
+pub fn determinate(program: &Program) -> Option<Amounts> {
     let joints = joints(program)?;
+    let mut amounts = Amounts::none(program);
+    for (joint, ([first, second], along)) in joints.iter().zip(given(program, &joints)) {
+        let pressed = [first.max(0.0), second.max(0.0)];
+        let most = joint.contact.friction * (pressed[0] + pressed[1]);
+        let rubbed = along.clamp(-most, most);
+        let slight = ROUNDING * (first.abs() + second.abs() + along.abs());
+        if first < -slight || second < -slight || (along - rubbed).abs() > slight {
+            return None;
+        }
+        amounts.normal[joint.number] = pressed;
+        amounts.friction[joint.number] = rubbed;
+    }
+    Some(amounts)
+}
+
+/// N1, N2 and T that balance asks of every joint.
+fn given(program: &Program, joints: &[Joint]) -> Vec<([f64; 2], f64)> {
     let mut needed: Vec<Wrench> = program
         .loads
         .chunks_exact(3)
@@ -27,14 +45,29 @@ pub(super) fn stick(program: &Program) -> Option<Stuck> {
             moment: load[2],
         })
         .collect();
-    let (mut forces, mut sticking) = (Amounts::none(program), Amounts::none(program));
     for joint in joints.iter().rev() {
         let wrench = needed[joint.body];
         if let Some((below, between)) = joint.below {
             needed[below].force += wrench.force;
             needed[below].moment += wrench.moment + cross(between, wrench.force);
         }
-        let ([first, second], along) = joint.forces(wrench);
+    }
+    let forces = joints.iter().map(|joint| joint.forces(needed[joint.body]));
+    forces.collect()
+}
+
+/// What would have to stick, and the motion that shows that it takes so much; `None` where forces have a choice.
+pub(super) fn stick(program: &Program) -> Option<Stuck> {
+    let joints = joints(program)?;
+    if program
+        .contacts
+        .iter()
+        .any(|contact| contact.friction > 1.0)
+    {
+        return None;
+    }
+    let (mut forces, mut sticking) = (Amounts::none(program), Amounts::none(program));
+    for (joint, ([first, second], along)) in joints.iter().zip(given(program, &joints)) {
         let pressed = [first.max(0.0), second.max(0.0)];
         let most = joint.contact.friction * (pressed[0] + pressed[1]);
         let rubbed = along.clamp(-most, most);
@@ -133,9 +166,8 @@ impl Joint<'_> {
 
 /// The joints from the ground outwards, one for each body; `None` where a body has more ways to the ground, or none.
 fn joints(program: &Program) -> Option<Vec<Joint<'_>>> {
-    let simple = |contact: &ContactTerm| contact.points == 2 && contact.friction <= 1.0;
     let one_each = program.contacts.len() == program.blocks && program.grips.is_empty();
-    if !one_each || !program.contacts.iter().all(simple) {
+    if !one_each || program.contacts.iter().any(|contact| contact.points != 2) {
         return None;
     }
     let mut touching = vec![Vec::new(); program.blocks];
@@ -298,6 +330,29 @@ mod tests {
     }
 
     #[test]
+    fn its_forces_are_those_that_stick_nowhere() {
+        let mut numbers = Numbers(11);
+        for blocks in [1, 2, 4, 9].repeat(10) {
+            let mut program = branches(blocks, &mut numbers);
+            program.loads.fill(0.0);
+            for column in columns(&program) {
+                let amount = 1.0 + 0.9 * numbers.next();
+                column.add_to(&mut program.loads, amount);
+            }
+            let forces = determinate(&program).unwrap();
+            assert!(forces.unbalanced(&program) < 1e-10);
+            let stuck = stick(&program).unwrap();
+            assert!(stuck.sticking.total() < 1e-10);
+            assert_eq!(stuck.forces, forces);
+            // One contact that has to pull is enough.
+            let pulled = sticking_columns(&program);
+            pulled[0].add_to(&mut program.loads, 20.0);
+            assert!(determinate(&program).is_none());
+            assert!(stick(&program).unwrap().sticking.total() > 1.0);
+        }
+    }
+
+    #[test]
     fn where_forces_have_a_choice_it_says_nothing() {
         let mut numbers = Numbers(5);
         let tree = branches(4, &mut numbers);
@@ -313,6 +368,6 @@ mod tests {
         assert!(stick(&rough).is_none());
         let mut corner = tree;
         corner.contacts[1].points = 1;
-        assert!(stick(&corner).is_none());
+        assert!(stick(&corner).is_none() && determinate(&corner).is_none());
     }
 }

@@ -35,7 +35,7 @@ const PRICES: [f64; 2] = [1e-6, 1e-4];
 const LITTLE: [f64; 2] = [1e-5, 1e-9];
 
 /// The same of many blocks. At 10⁻⁵ a column was missing in a wall of 4 128 bricks, which the least squares took 1.8 s to find
-/// out; at 10⁻⁷ what the solver leaves is kept, and up to 40 of 100 places more.
+/// out; at 10⁻⁹ what the solver leaves is kept, and up to 40 of 100 places more.
 const LITTLE_OF_MANY: [f64; 2] = [1e-6, 1e-9];
 
 /// How large a program is.

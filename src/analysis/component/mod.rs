@@ -24,7 +24,7 @@ use super::{Ask, Doubt, Failure, Options, Verdict};
 use crate::assembly::Assembly;
 use crate::program::{Count, Program, Scale, columns, sticking_columns};
 use crate::proof::{Demand, Forces, Motion, Proof, fastest};
-use crate::solve::{Amounts, Effort, SolverSettings};
+use crate::solve::{Amounts, Effort, SolverSettings, determinate};
 use ladder::Decision;
 pub use rung::Method;
 pub(super) use rung::Place;
@@ -118,7 +118,7 @@ impl<'a> Case<'a> {
                 ..self.stands(self.carried(&Amounts::none(program)))
             }
         } else {
-            let carried = self.carried(&rung::single(program)?);
+            let carried = self.carried(&determinate(program)?);
             if !self.believes(&carried.proof) {
                 return None;
             }

@@ -1,13 +1,10 @@
 //! The rungs of the ladder, one file each: what is posed, and why there.
 
-mod closed_form;
 mod least_force;
 mod least_residual;
 mod least_sticking;
 
 use std::fmt;
-
-pub(super) use closed_form::single;
 
 use crate::program::Program;
 use crate::solve::{Amounts, Choice, Conditioning, Effort, SolverSettings, Stuck};
