@@ -76,23 +76,13 @@ pub(super) fn stick(program: &Program) -> Option<Stuck> {
         sticking.normal[joint.number] = [pressed[0] - first, pressed[1] - second];
         sticking.friction[joint.number] = along - rubbed;
     }
+    let opening = Opening {
+        forces: &forces,
+        sticking: &sticking,
+    };
     let mut motion = vec![0.0; program.loads.len()];
     for joint in &joints {
-        let (pull, lacking) = (
-            sticking.normal[joint.number],
-            sticking.friction[joint.number],
-        );
-        let [first, second] = forces.normal[joint.number];
-        let counts = |v: f64| v.abs() > ROUNDING * (first + second + v.abs());
-        let slides = match counts(lacking) {
-            true => -lacking.signum(),
-            false => 0.0,
-        };
-        // Sliding opens what presses, as in every motion to which friction does not object.
-        let opens = pull.map(|pull| match counts(pull) {
-            true => 1.0,
-            false => joint.contact.friction * f64::abs(slides),
-        });
+        let (opens, slides) = opening.of(joint);
         joint.moves(opens, slides, &mut motion);
     }
     motion.iter().all(|v| v.is_finite()).then(|| Stuck {
@@ -103,6 +93,56 @@ pub(super) fn stick(program: &Program) -> Option<Stuck> {
         priced: false,
         effort: Effort::default(),
     })
+}
+
+/// Of what sticks the motion in which it gives way next to the ground only: what lies beyond goes with it as one.
+pub fn tips(program: &Program) -> Option<(Vec<f64>, Stuck)> {
+    let joints = joints(program)?;
+    let stuck = stick(program)?;
+    let opening = Opening {
+        forces: &stuck.forces,
+        sticking: &stuck.sticking,
+    };
+    let mut motion = vec![0.0; program.loads.len()];
+    let mut goes = vec![false; program.blocks];
+    for joint in &joints {
+        let held = joint.below.is_none_or(|(below, _)| !goes[below]);
+        let (opens, slides) = match held {
+            true => opening.of(joint),
+            false => ([0.0; 2], 0.0),
+        };
+        goes[joint.body] = !held || opens != [0.0; 2] || slides != 0.0;
+        joint.moves(opens, slides, &mut motion);
+    }
+    (goes.contains(&true) && motion.iter().all(|v| v.is_finite())).then_some((motion, stuck))
+}
+
+/// How fast contacts open and slide whose sticking gives way.
+struct Opening<'a> {
+    forces: &'a Amounts,
+    sticking: &'a Amounts,
+}
+
+impl Opening<'_> {
+    /// The speeds at which the points open, and that along the face.
+    fn of(&self, joint: &Joint) -> ([f64; 2], f64) {
+        let (pull, lacking) = (
+            self.sticking.normal[joint.number],
+            self.sticking.friction[joint.number],
+        );
+        let [first, second] = self.forces.normal[joint.number];
+        let counts = |v: f64| v.abs() > ROUNDING * (first + second + v.abs());
+        let slides = match counts(lacking) {
+            true => -lacking.signum(),
+            false => 0.0,
+        };
+        // Sliding opens what presses, as in every motion to which friction does not object.
+        let opens = pull.map(|pull| match counts(pull) {
+            true => 1.0,
+            false => joint.contact.friction * f64::abs(slides),
+        });
+        (opens, slides)
+    }
 }
 
 /// A force and its moment about a body's centroid.
@@ -317,9 +357,17 @@ mod tests {
                 let cost = if column.force.sticks() { 1.0 } else { 0.0 };
                 assert!(-column.dot(&motion) <= cost + 1e-11 * fastest);
             }
-            let power: f64 = std::iter::zip(&program.loads, &motion)
-                .map(|(l, v)| -l * v)
-                .sum();
+            let power = |motion: &[f64]| -> f64 {
+                let both = std::iter::zip(&program.loads, motion);
+                both.map(|(l, v)| -l * v).sum()
+            };
+            let tips = tips(&program);
+            assert_eq!(tips.is_some(), total > 0.0);
+            if let Some((tips, _)) = tips {
+                let gained = power(&tips);
+                assert!(gained > 0.0 && gained <= total * (1.0 + 1e-9));
+            }
+            let power = power(&motion);
             assert!(
                 (power - total).abs() < 1e-9 * fastest * (1.0 + total),
                 "{power} {total}"
