@@ -56,6 +56,9 @@ fn given(program: &Program, joints: &[Joint]) -> Vec<([f64; 2], f64)> {
     forces.collect()
 }
 
+/// By so much more every joint opens, in parts of the fastest velocity.
+const HAIR: f64 = 1e-11;
+
 /// What would have to stick, and the motion that shows that it takes so much; `None` where forces have a choice.
 pub(super) fn stick(program: &Program) -> Option<Stuck> {
     let joints = joints(program)?;
@@ -80,12 +83,9 @@ pub(super) fn stick(program: &Program) -> Option<Stuck> {
         forces: &forces,
         sticking: &sticking,
     };
-    let mut motion = vec![0.0; program.loads.len()];
-    for joint in &joints {
-        let (opens, slides) = opening.of(joint);
-        joint.moves(opens, slides, &mut motion);
-    }
-    motion.iter().all(|v| v.is_finite()).then(|| Stuck {
+    let speeds: Vec<_> = joints.iter().map(|joint| opening.of(joint)).collect();
+    let motion = motion(program, &joints, &speeds)?;
+    Some(Stuck {
         balanced: Some(true),
         forces,
         sticking,
@@ -103,8 +103,8 @@ pub fn tips(program: &Program) -> Option<(Vec<f64>, Stuck)> {
         forces: &stuck.forces,
         sticking: &stuck.sticking,
     };
-    let mut motion = vec![0.0; program.loads.len()];
     let mut goes = vec![false; program.blocks];
+    let mut speeds = Vec::with_capacity(joints.len());
     for joint in &joints {
         let held = joint.below.is_none_or(|(below, _)| !goes[below]);
         let (opens, slides) = match held {
@@ -112,9 +112,24 @@ pub fn tips(program: &Program) -> Option<(Vec<f64>, Stuck)> {
             false => ([0.0; 2], 0.0),
         };
         goes[joint.body] = !held || opens != [0.0; 2] || slides != 0.0;
-        joint.moves(opens, slides, &mut motion);
+        speeds.push((opens, slides));
     }
-    (goes.contains(&true) && motion.iter().all(|v| v.is_finite())).then_some((motion, stuck))
+    let motion = motion(program, &joints, &speeds)?;
+    goes.contains(&true).then_some((motion, stuck))
+}
+
+/// The velocities of the bodies from the speeds at which joints open and slide. Every joint opens by a hair more, so that no
+/// rounding makes it close.
+fn motion(program: &Program, joints: &[Joint], speeds: &[([f64; 2], f64)]) -> Option<Vec<f64>> {
+    let mut motion = vec![0.0; program.loads.len()];
+    let mut hair = 0.0;
+    for _ in 0..2 {
+        for (joint, (opens, slides)) in joints.iter().zip(speeds) {
+            joint.moves(opens.map(|v| v + hair), *slides, &mut motion);
+        }
+        hair = HAIR * motion.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    }
+    hair.is_finite().then_some(motion)
 }
 
 /// How fast contacts open and slide whose sticking gives way.
@@ -355,7 +370,7 @@ mod tests {
             let fastest = motion.iter().fold(1.0, |m: f64, v| m.max(v.abs()));
             for column in &all {
                 let cost = if column.force.sticks() { 1.0 } else { 0.0 };
-                assert!(-column.dot(&motion) <= cost + 1e-11 * fastest);
+                assert!(-column.dot(&motion) <= cost + 1e-10 * fastest);
             }
             let power = |motion: &[f64]| -> f64 {
                 let both = std::iter::zip(&program.loads, motion);
@@ -365,11 +380,11 @@ mod tests {
             assert_eq!(tips.is_some(), total > 0.0);
             if let Some((tips, _)) = tips {
                 let gained = power(&tips);
-                assert!(gained > 0.0 && gained <= total * (1.0 + 1e-9));
+                assert!(gained > 0.0 && gained <= total + 1e-8 * fastest * (1.0 + total));
             }
             let power = power(&motion);
             assert!(
-                (power - total).abs() < 1e-9 * fastest * (1.0 + total),
+                (power - total).abs() < 1e-8 * fastest * (1.0 + total),
                 "{power} {total}"
             );
             stuck_somewhere += usize::from(total > 1.0);

@@ -174,26 +174,34 @@ fn the_verdict_alone_is_proved_and_says_what_it_leaves_out() {
     }
 }
 
-/// A motion of very many blocks does little work on its way. Where it violates nothing that is no reason for doubt.
+/// A motion of very many blocks does little work on its way. Where it violates nothing that is no reason for doubt. Beside it a
+/// brick touches the lowest, so that forces have a choice: then one program is enough.
 #[test]
-fn the_verdict_alone_of_a_high_turned_stack_takes_one_program() {
+fn a_high_turned_stack_takes_no_program() {
     let at = |k: i32| rectangle(0.0, 0.5 * f64::from(k), 1.0, 0.5);
-    let bricks = (0..2_000).map(|k| block(&k.to_string(), at(k), 6.0));
-    let scene = scene(&turned(on_floor(0.7, bricks.collect()), 26.0));
+    let mut bricks: Vec<Value> = (0..2_000)
+        .map(|k| block(&k.to_string(), at(k), 6.0))
+        .collect();
     let asked = Options::default().verdict_only(Ask::Yes);
-    let frame = Analysis::with(&scene, &asked).frames.remove(0);
-    assert_eq!(frame.verdict, Verdict::Unstable);
-    assert!(frame.proof.holds());
-    assert_eq!(frame.solve.programs, 1);
+    for programs in [0, 1] {
+        let scene = scene(&turned(on_floor(0.7, bricks.clone()), 26.0));
+        let frame = Analysis::with(&scene, &asked).frames.remove(0);
+        assert_eq!(frame.verdict, Verdict::Unstable);
+        assert!(frame.proof.holds());
+        assert_eq!(frame.solve.programs, programs);
+        bricks.push(block("beside", rectangle(-1.0, 0.0, 1.0, 0.5), 6.0));
+    }
 }
 
-/// A stack that leans by nine tenths of what it may. Where any balance has no proof the least force has: the least residual
+/// A stack that leans by nine tenths of what it may, with a brick beside the lowest. Where any balance has no proof the least force has: the least residual
 /// would end without a status after 200 iterations.
 #[test]
 fn the_verdict_alone_of_ten_thousand_blocks_one_on_the_other_takes_few_programs() {
     let at = |k: i32| rectangle(9e-5 * f64::from(k), 0.25 * f64::from(k), 1.0, 0.25);
+    let beside = block("beside", rectangle(-1.0, 0.0, 1.0, 0.25), 1.0);
     let bricks: Vec<_> = (0..10_000)
         .map(|k| block(&k.to_string(), at(k), 1.0))
+        .chain([beside])
         .collect();
     let asked = Options::default().verdict_only(Ask::Yes);
     for (degrees, verdict) in [(0.0, Verdict::Stable), (40.0, Verdict::Unstable)] {
@@ -202,7 +210,7 @@ fn the_verdict_alone_of_ten_thousand_blocks_one_on_the_other_takes_few_programs(
         assert_eq!(frame.verdict, verdict, "{degrees}°");
         let solve = &frame.solve;
         assert!(
-            solve.programs <= 6 && solve.iterations <= 60,
+            solve.programs <= 8 && solve.iterations <= 60,
             "{degrees}°: {solve:?}"
         );
     }
