@@ -17,22 +17,15 @@ const SHORTEST: f64 = 1e-9;
 /// Less of what a contact gives is the rounding of sums: it neither moves nor fails.
 const ROUNDING: f64 = 1e-12;
 
+/// By so much more every joint opens, in parts of the fastest velocity: some fifty times the rounding of one.
+const HAIR: f64 = 1e-14;
+
 /// The forces, where there is no choice and every contact can give them.
 pub fn determinate(program: &Program) -> Option<Amounts> {
     let joints = joints(program)?;
-    let mut amounts = Amounts::none(program);
-    for (joint, ([first, second], along)) in joints.iter().zip(given(program, &joints)) {
-        let pressed = [first.max(0.0), second.max(0.0)];
-        let most = joint.contact.friction * (pressed[0] + pressed[1]);
-        let rubbed = along.clamp(-most, most);
-        let slight = ROUNDING * (first.abs() + second.abs() + along.abs());
-        if first < -slight || second < -slight || (along - rubbed).abs() > slight {
-            return None;
-        }
-        amounts.normal[joint.number] = pressed;
-        amounts.friction[joint.number] = rubbed;
-    }
-    Some(amounts)
+    let split = Split::of(program, &joints)?;
+    let holds = |joint: &Joint| split.speeds(joint) == ([0.0; 2], 0.0);
+    joints.iter().all(holds).then_some(split.forces)
 }
 
 /// N1, N2 and T that balance asks of every joint.
@@ -56,9 +49,6 @@ fn given(program: &Program, joints: &[Joint]) -> Vec<([f64; 2], f64)> {
     forces.collect()
 }
 
-/// By so much more every joint opens, in parts of the fastest velocity: some fifty times the rounding of one.
-const HAIR: f64 = 1e-14;
-
 /// What would have to stick, and the motion that shows that it takes so much; `None` where forces have a choice.
 pub(super) fn stick(program: &Program) -> Option<Stuck> {
     let joints = joints(program)?;
@@ -69,26 +59,13 @@ pub(super) fn stick(program: &Program) -> Option<Stuck> {
     {
         return None;
     }
-    let (mut forces, mut sticking) = (Amounts::none(program), Amounts::none(program));
-    for (joint, ([first, second], along)) in joints.iter().zip(given(program, &joints)) {
-        let pressed = [first.max(0.0), second.max(0.0)];
-        let most = joint.contact.friction * (pressed[0] + pressed[1]);
-        let rubbed = along.clamp(-most, most);
-        forces.normal[joint.number] = pressed;
-        forces.friction[joint.number] = rubbed;
-        sticking.normal[joint.number] = [pressed[0] - first, pressed[1] - second];
-        sticking.friction[joint.number] = along - rubbed;
-    }
-    let opening = Opening {
-        forces: &forces,
-        sticking: &sticking,
-    };
-    let speeds: Vec<_> = joints.iter().map(|joint| opening.of(joint)).collect();
+    let split = Split::of(program, &joints)?;
+    let speeds: Vec<_> = joints.iter().map(|joint| split.speeds(joint)).collect();
     let motion = motion(program, &joints, &speeds)?;
     Some(Stuck {
         balanced: Some(true),
-        forces,
-        sticking,
+        forces: split.forces,
+        sticking: split.sticking,
         motion: Some(motion),
         priced: false,
         effort: Effort::default(),
@@ -98,23 +75,20 @@ pub(super) fn stick(program: &Program) -> Option<Stuck> {
 /// Of what sticks the motion in which it gives way next to the ground only: what lies beyond goes with it as one.
 pub fn tips(program: &Program) -> Option<(Vec<f64>, Stuck)> {
     let joints = joints(program)?;
-    let stuck = stick(program)?;
-    let opening = Opening {
-        forces: &stuck.forces,
-        sticking: &stuck.sticking,
-    };
+    let split = Split::of(program, &joints)?;
     let mut goes = vec![false; program.blocks];
     let mut speeds = Vec::with_capacity(joints.len());
     for joint in &joints {
         let held = joint.below.is_none_or(|(below, _)| !goes[below]);
         let (opens, slides) = match held {
-            true => opening.of(joint),
+            true => split.speeds(joint),
             false => ([0.0; 2], 0.0),
         };
         goes[joint.body] = !held || opens != [0.0; 2] || slides != 0.0;
         speeds.push((opens, slides));
     }
     let motion = motion(program, &joints, &speeds)?;
+    let stuck = stick(program)?;
     goes.contains(&true).then_some((motion, stuck))
 }
 
@@ -133,26 +107,43 @@ fn motion(program: &Program, joints: &[Joint], speeds: &[([f64; 2], f64)]) -> Op
         both.map(|(load, v)| -load * v).sum()
     };
     let plain = opened(0.0);
-    let fastest = plain.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-    let ajar = opened(HAIR * fastest);
-    if !fastest.is_finite() {
+    if !plain.iter().all(|v| v.is_finite()) {
         return None;
     }
+    let fastest = plain.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    let ajar = opened(HAIR * fastest);
     match power(&ajar) > 0.5 * power(&plain) {
         true => Some(ajar),
         false => Some(plain),
     }
 }
 
-/// How fast contacts open and slide whose sticking gives way.
-struct Opening<'a> {
-    forces: &'a Amounts,
-    sticking: &'a Amounts,
+/// What contacts have to give: what they can, and what has to stick.
+struct Split {
+    forces: Amounts,
+    sticking: Amounts,
 }
 
-impl Opening<'_> {
-    /// The speeds at which the points open, and that along the face.
-    fn of(&self, joint: &Joint) -> ([f64; 2], f64) {
+impl Split {
+    fn of(program: &Program, joints: &[Joint]) -> Option<Split> {
+        let (mut forces, mut sticking) = (Amounts::none(program), Amounts::none(program));
+        for (joint, ([first, second], along)) in joints.iter().zip(given(program, joints)) {
+            if !(first.is_finite() && second.is_finite() && along.is_finite()) {
+                return None;
+            }
+            let pressed = [first.max(0.0), second.max(0.0)];
+            let most = joint.contact.friction * (pressed[0] + pressed[1]);
+            let rubbed = along.clamp(-most, most);
+            forces.normal[joint.number] = pressed;
+            forces.friction[joint.number] = rubbed;
+            sticking.normal[joint.number] = [pressed[0] - first, pressed[1] - second];
+            sticking.friction[joint.number] = along - rubbed;
+        }
+        Some(Split { forces, sticking })
+    }
+
+    /// The speeds at which the points open whose sticking gives way, and that along the face.
+    fn speeds(&self, joint: &Joint) -> ([f64; 2], f64) {
         let (pull, lacking) = (
             self.sticking.normal[joint.number],
             self.sticking.friction[joint.number],
