@@ -285,24 +285,8 @@ mod tests {
     use crate::interface::ContactKind;
     use crate::program::{Scale, columns, sticking_columns};
     use crate::solve::Conditioning;
+    use crate::solve::numbers::Numbers;
     use crate::solve::stick::by_programs;
-
-    /// Numbers between −1 and 1 that are the same in every run.
-    struct Numbers(u64);
-
-    impl Numbers {
-        fn next(&mut self) -> f64 {
-            self.0 = self
-                .0
-                .wrapping_mul(6364136223846793005)
-                .wrapping_add(1442695040888963407);
-            (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-        }
-
-        fn below(&mut self, end: usize) -> usize {
-            ((0.5 + 0.5 * self.next()) * end as f64) as usize
-        }
-    }
 
     /// Blocks that each touch one earlier one or the ground, in any direction and with any load.
     fn branches(blocks: usize, numbers: &mut Numbers) -> Program {

@@ -15,6 +15,8 @@ mod factor;
 mod limit;
 mod nearest;
 mod normal;
+#[cfg(test)]
+mod numbers;
 mod polish;
 pub(crate) mod ray;
 mod refine;

@@ -1,20 +1,8 @@
 //! The normal equations against products, conditions of an optimum, and clarabel.
 
 use super::*;
+use crate::solve::numbers::Numbers;
 use crate::solve::{Conditioning, TOLERANCE};
-
-/// Numbers between −1 and 1 that are the same in every run.
-struct Numbers(u64);
-
-impl Numbers {
-    fn next(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-}
 
 /// Columns between neighbours on a lattice of blocks, and to the ground below the first row: five of each pair.
 fn lattice(wide: usize, high: usize, numbers: &mut Numbers) -> (usize, Vec<Vec<(usize, f64)>>) {

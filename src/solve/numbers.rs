@@ -1,0 +1,20 @@
+//! Numbers for tests.
+
+/// Numbers between −1 and 1 that are the same in every run.
+pub(super) struct Numbers(pub u64);
+
+impl Numbers {
+    /// The next one.
+    pub fn next(&mut self) -> f64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+
+    /// A whole number below an end.
+    pub fn below(&mut self, end: usize) -> usize {
+        ((0.5 + 0.5 * self.next()) * end as f64) as usize
+    }
+}
