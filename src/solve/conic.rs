@@ -119,11 +119,11 @@ pub struct SolverSettings {
 /// walls near their edge, no number of iterations does, and the last ten are saved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Finer {
-    /// In so small a part of the tolerance they end, where they can.
+    /// They end at this part of the tolerance, where they can.
     pub by: f64,
-    /// Where more slack than this is expected then of all columns in use, in parts of the cost, they end before.
+    /// The columns stand out where all that are in use have no more slack than this together, in parts of the cost.
     pub slack: f64,
-    /// Namely within so many tolerances.
+    /// Where more slack is expected at that end, they end at so many times the tolerance.
     pub before: f64,
 }
 

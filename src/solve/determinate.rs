@@ -52,44 +52,30 @@ fn given(program: &Program, joints: &[Joint]) -> Vec<([f64; 2], f64)> {
 /// What would have to stick, and the motion that shows that it takes so much; `None` where forces have a choice.
 pub(super) fn stick(program: &Program) -> Option<Stuck> {
     let joints = joints(program)?;
-    if program
-        .contacts
-        .iter()
-        .any(|contact| contact.friction > 1.0)
-    {
-        return None;
-    }
-    let split = Split::of(program, &joints)?;
-    let speeds: Vec<_> = joints.iter().map(|joint| split.speeds(joint)).collect();
-    let motion = motion(program, &joints, &speeds)?;
-    Some(Stuck {
-        balanced: Some(true),
-        forces: split.forces,
-        sticking: split.sticking,
-        motion: Some(motion),
-        priced: false,
-        effort: Effort::default(),
-    })
+    Split::of(program, &joints)?.stuck(program, &joints)
 }
 
-/// Of what sticks the motion in which it gives way next to the ground only: what lies beyond goes with it as one.
-pub fn tips(program: &Program) -> Option<(Vec<f64>, Stuck)> {
+/// The motion in which only contacts next to the ground give way, so that what lies beyond moves with them as one body, and
+/// what would have to stick; `None` where forces have a choice, and where none sticks.
+pub fn collapse(program: &Program) -> Option<(Vec<f64>, Stuck)> {
     let joints = joints(program)?;
     let split = Split::of(program, &joints)?;
-    let mut goes = vec![false; program.blocks];
+    let mut moves = vec![false; program.blocks];
     let mut speeds = Vec::with_capacity(joints.len());
     for joint in &joints {
-        let held = joint.below.is_none_or(|(below, _)| !goes[below]);
-        let (opens, slides) = match held {
+        let rests = joint.below.is_none_or(|(below, _)| !moves[below]);
+        let (opens, slides) = match rests {
             true => split.speeds(joint),
             false => ([0.0; 2], 0.0),
         };
-        goes[joint.body] = !held || opens != [0.0; 2] || slides != 0.0;
+        moves[joint.body] = !rests || opens != [0.0; 2] || slides != 0.0;
         speeds.push((opens, slides));
     }
+    if !moves.contains(&true) {
+        return None;
+    }
     let motion = motion(program, &joints, &speeds)?;
-    let stuck = stick(program)?;
-    goes.contains(&true).then_some((motion, stuck))
+    Some((motion, split.stuck(program, &joints)?))
 }
 
 /// The velocities of the bodies from the speeds at which joints open and slide. Every joint opens by a hair more, so that no
@@ -140,6 +126,26 @@ impl Split {
             sticking.friction[joint.number] = along - rubbed;
         }
         Some(Split { forces, sticking })
+    }
+
+    /// As an optimum of the least sticking, with the motion of all that gives way; `None` where friction beyond 1 may take less.
+    fn stuck(self, program: &Program, joints: &[Joint]) -> Option<Stuck> {
+        if program
+            .contacts
+            .iter()
+            .any(|contact| contact.friction > 1.0)
+        {
+            return None;
+        }
+        let speeds: Vec<_> = joints.iter().map(|joint| self.speeds(joint)).collect();
+        Some(Stuck {
+            balanced: Some(true),
+            motion: Some(motion(program, joints, &speeds)?),
+            forces: self.forces,
+            sticking: self.sticking,
+            priced: false,
+            effort: Effort::default(),
+        })
     }
 
     /// The speeds at which the points open whose sticking gives way, and that along the face.
@@ -363,10 +369,10 @@ mod tests {
                 let both = std::iter::zip(&program.loads, motion);
                 both.map(|(l, v)| -l * v).sum()
             };
-            let tips = tips(&program);
-            assert_eq!(tips.is_some(), total > 0.0);
-            if let Some((tips, _)) = tips {
-                let gained = power(&tips);
+            let collapse = collapse(&program);
+            assert_eq!(collapse.is_some(), total > 0.0);
+            if let Some((falling, _)) = collapse {
+                let gained = power(&falling);
                 assert!(gained > 0.0 && gained <= total + 1e-8 * fastest * (1.0 + total));
             }
             let power = power(&motion);

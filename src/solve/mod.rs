@@ -32,7 +32,7 @@ pub use conic::{
     Answer, Choice, Conditioning, Finer, ITERATIONS, SolverSettings, Status, TOLERANCE,
     by_clarabel, solve, solve_within,
 };
-pub use determinate::{determinate, tips};
+pub use determinate::{collapse, determinate};
 pub use limit::{Extreme, Limit, least, most};
 pub use nearest::{Nearest, generators};
 pub use polish::polished;

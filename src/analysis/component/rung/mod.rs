@@ -1,9 +1,9 @@
 //! The rungs of the ladder, one file each: what is posed, and why there.
 
+mod determinate;
 mod least_force;
 mod least_residual;
 mod least_sticking;
-mod tips;
 
 use std::fmt;
 
@@ -60,8 +60,8 @@ pub(in crate::analysis) enum Place {
 /// One program that may decide.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Rung {
-    /// What gives way where forces have no choice.
-    Tips,
+    /// The mechanism of what is statically determinate.
+    Determinate,
     /// Least force of many blocks, given up early.
     FirstLook(SolverSettings),
     /// Least force.
@@ -98,7 +98,7 @@ impl Attempt {
 impl Rung {
     /// From the quickest to the one that decides nearest to the edge.
     ///
-    /// Where forces have no choice and are not admissible, what they lack is known without a program, and what gives way. Else
+    /// What is statically determinate needs no program: what its forces lack is known, and what gives way. Else
     /// least force first, as nearly every component is decided there; then any balance and the least residual, which have
     /// answers on either side of the edge; then least force with full precision; last the least sticking, whose optimum is the
     /// physical residual.
@@ -147,7 +147,7 @@ impl Rung {
                 rungs.splice(0..0, residual);
             }
         }
-        rungs.insert(0, Rung::Tips);
+        rungs.insert(0, Rung::Determinate);
         for settings in settings.iter().copied().map(Rung::Sticking) {
             if !rungs.contains(&settings) {
                 rungs.push(settings);
@@ -158,7 +158,7 @@ impl Rung {
 
     pub fn attempt(&self, program: &Program) -> Attempt {
         match self {
-            Rung::Tips => tips::attempt(program),
+            Rung::Determinate => determinate::attempt(program),
             Rung::FirstLook(settings) => least_force::first_look(program, *settings),
             Rung::Force(settings) => least_force::attempt(program, *settings),
             Rung::Any => least_residual::any(program),
@@ -175,7 +175,7 @@ impl Rung {
     /// Whether its forces come so near to a balance that, where they have no proof, none have.
     pub fn excludes_balance(&self, attempt: &Attempt) -> bool {
         match self {
-            Rung::Tips | Rung::FirstLook(_) | Rung::Force(_) => false,
+            Rung::Determinate | Rung::FirstLook(_) | Rung::Force(_) => false,
             Rung::Any | Rung::Residual => attempt.forces.is_some(),
             Rung::Sticking(_) => attempt.stuck.is_some(),
         }
@@ -183,7 +183,7 @@ impl Rung {
 
     pub fn method(&self) -> Method {
         match self {
-            Rung::Tips => Method::ClosedForm,
+            Rung::Determinate => Method::ClosedForm,
             Rung::FirstLook(_) => Method::LeastForce,
             Rung::Force(settings) if settings.conditioning == Conditioning::Plain => {
                 Method::LeastForce

@@ -1,11 +1,11 @@
-//! Where forces have no choice: what gives way next to the ground, and what would have to stick, without a program.
+//! What is statically determinate: the mechanism, and what would have to stick, without a program.
 
 use super::Attempt;
 use crate::program::Program;
-use crate::solve::{Effort, tips};
+use crate::solve::{Effort, collapse};
 
 pub(super) fn attempt(program: &Program) -> Attempt {
-    let (motion, stuck) = tips(program).unzip();
+    let (motion, stuck) = collapse(program).unzip();
     Attempt {
         forces: None,
         motion,
