@@ -76,7 +76,7 @@
 //! | [`output::png::render`] | PNG bytes | that text |
 //! | [`output::pdf::write`] | a PDF page | a drawing, through that text |
 //! | [`study::study`] | what accuracy costs | scenes |
-//! | [`report::result::to_json`] | JSON for other programs | an analysis |
+//! | [`result::to_json`] | JSON for other programs | an analysis |
 //! | [`batch`] | answers in order, by several threads | many scenes, one by one |
 //! | [`session::Session`] | a verdict after every step | blocks placed and held one by one |
 //! | [`snapshot`] | what is not as it was | scenes and what is kept beside them |
@@ -119,41 +119,43 @@ macro_rules! optional_setters {
     };
 }
 
-pub mod scene;
+#[doc(hidden)]
+pub mod text;
 
-pub mod starter;
+#[doc(hidden)]
+pub mod geometry;
 
-#[cfg(feature = "import")]
-pub mod import;
+mod mechanics;
 
-pub mod analysis;
+mod pictures;
 
-pub mod wording;
+mod sources;
 
-pub mod drawing;
+mod products;
 
-pub mod figure;
-
-pub mod output;
-
-pub mod report;
-
-pub mod batch;
-
-pub mod session;
-
-#[cfg(feature = "snapshot")]
-pub mod snapshot;
+mod entry;
 
 #[doc(hidden)]
 pub mod internals;
 
-// Every room is named by `crate::room`, public or not.
+// Every module of a group is also named by its short path, `crate::scene` for `crate::mechanics::scene`.
+pub use mechanics::{analysis, batch, scene, session};
+pub use pictures::{drawing, output};
+#[cfg(feature = "snapshot")]
+pub use products::snapshot;
+pub use products::{figure, report, result, wording};
+#[cfg(feature = "import")]
+pub use sources::import;
+pub use sources::starter;
+
 #[cfg(feature = "cli")]
-use internals::cli;
-use internals::{assembly, effect, geometry, interface, program, proof, resultant, solve, text};
+use entry::cli;
+use mechanics::statics::{assembly, effect, interface, resultant};
+use mechanics::{program, proof, solve};
 #[cfg(feature = "report")]
-use internals::{chart, study};
+use pictures::chart;
+#[cfg(feature = "report")]
+use products::study;
 
 /// The nalgebra of [`scene::Point`] and [`scene::Vector`], whose version is part of this crate's interface: another one
 /// comes with another version of this crate.

@@ -7,7 +7,7 @@ use drystone::analysis::{Accuracy, Options, Proof, Verdict};
 use drystone::internals::study::{Case, Mark, Method, Study, study, summary};
 use drystone::output::png;
 use drystone::report::accuracy::{csv, markdown, page, svg};
-use drystone::report::result::accuracy_json;
+use drystone::result::accuracy_json;
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
 

@@ -8,7 +8,7 @@ use crate::source::{bare, collect};
 
 /// Which files of `figure/` each of its files uses, by their names; a folder counts as the file it belongs to.
 fn figure_files() -> BTreeMap<String, BTreeSet<String>> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/figure");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/products/figure");
     let mut files = Vec::new();
     collect(&root, &mut files);
     let name = |file: &Path| {

@@ -10,7 +10,7 @@ mod motion;
 mod wedging;
 
 use drystone::analysis::{Options, Verdict};
-use drystone::report::result::{Layout, Timing, to_json};
+use drystone::result::{Layout, Timing, to_json};
 use drystone::{Analysis, figure};
 use serde_json::{Value, json};
 

@@ -9,7 +9,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 use drystone::analysis::{Analysis, Verdict};
-use drystone::report::result::{Layout, Timing, to_json};
+use drystone::result::{Layout, Timing, to_json};
 use drystone::{Scene, figure, output};
 use serde_json::{Map, Value, json};
 

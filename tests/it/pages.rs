@@ -9,8 +9,8 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use drystone::analysis::{Analysis, Ask, Options};
-use drystone::report::result::key::{KEYS, Key, REFUSAL_KEYS, Type};
-use drystone::report::result::{Layout, Timing, refusal, schema, to_json_of};
+use drystone::result::key::{KEYS, Key, REFUSAL_KEYS, Type};
+use drystone::result::{Layout, Timing, refusal, schema, to_json_of};
 use drystone::scene::{Code, NoteCode, Scene};
 use serde_json::Value;
 

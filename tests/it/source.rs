@@ -18,6 +18,29 @@ pub(crate) fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
     }
 }
 
+/// Folders of `src` that only group modules.
+pub(crate) const GROUPS: &[&str] = &[
+    "mechanics",
+    "statics",
+    "pictures",
+    "sources",
+    "products",
+    "entry",
+];
+
+/// A path below `src` without its groups, as code names it: `scene/frame.rs` for `mechanics/scene/frame.rs`. `None` for a
+/// group's own `mod.rs`.
+pub(crate) fn without_groups(path: &str) -> Option<&str> {
+    let mut rest = path;
+    while let Some((first, below)) = rest.split_once('/') {
+        if !GROUPS.contains(&first) {
+            break;
+        }
+        rest = below;
+    }
+    (rest != "mod.rs").then_some(rest)
+}
+
 /// The rooms named in `crate::room` and `crate::{room::…, room::…}`.
 pub(crate) fn rooms_used(code: &str) -> Vec<String> {
     let mut rooms = Vec::new();

@@ -7,7 +7,7 @@ mod refused;
 mod step;
 
 use drystone::Analysis;
-use drystone::report::result::{Layout, Timing, to_json};
+use drystone::result::{Layout, Timing, to_json};
 use drystone::scene::Scene;
 use serde_json::{Value, json};
 

@@ -2,7 +2,7 @@
 
 use drystone::Analysis;
 use drystone::analysis::{Ask, EffectName, MarginKind, MarginKinds, Method, Options};
-use drystone::report::result::{Layout, Timing, to_json};
+use drystone::result::{Layout, Timing, to_json};
 use serde_json::{Value, json};
 
 use super::words_of;

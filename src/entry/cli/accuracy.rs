@@ -1,0 +1,131 @@
+//! `drystone accuracy`: what accuracy costs in time, measured here and now.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use crate::cli::complaint::Complaint;
+use crate::cli::destination;
+use crate::cli::ending::Ending;
+use crate::cli::progress::{Progress, Shown};
+use crate::cli::source;
+use crate::cli::terminal::Terminal;
+use crate::output::file::Existing;
+use crate::report::accuracy::{csv, markdown, page, picture};
+use crate::result::accuracy_json;
+use crate::scene::Scene;
+use crate::study::{Study, TOLERANCES, study, summary};
+
+/// Measure what accuracy costs in time: methods, tolerances, errors and wrong verdicts
+#[derive(Debug, Args)]
+pub(crate) struct Accuracy {
+    /// Scene files; - reads standard input
+    #[arg(required = true, value_name = "SCENE")]
+    scenes: Vec<PathBuf>,
+    /// Where to: a file that ends in .html, .csv, .json, .svg or .md. May be given several times
+    #[arg(short, long, required = true, value_name = "OUT")]
+    output: Vec<PathBuf>,
+    /// Tolerances of the solver to measure [default: 1e-2 … 1e-12]
+    #[arg(long, value_name = "TOL", value_delimiter = ',', value_parser = tolerance)]
+    tolerances: Vec<f64>,
+}
+
+fn tolerance(typed: &str) -> Result<f64, String> {
+    match typed.parse::<f64>() {
+        Ok(value) if (1e-15..=0.1).contains(&value) => Ok(value),
+        _ => Err("a tolerance is a number from 1e-15 to 0.1".into()),
+    }
+}
+
+/// What a study is written as.
+#[derive(Clone, Copy, Debug)]
+enum Form {
+    Html,
+    Csv,
+    Json,
+    Svg,
+    Markdown,
+}
+
+impl Accuracy {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
+        let mut forms = Vec::with_capacity(self.output.len());
+        for path in &self.output {
+            forms.push((path, form(path).map_err(|c| vec![c])?));
+        }
+        let scenes: Vec<&Path> = self.scenes.iter().map(PathBuf::as_path).collect();
+        destination::apart(&self.output, &scenes).map_err(|c| vec![c])?;
+        let sources = source::read(&self.scenes, None, None)?;
+        // A scene without a title is known by its file.
+        let scenes: Vec<Scene> = sources
+            .iter()
+            .map(|source| {
+                let mut scene = source.scene.clone();
+                if scene.title.is_empty() {
+                    scene.title = source.stem();
+                }
+                scene
+            })
+            .collect();
+        let shown = if terminal.shows_progress() {
+            Shown::WhenLong
+        } else {
+            Shown::Never
+        };
+        let frames = scenes.iter().map(|s| s.frames.len()).sum();
+        let progress = Progress::begin(frames, shown);
+        let tolerances = match self.tolerances.len() {
+            0 => &TOLERANCES[..],
+            _ => &self.tolerances[..],
+        };
+        let study = study(&scenes, tolerances, &mut |name| {
+            progress.doing(name);
+            progress.step();
+        });
+        drop(progress);
+        let mut files = Vec::with_capacity(forms.len());
+        for (path, form) in forms {
+            let text = written(&study, form).map_err(|c| vec![c])?;
+            files.push((path.clone(), text.into_bytes()));
+        }
+        destination::write(&files, Existing::Replace).map_err(|c| vec![c])?;
+        for (path, _) in &files {
+            terminal.note(&format!("{}: {frames} frames", path.display()));
+        }
+        Ok(Ending::Done)
+    }
+}
+
+fn form(path: &Path) -> Result<Form, Complaint> {
+    let ending = path
+        .extension()
+        .map(|e| e.to_string_lossy().to_ascii_lowercase());
+    match ending.as_deref() {
+        Some("html") => Ok(Form::Html),
+        Some("csv") => Ok(Form::Csv),
+        Some("json") => Ok(Form::Json),
+        Some("svg") => Ok(Form::Svg),
+        Some("md") => Ok(Form::Markdown),
+        _ => Err(Complaint::CommandLine(format!(
+            "{}: a study is .html, .csv, .json, .svg or .md",
+            path.display()
+        ))),
+    }
+}
+
+fn written(study: &Study, form: Form) -> Result<String, Complaint> {
+    match form {
+        Form::Csv => Ok(csv(study)),
+        Form::Json => Ok(accuracy_json(study)),
+        Form::Markdown => Ok(markdown(study)),
+        Form::Html => page(study).map_err(|error| undrawn(&error)),
+        Form::Svg => picture(&summary(study), study.cases.len()).map_err(|error| undrawn(&error)),
+    }
+}
+
+fn undrawn(error: &dyn std::error::Error) -> Complaint {
+    Complaint::NotWritten {
+        what: "the chart".into(),
+        why: error.to_string(),
+    }
+}

@@ -1,0 +1,309 @@
+//! `drystone batch`: a line of JSON for every scene of a corpus, however many there are.
+
+mod input;
+mod output;
+mod pace;
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::thread;
+
+use clap::Args;
+
+use crate::analysis::{Analysis, Ask, Options, Verdict, verdicts};
+use crate::batch::{Record, Records, Room, in_order};
+use crate::cli::complaint::Complaint;
+use crate::cli::destination;
+use crate::cli::ending::Ending;
+use crate::cli::level::Level;
+use crate::cli::look::Look;
+use crate::cli::picture::{Format, Picture};
+use crate::cli::script;
+use crate::cli::terminal::Terminal;
+use crate::figure;
+use crate::output::file::Existing;
+use crate::output::fonts::Fonts;
+use crate::result::{Fields, Origin, PictureOutcome, line_of, problem_line, verdict_line};
+use crate::scene::{Code, Problem, Scene};
+use output::Output;
+use pace::Pace;
+
+/// The width of a picture where nothing is given, pixels.
+const WIDTH: u32 = 400;
+
+/// Examine many scenes, one per line, on all cores: a line of JSON for each, in their order
+///
+/// A scene that is wrong is answered by { "line", "problems" } in its place, and the others go on. The end is 0, 1, 2 or 3 as
+/// for check, after all of them; 4 where the output could not be written.
+#[derive(Debug, Args)]
+pub(crate) struct Batch {
+    /// Files of a scene per line (.ndjson, .jsonl), scene files (.json), or folders of both; - reads lines from standard input
+    #[arg(value_name = "INPUT", default_value = "-")]
+    inputs: Vec<PathBuf>,
+    /// Write the lines to a file, each as soon as it is its turn, in place of standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Go on behind the whole lines that the output file has already; a last line cut short is written anew. The exit code
+    /// then speaks of the scenes answered now
+    #[arg(long, requires = "output")]
+    resume: bool,
+    /// What of a result is written, such as verdict,frames.total_force or all; file and line always are
+    #[arg(long, value_name = "LIST", value_parser = fields, default_value = "scene,verdict")]
+    fields: Fields,
+    /// Draw every scene into this folder, by default 400 pixels wide as PNG, each file named after its scene's line or file
+    #[arg(long, value_name = "FOLDER")]
+    render: Option<PathBuf>,
+    /// Threads that work [default: all cores, and half as many more with --render, whose pictures wait for the disk]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    jobs: Option<u16>,
+    /// Tell every so many seconds on standard error how many scenes are done, how fast, and what time is left
+    #[arg(long, value_name = "SECONDS", value_parser = pace::seconds)]
+    progress: Option<f64>,
+    #[command(flatten)]
+    picture: Picture,
+    #[command(flatten)]
+    look: Look,
+    #[command(flatten)]
+    level: Level,
+}
+
+fn fields(typed: &str) -> Result<Fields, String> {
+    Fields::read(typed).map_err(|unknown| {
+        let words: Vec<String> = unknown.iter().map(ToString::to_string).collect();
+        words.join("; ")
+    })
+}
+
+impl Batch {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
+        let work = self.work().map_err(|c| vec![c])?;
+        let inputs = input::of(&self.inputs, self.render.is_some())?;
+        let mut output = Output::open(self.output.as_deref(), self.resume, &inputs.files)
+            .map_err(|c| vec![c])?;
+        if let Some(folder) = &self.render {
+            destination::make_folder(folder).map_err(|c| vec![c])?;
+        }
+        let mut records = Records::of(inputs.list);
+        let mut pace = Pace::begin(terminal, self.progress, inputs.bytes, records.read());
+        let done = output.done();
+        if let Some(missing) = (0..done).find(|_| records.next().is_none()) {
+            return Err(vec![output.belongs_elsewhere(missing)]);
+        }
+        pace.skipped(done);
+        let threads = self.jobs.map_or_else(
+            || {
+                let cores = thread::available_parallelism().map_or(1, usize::from);
+                // A picture is waited for until it lies on the disk; meanwhile others are drawn.
+                cores + self.render.as_ref().map_or(0, |_| cores.div_ceil(2))
+            },
+            usize::from,
+        );
+        let mut ending = Ending::Done;
+        let mut failed = None;
+        in_order(
+            records,
+            Room::of(threads),
+            move |record| work.answer(record),
+            |answer| {
+                let written = match answer {
+                    None => output.flush(),
+                    Some(Ok(answer)) => {
+                        ending = ending.max(answer.ending);
+                        pace.step(answer.ending);
+                        output.write(answer.line.as_bytes())
+                    }
+                    Some(Err(complaint)) => {
+                        failed = Some(complaint);
+                        return std::ops::ControlFlow::Break(());
+                    }
+                };
+                match written {
+                    Ok(flow) => flow,
+                    Err(complaint) => {
+                        failed = Some(complaint);
+                        std::ops::ControlFlow::Break(())
+                    }
+                }
+            },
+        );
+        // What was answered before the failure is a result all the same.
+        let flushed = output.flush();
+        pace.end();
+        match (failed, flushed) {
+            (Some(complaint), _) | (None, Err(complaint)) => Err(vec![complaint]),
+            (None, Ok(_)) => Ok(ending),
+        }
+    }
+
+    fn work(&self) -> Result<Work, Complaint> {
+        let format = self.picture.asked().unwrap_or(Format::Png);
+        let picture = self.picture.clone().or_width(WIDTH, format).of_many();
+        let drawn = match &self.render {
+            None => None,
+            Some(folder) => {
+                picture.check(format)?;
+                Some(Drawn {
+                    folder: folder.clone(),
+                    format,
+                    fonts: picture.fonts()?,
+                    options: figure::Options {
+                        width: picture.page(),
+                        theme: self.look.theme()?,
+                        ..figure::Options::default()
+                    },
+                    picture,
+                })
+            }
+        };
+        let asks = |path: &[&str]| match self.fields.ask(path) {
+            true => Ask::Yes,
+            false => Ask::No,
+        };
+        Ok(Work {
+            level: self.level,
+            margins: asks(&["frames", "margins"]),
+            wedging: asks(&["frames", "only_by_wedging"]),
+            fields: self.fields.clone(),
+            drawn: drawn.map(Arc::new),
+        })
+    }
+}
+
+/// What is done with every scene.
+struct Work {
+    level: Level,
+    margins: Ask,
+    wedging: Ask,
+    fields: Fields,
+    drawn: Option<Arc<Drawn>>,
+}
+
+/// How scenes are drawn, and where to.
+struct Drawn {
+    folder: PathBuf,
+    format: Format,
+    picture: Picture,
+    fonts: Fonts,
+    options: figure::Options,
+}
+
+/// A line of the output, and what it says of its scene.
+struct Answer {
+    line: String,
+    ending: Ending,
+}
+
+impl Work {
+    /// The line for a record; a complaint where its picture could not be written, as nothing later could be either.
+    fn answer(&self, record: Record) -> Result<Answer, Complaint> {
+        let origin = Origin {
+            file: record.file.as_ref().map(|f| f.display().to_string()),
+            line: record.line,
+        };
+        let name = input::picture_name(&record);
+        let caught = catch_unwind(AssertUnwindSafe(|| self.examined(&origin, &name, &record)));
+        caught.unwrap_or_else(|_| {
+            let fault =
+                "the program failed on this scene; that is its own fault and no fault of the scene";
+            Ok(refused(
+                &origin,
+                &[problem(
+                    Code::InternalFault,
+                    fault,
+                    "please report it with the scene",
+                )],
+            ))
+        })
+    }
+
+    fn examined(&self, origin: &Origin, name: &str, record: &Record) -> Result<Answer, Complaint> {
+        let bytes = match &record.bytes {
+            Ok(bytes) => bytes,
+            Err(why) => return Ok(refused(origin, &[problem(Code::NotReadable, why, "")])),
+        };
+        let scene = match Scene::from_slice_within(bytes, self.level.contact_tolerance) {
+            Ok(scene) => scene,
+            Err(problems) => return Ok(refused(origin, &problems.list)),
+        };
+        let options = self.options();
+        if self.drawn.is_none() && self.fields.are_few() {
+            let verdict = verdicts(&scene, &options).into_iter().max();
+            let verdict = verdict.unwrap_or(Verdict::Stable);
+            return Ok(Answer {
+                line: verdict_line(origin, &scene.title, verdict, &self.fields),
+                ending: Ending::from(verdict),
+            });
+        }
+        let analysis = Analysis::with(&scene, &options);
+        let picture = match &self.drawn {
+            None => PictureOutcome::NotAsked,
+            Some(drawn) => drawn.draw(&analysis, name)?,
+        };
+        Ok(Answer {
+            line: line_of(origin, &analysis, &picture, &self.fields),
+            ending: Ending::of(&analysis),
+        })
+    }
+
+    /// What an analysis is asked: no more than is to be written. A limit of time counts from here.
+    fn options(&self) -> Options {
+        let asked = self.level.options();
+        Options {
+            margins: self.margins,
+            wedging: match asked.wedging {
+                Ask::Yes => Ask::Yes,
+                Ask::No => self.wedging,
+            },
+            ..asked
+        }
+    }
+}
+
+impl Drawn {
+    /// Draws a scene into its file. The file is there, whole, before the line that tells of it.
+    fn draw(&self, analysis: &Analysis, name: &str) -> Result<PictureOutcome, Complaint> {
+        let name = format!("{name}.{}", self.format.ending());
+        let legible = match self.picture.draws_words(self.format) {
+            true => Arc::new(script::legible(&analysis.scene, &self.fonts)),
+            false => Arc::clone(&analysis.scene),
+        };
+        let shown = Analysis {
+            scene: legible,
+            frames: analysis.frames.clone(),
+            notes: Vec::new(),
+        };
+        let drawing = figure::forces(&shown, &self.options);
+        match self.picture.bytes(drawing, self.format, &self.fonts) {
+            Ok(bytes) => {
+                let file = (self.folder.join(&name), bytes);
+                destination::write(&[file], Existing::Replace)?;
+                Ok(PictureOutcome::Drawn(name))
+            }
+            Err(Complaint::CommandLine(why) | Complaint::NotWritten { why, .. }) => {
+                Ok(PictureOutcome::Refused(why))
+            }
+            Err(other) => Err(other),
+        }
+    }
+}
+
+fn problem(code: Code, message: &str, help: &str) -> Problem {
+    Problem {
+        code,
+        path: String::new(),
+        line: 0,
+        column: 0,
+        span: None,
+        message: message.into(),
+        help: help.into(),
+        place: None,
+    }
+}
+
+fn refused(origin: &Origin, problems: &[Problem]) -> Answer {
+    Answer {
+        line: problem_line(origin, problems),
+        ending: Ending::WrongInput,
+    }
+}

@@ -1,0 +1,288 @@
+//! `drystone import`: a drawing in, a scene out.
+
+use std::fs;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+
+use crate::cli::complaint::Complaint;
+use crate::cli::destination;
+use crate::cli::ending::Ending;
+use crate::cli::page::Page;
+use crate::cli::source::FrameChoice;
+use crate::cli::terminal::Terminal;
+use crate::import::{self, Format, Imported, Options, Remark};
+use crate::output::file::Existing;
+use crate::result::import_json;
+use crate::scene::format::SceneFile;
+
+/// So many moved bodies are listed; --json lists them all.
+const LISTED: usize = 12;
+
+/// Turn a drawing (SVG, GeoJSON, WKT) into a scene
+///
+/// Every closed outline becomes a block, named after its label or id. Layers and elements whose names begin with "ground"
+/// become ground, with "robot" robots, which hold the block in which their centre lies; "ignore" and "guide" are left out.
+/// What nearly touches is made to touch, and what cannot be taken is reported.
+#[derive(Debug, Args)]
+#[command(allow_negative_numbers = true)]
+pub(crate) struct Import {
+    /// The drawing: .svg, .geojson, .json or .wkt; - reads standard input
+    #[arg(value_name = "DRAWING")]
+    drawing: PathBuf,
+    /// The scene file to write; - or nothing prints the scene
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// What the drawing is written in, where its name does not tell
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    format: Option<WrittenIn>,
+    /// Metres per unit of the drawing [default: its real size where it has one in mm, cm, in or pt, else 1]
+    #[arg(long, value_name = "M")]
+    scale: Option<f64>,
+    /// Farthest that a chord may lie from its curve, in metres [default: a thousandth of the drawing's size]
+    #[arg(long, value_name = "M")]
+    flatten: Option<f64>,
+    /// What lies no farther apart is made to touch, in metres; 0 for nothing [default: a thousandth of the drawing's size,
+    /// at most a quarter of the thinnest body]
+    #[arg(long, value_name = "M")]
+    gap: Option<f64>,
+    /// Frame of a figure that drystone drew, by number from 1 or by its letter [default: the last]
+    #[arg(long, value_name = "N")]
+    frame: Option<FrameChoice>,
+    /// Title of the scene [default: that of the drawing]
+    #[arg(long, value_name = "TEXT")]
+    title: Option<String>,
+    /// Friction coefficient of everything that brings none
+    #[arg(long, value_name = "MU")]
+    friction: Option<f64>,
+    /// Density in kg/m³ of every block that brings none
+    #[arg(long, value_name = "KG/M3")]
+    density: Option<f64>,
+    /// Thickness of all blocks across the plane, in metres
+    #[arg(long, value_name = "M")]
+    thickness: Option<f64>,
+    /// Safety kernel, 0 to 1
+    #[arg(long, value_name = "SHARE")]
+    kernel: Option<f64>,
+    /// Gravity in m/s²: downwards, or as X,Y
+    #[arg(long, value_name = "G", value_parser = gravity)]
+    gravity: Option<[f64; 2]>,
+    /// Write nothing and end with 2 where anything was not taken as it is drawn
+    #[arg(long)]
+    strict: bool,
+    /// Print what was done as JSON; the scene then needs a file of its own
+    #[arg(long, requires = "output")]
+    json: bool,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum WrittenIn {
+    Svg,
+    Geojson,
+    Wkt,
+}
+
+impl Import {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
+        let stdout = Path::new("-");
+        let file = self.output.as_deref().filter(|path| *path != stdout);
+        if self.json && file.is_none() {
+            let why = "--json and the scene cannot both go to standard output; give the scene a file with -o";
+            return Err(vec![Complaint::CommandLine(why.into())]);
+        }
+        if let Some(file) = file.filter(|f| f.is_dir()) {
+            let why = format!("{} is a folder; name the scene file in it", file.display());
+            return Err(vec![Complaint::CommandLine(why)]);
+        }
+        if let Some(file) = file {
+            destination::apart(&[file.to_owned()], &[&self.drawing]).map_err(|c| vec![c])?;
+        }
+        let format = self.format().map_err(|c| vec![c])?;
+        let name = if self.drawing == stdout {
+            "standard input".into()
+        } else {
+            self.drawing.display().to_string()
+        };
+        let text = self.text(&name).map_err(|c| vec![c])?;
+        let imported = match import::import(&text, format, &self.options()) {
+            Ok(imported) => imported,
+            Err(refusal) => {
+                for remark in &refusal.remarks {
+                    terminal.notes(&remark_page("warning", &name, remark));
+                }
+                return Err(refused(&name, &refusal.problems));
+            }
+        };
+        if self.strict && !imported.remarks.is_empty() {
+            return Err(refused(&name, &imported.remarks));
+        }
+        let scene = imported.scene.to_json();
+        match file {
+            Some(path) => {
+                let files = [(path.to_owned(), scene.into_bytes())];
+                destination::write(&files, Existing::Replace).map_err(|c| vec![c])?;
+            }
+            None => {
+                let printed = terminal.print_bytes(scene.as_bytes());
+                printed.map_err(|c| vec![c])?;
+            }
+        }
+        self.tell(terminal, &name, &imported);
+        if self.json {
+            let json = import_json(&imported);
+            terminal.print_bytes(json.as_bytes()).map_err(|c| vec![c])?;
+        }
+        Ok(Ending::Done)
+    }
+
+    fn format(&self) -> Result<Format, Complaint> {
+        if let Some(format) = self.format {
+            return Ok(match format {
+                WrittenIn::Svg => Format::Svg,
+                WrittenIn::Geojson => Format::GeoJson,
+                WrittenIn::Wkt => Format::Wkt,
+            });
+        }
+        let ending = self
+            .drawing
+            .extension()
+            .map(|e| e.to_string_lossy().to_ascii_lowercase());
+        match ending.as_deref() {
+            Some("svg") => Ok(Format::Svg),
+            Some("geojson" | "json") => Ok(Format::GeoJson),
+            Some("wkt") => Ok(Format::Wkt),
+            Some("svgz") => Err(Complaint::CommandLine(format!(
+                "{} is packed; unpack it first: gunzip -c drawing.svgz > drawing.svg",
+                self.drawing.display()
+            ))),
+            _ => Err(Complaint::CommandLine(format!(
+                "the name {} does not tell what the drawing is written in; say --format svg, geojson or wkt",
+                self.drawing.display()
+            ))),
+        }
+    }
+
+    fn text(&self, name: &str) -> Result<String, Complaint> {
+        let bytes = if self.drawing == Path::new("-") {
+            let mut bytes = Vec::new();
+            io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes)
+        } else {
+            fs::read(&self.drawing)
+        };
+        let bytes = bytes.map_err(|error| Complaint::NotRead {
+            what: name.into(),
+            why: error.to_string(),
+        })?;
+        String::from_utf8(bytes).map_err(|error| Complaint::NotRead {
+            what: name.into(),
+            why: format!(
+                "it is no UTF-8 text, from byte {} on; save it as plain UTF-8",
+                error.utf8_error().valid_up_to()
+            ),
+        })
+    }
+
+    fn options(&self) -> Options {
+        Options {
+            scale: self.scale,
+            flatten: self.flatten,
+            gap: self.gap,
+            frame: self.frame.and_then(FrameChoice::number),
+            scene: SceneFile {
+                title: self.title.clone(),
+                friction: self.friction,
+                density: self.density,
+                thickness: self.thickness,
+                kernel: self.kernel,
+                gravity: self.gravity,
+                ..SceneFile::default()
+            },
+        }
+    }
+
+    fn tell(&self, terminal: &Terminal, name: &str, imported: &Imported) {
+        for remark in &imported.remarks {
+            terminal.notes(&remark_page("warning", name, remark));
+        }
+        let count = |n: usize, one: &str, many: &str| match n {
+            1 => format!("1 {one}"),
+            n => format!("{n} {many}"),
+        };
+        let scene = &imported.scene;
+        let mut page = Page::of(&format!(
+            "{name}: {}, {}, {}",
+            count(scene.blocks.len(), "block", "blocks"),
+            count(
+                scene.ground.len(),
+                "part of the ground",
+                "parts of the ground"
+            ),
+            count(scene.robots.len(), "robot", "robots"),
+        ));
+        for note in &imported.notes {
+            page.line(&format!("  {note}"));
+        }
+        for snapped in imported.snapped.iter().take(LISTED) {
+            page.line(&format!(
+                "  snapped {}: {} by up to {:.2e} m, to {}",
+                snapped.body,
+                count(snapped.corners, "corner", "corners"),
+                snapped.distance,
+                snapped.to.join(", ")
+            ));
+        }
+        if imported.snapped.len() > LISTED {
+            let more = imported.snapped.len() - LISTED;
+            let most = imported
+                .snapped
+                .iter()
+                .map(|s| s.distance)
+                .fold(0.0, f64::max);
+            page.line(&format!(
+                "  snapped {more} more; of all, the farthest by {most:.2e} m; --json lists them"
+            ));
+        }
+        terminal.notes(&page);
+    }
+}
+
+fn refused(name: &str, problems: &[Remark]) -> Vec<Complaint> {
+    let complaint = |remark: &Remark| Complaint::Drawing(remark_page("error", name, remark));
+    problems.iter().map(complaint).collect()
+}
+
+fn remark_page(severity: &str, name: &str, remark: &Remark) -> Page {
+    let mut page = Page::default();
+    page.words(&format!("{severity}: {name}: "));
+    if !remark.element.is_empty() {
+        page.words(&format!("{}: ", remark.element));
+    }
+    page.line(&remark.message);
+    if !remark.help.is_empty() {
+        page.line(&format!("  help: {}", remark.help));
+    }
+    page
+}
+
+/// `9.81` is downwards, `0,-9.81` is as it says.
+fn gravity(typed: &str) -> Result<[f64; 2], String> {
+    let numbers: Result<Vec<f64>, _> = typed.split(',').map(|t| t.trim().parse::<f64>()).collect();
+    match numbers.as_deref() {
+        Ok([g]) => Ok([0.0, -g]),
+        Ok([x, y]) => Ok([*x, *y]),
+        _ => Err("give one number, or two with a comma between".into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn gravity_is_one_number_or_two() {
+        assert_eq!(gravity("9.81"), Ok([0.0, -9.81]));
+        assert_eq!(gravity("1, -2"), Ok([1.0, -2.0]));
+        assert!(gravity("down").is_err() && gravity("1,2,3").is_err());
+    }
+}

@@ -1,0 +1,30 @@
+//! `drystone schema`: the JSON Schemas of scene files and of results, for editors and other programs.
+
+use clap::Args;
+
+use crate::cli::complaint::Complaint;
+use crate::cli::ending::Ending;
+use crate::cli::terminal::Terminal;
+use crate::result;
+
+/// Print the JSON Schema of scene files, or of results
+///
+/// An editor that is given it completes and checks a scene while it is written. Put its path into the scene as "$schema".
+#[derive(Debug, Args)]
+pub(crate) struct Schema {
+    /// The schema of what check --json prints, in place of that of scene files
+    #[arg(long)]
+    result: bool,
+}
+
+impl Schema {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
+        let text = if self.result {
+            result::schema()
+        } else {
+            crate::scene::schema()
+        };
+        terminal.print_bytes(text.as_bytes()).map_err(|c| vec![c])?;
+        Ok(Ending::Done)
+    }
+}

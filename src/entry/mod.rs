@@ -1,0 +1,4 @@
+//! Ways in for people and other languages.
+
+#[cfg(feature = "cli")]
+pub mod cli;

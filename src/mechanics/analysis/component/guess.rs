@@ -1,0 +1,135 @@
+//! [`Guesses`]: forces and motions of siblings of a component, tried as proofs before any program is solved.
+//!
+//! A margin asks about many components that differ in one number. Forces that balance one often balance the next, and the
+//! motion by which one falls often proves the fall of another. A guess is believed for its proof alone, like everything
+//! else.
+
+use super::Case;
+use crate::assembly::Assembly;
+use crate::geometry::Point;
+use crate::proof::{self, Forces, Motion, Pressed};
+
+/// So many sets of forces, and so many motions, are remembered.
+const KEPT: usize = 4;
+
+/// What is remembered of siblings, the latest last.
+#[derive(Debug, Default)]
+pub(in crate::mechanics::analysis) struct Guesses {
+    forces: Vec<Acting>,
+    motions: Vec<Vec<Motion>>,
+}
+
+/// Forces, and the application points at which they act.
+#[derive(Debug)]
+struct Acting {
+    forces: Forces,
+    points: Vec<[Point; 2]>,
+}
+
+impl Guesses {
+    /// Remembers forces on an assembly.
+    pub fn add_forces(&mut self, assembly: &Assembly, forces: Forces) {
+        if self.forces.len() == KEPT {
+            self.forces.remove(0);
+        }
+        let points = assembly.contacts.iter().map(|contact| contact.points);
+        self.forces.push(Acting {
+            forces,
+            points: points.collect(),
+        });
+    }
+
+    /// Remembers a motion, one entry for each body.
+    pub fn add_motion(&mut self, motion: Vec<Motion>) {
+        if self.motions.len() == KEPT {
+            self.motions.remove(0);
+        }
+        self.motions.push(motion);
+    }
+
+    /// Whether some remembered forces balance a component.
+    pub(super) fn balances(&self, case: &Case) -> bool {
+        let mut latest = self.forces.iter().rev();
+        latest.any(|acting| {
+            let forces = acting.moved_to(case.assembly);
+            forces.is_some_and(|forces| case.believes(&proof::forces(case.assembly, &forces)))
+        })
+    }
+
+    /// The remembered motion by which a component falls, by more than forces within their band could take up.
+    pub(super) fn falls(&self, case: &Case) -> Option<Vec<Motion>> {
+        let mut latest = self.motions.iter().rev();
+        let proves = |motion: &&Vec<Motion>| {
+            let proof = case.mechanism(motion);
+            case.convinces(motion, &proof) && case.outweighs_the_band(motion, &proof)
+        };
+        latest.find(proves).cloned()
+    }
+}
+
+impl Acting {
+    /// The same resultants at the application points of a sibling; `None` where one passes outside of them.
+    fn moved_to(&self, assembly: &Assembly) -> Option<Forces> {
+        let mut forces = self.forces.clone();
+        let contacts = assembly.contacts.iter().zip(&self.points);
+        for (pressed, (contact, points)) in forces.contacts.iter_mut().zip(contacts) {
+            if contact.points != *points {
+                pressed.normal = moved(pressed, points, &contact.points)?;
+            }
+        }
+        Some(forces)
+    }
+}
+
+/// Normal forces at two points of a stretch with the resultant of those at two others.
+fn moved(pressed: &Pressed, from: &[Point; 2], to: &[Point; 2]) -> Option<[f64; 2]> {
+    let [first, second] = pressed.normal;
+    let sum = first + second;
+    let along = to[1] - to[0];
+    let square = along.norm_squared();
+    if sum == 0.0 {
+        return Some([0.0; 2]);
+    }
+    let middle = nalgebra::center(&to[0], &to[1]);
+    let moment = (from[0] - middle) * first + (from[1] - middle) * second;
+    if square == 0.0 {
+        // Two points in one place carry what passes through it.
+        let off = moment.norm() / sum;
+        let size = (from[1] - from[0]).norm();
+        return (off <= f64::EPSILON * size).then_some([0.5 * sum; 2]);
+    }
+    let difference = 2.0 * moment.dot(&along) / square;
+    let normal = [0.5 * (sum - difference), 0.5 * (sum + difference)];
+    // What is a rounding below 0 is 0.
+    let least = -4.0 * f64::EPSILON * sum;
+    (normal[0] >= least && normal[1] >= least).then(|| normal.map(|n| n.max(0.0)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 2 N and 6 N at 0 and 4 m have their resultant at 3 m.
+    #[test]
+    fn a_resultant_is_carried_by_other_points() {
+        let pressed = Pressed {
+            normal: [2.0, 6.0],
+            friction: 1.0,
+        };
+        let stretch = |from: f64, to: f64| [Point::new(from, 1.0), Point::new(to, 1.0)];
+        let given = stretch(0.0, 4.0);
+        let found = moved(&pressed, &given, &stretch(0.5, 3.5)).expect("between the points");
+        assert!((found[0] - 4.0 / 3.0).abs() < 1e-14 && (found[1] - 20.0 / 3.0).abs() < 1e-14);
+        assert_eq!(
+            moved(&pressed, &given, &stretch(1.0, 3.0)),
+            Some([0.0, 8.0])
+        );
+        assert_eq!(moved(&pressed, &given, &stretch(1.5, 2.5)), None);
+        assert_eq!(moved(&pressed, &given, &stretch(2.0, 2.0)), None);
+        let middle = Pressed {
+            normal: [4.0, 4.0],
+            ..pressed
+        };
+        assert_eq!(moved(&middle, &given, &stretch(2.0, 2.0)), Some([4.0, 4.0]));
+    }
+}

@@ -1,0 +1,107 @@
+//! [`Code`]: the stable word for every sort of problem, for programs that sort or count them.
+
+/// Declares the codes of one sort with their words and meanings, so that none can lack either.
+macro_rules! codes {
+    ($(#[$doc:meta])* $name:ident; $($variant:ident $word:literal $meaning:literal,)*) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[non_exhaustive]
+        pub enum $name {
+            $(#[doc = $meaning] $variant,)*
+        }
+
+        impl $name {
+            /// Every code, in the order of the documentation.
+            pub const ALL: &'static [$name] = &[$($name::$variant),*];
+
+            /// The stable word, as in JSON.
+            pub fn word(self) -> &'static str {
+                match self {
+                    $($name::$variant => $word,)*
+                }
+            }
+
+            /// What the word means, in a phrase.
+            pub fn meaning(self) -> &'static str {
+                match self {
+                    $($name::$variant => $meaning,)*
+                }
+            }
+        }
+
+        impl std::fmt::Display for $name {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str(self.word())
+            }
+        }
+    };
+}
+pub(in crate::mechanics::scene) use codes;
+
+codes! {
+    /// What sort of problem it is. Words are added in later versions, never renamed.
+    Code;
+    NotReadable "not_readable" "the file cannot be read at all; the message holds the system's reason",
+    InternalFault "internal_fault" "the program failed on this scene, by its own fault",
+    NoSuchFrame "no_such_frame" "`--frame` asks for a frame that the scene does not have",
+    NotUtf8 "not_utf8" "the bytes are not UTF-8 text",
+    EmptyFile "empty_file" "the file holds nothing but white space",
+    EndsEarly "ends_early" "the text ends before its brackets or quotes are closed",
+    NestedTooDeep "nested_too_deep" "more than 127 brackets are open at once",
+    OtherFormat "other_format" "the text is written in another format, such as YAML, TOML or XML",
+    NotJson "not_json" "the text is not JSON at this place",
+    WrongType "wrong_type" "a value of another kind is expected here, such as a number in place of a string",
+    WrongLength "wrong_length" "a list has too many or too few entries, such as a point with three coordinates",
+    UnknownKey "unknown_key" "the format has no such key here",
+    DuplicateKey "duplicate_key" "a key stands twice in one object",
+    MissingKey "missing_key" "a required key is missing",
+    UnknownChoice "unknown_choice" "a word is not one of those that may stand here",
+    UnknownVersion "unknown_version" "the version of the format is not known",
+    NotFinite "not_finite" "a number is infinite or not a number",
+    TooLarge "too_large" "a number, a weight or a lattice coordinate is beyond all reason",
+    TooSmall "too_small" "a number or an extent is not 0, and too small to calculate with",
+    Negative "negative" "a number is negative that has to be at least 0",
+    OutOfRange "out_of_range" "the kernel is outside 0 to 1, or the grid's side is not more than 0",
+    NoColour "no_colour" "a fill is not written as a colour",
+    UnknownName "unknown_name" "no block, robot, material or shape has this name",
+    DuplicateId "duplicate_id" "two blocks or two robots have the same id",
+    EmptyId "empty_id" "an id is an empty string",
+    ReservedName "reserved_name" "the name belongs to the ground or to a built-in shape",
+    DuplicatePair "duplicate_pair" "a pair of materials has two friction coefficients",
+    NoOutline "no_outline" "a body or shape has no outline",
+    TwoOutlines "two_outlines" "a body or shape has more than one outline",
+    HolesWithoutPolygon "holes_without_polygon" "`holes` stand where there is no `polygon`",
+    TooFewCorners "too_few_corners" "an outline has fewer than three different corners",
+    ZeroArea "zero_area" "an outline encloses no area",
+    CrossingOutline "crossing_outline" "an outline crosses or touches itself",
+    HoleOutside "hole_outside" "a hole does not lie inside its outline, or lies in another hole",
+    NeedsGrid "needs_grid" "cells or a built-in shape stand in a scene without the grid they need",
+    WrongCell "wrong_cell" "a cell is written for the other kind of grid",
+    DuplicateCell "duplicate_cell" "a cell is listed twice",
+    CellsApart "cells_apart" "the cells of a body are not all joined by edges",
+    OffLattice "off_lattice" "a coordinate or an angle leaves the lattice",
+    Overlap "overlap" "two bodies that stand at the same time lie in each other",
+    TooManySteps "too_many_steps" "the steps show their blocks too many times in all",
+    PlacedTwice "placed_twice" "a block that is already placed is placed, or planned, again",
+    NotPlaced "not_placed" "a block is removed or held that is not placed",
+    RemovedWhileHeld "removed_while_held" "a block is removed while a robot holds it",
+    HoldsTwo "holds_two" "a robot takes hold of a block while it holds another",
+    MoreProblems "more_problems" "there are more problems than are listed",
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_code_has_a_word_of_its_own() {
+        let mut words: Vec<&str> = Code::ALL.iter().map(|c| c.word()).collect();
+        assert!((words.iter()).all(|w| {
+            w.bytes()
+                .all(|b| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'_')
+        }));
+        words.sort_unstable();
+        words.dedup();
+        assert_eq!(words.len(), Code::ALL.len());
+    }
+}

@@ -1,0 +1,160 @@
+//! What is reported of keys and values that are not what a scene file holds.
+
+use super::{Code, Wording, choice, say, shortened};
+use crate::text::nearest;
+
+pub(in crate::mechanics::scene) fn wrong_type(expected: &str, found: &str) -> Wording {
+    say(
+        Code::WrongType,
+        format!("expected {expected}, found {found}"),
+        help(expected, found),
+    )
+}
+
+/// What to write in place of something of another sort: as it stands in a file, where that shows more than words.
+fn help(expected: &str, found: &str) -> String {
+    let (is_number, is_text) = (
+        found.starts_with("the number "),
+        found.starts_with("the string "),
+    );
+    match expected {
+        "a point [x, y]" if is_number => {
+            "write points in brackets: an outline is [[x, y], [x, y], …], and a list of holes one level deeper".into()
+        }
+        "a vector [x, y]" if is_number => "write [x, y]; downwards is [0, -9.81]".into(),
+        "a number" if is_text => "write a bare number in SI units: metres, newtons, kilograms, degrees".into(),
+        // There is one: the version of the format.
+        "a whole number" => "write 1, the version of the scene format".into(),
+        "a string" if is_number => {
+            format!("write \"{}\", in quotes", found.trim_start_matches("the number "))
+        }
+        "a list" if found == "an object" => "write it in brackets, [{…}]".into(),
+        _ => format!("write {expected} here"),
+    }
+}
+
+pub(in crate::mechanics::scene) fn quoted_number(expected: &str, found: &str) -> Wording {
+    say(
+        Code::WrongType,
+        format!("expected {expected}, found the string \"{found}\""),
+        format!("write {found} without quotes"),
+    )
+}
+
+pub(in crate::mechanics::scene) fn coordinates(found: usize) -> Wording {
+    let help = match found {
+        3.. => "write [x, y]: a scene is plane, x to the right and y up",
+        _ => "write [x, y]",
+    };
+    say(
+        Code::WrongLength,
+        format!("a point has two coordinates; this one has {}", count(found)),
+        help,
+    )
+}
+
+pub(in crate::mechanics::scene) fn components(found: usize) -> Wording {
+    let help = match found {
+        3.. => "write [x, y]: a scene is plane, x to the right and y up",
+        _ => "write [x, y]",
+    };
+    say(
+        Code::WrongLength,
+        format!("a vector has two components; this one has {}", count(found)),
+        help,
+    )
+}
+
+/// A small number in words.
+fn count(n: usize) -> String {
+    match n {
+        0 => "none".into(),
+        1 => "one".into(),
+        3 => "three".into(),
+        4 => "four".into(),
+        _ => n.to_string(),
+    }
+}
+
+pub(in crate::mechanics::scene) fn unknown_choice(text: &str, known: &[String]) -> Wording {
+    let names = choice(known.iter().map(|n| format!("\"{n}\"")));
+    let help = match nearest(text, known.iter().map(String::as_str)) {
+        Some(near) => format!("did you mean \"{near}\"?"),
+        None => format!("write {names}"),
+    };
+    say(
+        Code::UnknownChoice,
+        format!("expected {names}, found \"{}\"", shortened(text)),
+        help,
+    )
+}
+
+pub(in crate::mechanics::scene) fn unknown_key<'k>(
+    key: &str,
+    known: impl Iterator<Item = &'k str> + Clone,
+) -> Wording {
+    let meant = synonym(key).filter(|meant| known.clone().any(|k| k == *meant));
+    let help = match meant.or_else(|| nearest(key, known.clone())) {
+        Some(near) if meant.is_some() => format!("it is called `{near}` here"),
+        Some(near) => format!("the nearest known key is `{near}`"),
+        None => format!("known keys are {}", known.collect::<Vec<_>>().join(", ")),
+    };
+    say(
+        Code::UnknownKey,
+        format!("unknown key `{}`", shortened(key)),
+        help,
+    )
+}
+
+/// What a key of other programs and formats is called here.
+fn synonym(key: &str) -> Option<&'static str> {
+    Some(match key.to_lowercase().as_str() {
+        "mu" | "μ" | "friction_coefficient" => "friction",
+        "floor" | "base" | "foundation" | "supports" => "ground",
+        "bodies" | "bricks" | "stones" | "elements" | "voussoirs" => "blocks",
+        "name" | "label" => "id",
+        "vertices" | "points" | "corners" | "coordinates" | "outline" => "polygon",
+        "color" | "colour" => "fill",
+        "rotation" | "rotate" | "theta" => "angle",
+        "position" | "pos" | "origin" | "offset" => "at",
+        "version" => "drystone",
+        "lattice" => "grid",
+        "forces" => "loads",
+        "torque_limit" | "moment" => "torque",
+        "tolerance" => "contact_tolerance",
+        _ => return None,
+    })
+}
+
+pub(in crate::mechanics::scene) fn duplicate_key(key: &str, line: usize, column: usize) -> Wording {
+    say(
+        Code::DuplicateKey,
+        format!(
+            "the key `{}` stands here twice; first in line {line}, column {column}",
+            shortened(key)
+        ),
+        "take one of the two out",
+    )
+}
+
+/// The same of an object that was made in code.
+pub(in crate::mechanics::scene) fn key_twice(key: &str) -> Wording {
+    say(
+        Code::DuplicateKey,
+        format!("the key `{}` stands here twice", shortened(key)),
+        "take one of the two out",
+    )
+}
+
+pub(in crate::mechanics::scene) fn missing_key(key: &str) -> Wording {
+    let help = match key {
+        "drystone" => "add `\"drystone\": 1`, the version of the scene format".into(),
+        "blocks" => "add `\"blocks\": […]`, the list of blocks; it may be empty".into(),
+        _ => format!("add `\"{key}\"`"),
+    };
+    say(
+        Code::MissingKey,
+        format!("the key `{key}` is missing"),
+        help,
+    )
+}

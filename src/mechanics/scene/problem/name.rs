@@ -1,0 +1,85 @@
+//! What is reported of names and ids.
+
+use super::{Code, Wording, say, shortened};
+use crate::text::nearest;
+
+pub(in crate::mechanics::scene) fn unknown_name(sort: &str, name: &str, known: &[&str]) -> Wording {
+    let help = match nearest(name, known.iter().copied()) {
+        Some(near) => format!("the nearest known {sort} is `{near}`"),
+        None if known.is_empty() => format!("the scene has no {sort}s"),
+        None if known.len() <= 12 => {
+            format!(
+                "known {sort}s are {}",
+                known
+                    .iter()
+                    .map(|n| shortened(n))
+                    .collect::<Vec<_>>()
+                    .join(", ")
+            )
+        }
+        None => format!(
+            "the scene has {} {sort}s, none with a name like it",
+            known.len()
+        ),
+    };
+    say(
+        Code::UnknownName,
+        format!("unknown {sort} `{}`", shortened(name)),
+        help,
+    )
+}
+
+pub(in crate::mechanics::scene) fn another_unknown_name(sort: &str, name: &str) -> Wording {
+    say(
+        Code::UnknownName,
+        format!("unknown {sort} `{}`", shortened(name)),
+        "see the first of these for the known names",
+    )
+}
+
+pub(in crate::mechanics::scene) fn id_twice(sort: &str, id: &str, first: &str) -> Wording {
+    say(
+        Code::DuplicateId,
+        format!(
+            "the {sort} id `{}` is used twice; first by {first}",
+            shortened(id)
+        ),
+        format!("give every {sort} an id of its own"),
+    )
+}
+
+pub(in crate::mechanics::scene) fn reserved_id() -> Wording {
+    say(
+        Code::ReservedName,
+        "the id `ground` is reserved: results name the ground so",
+        "give the block another id",
+    )
+}
+
+pub(in crate::mechanics::scene) fn empty_id(sort: &str) -> Wording {
+    say(
+        Code::EmptyId,
+        format!("the {sort}'s id is empty"),
+        "give it a name of at least one letter",
+    )
+}
+
+pub(in crate::mechanics::scene) fn built_in_shape(name: &str) -> Wording {
+    say(
+        Code::ReservedName,
+        format!("`{name}` is the name of a built-in shape"),
+        "give the shape another name",
+    )
+}
+
+pub(in crate::mechanics::scene) fn pair_twice(names: &[String; 2], first: usize) -> Wording {
+    say(
+        Code::DuplicatePair,
+        format!(
+            "the pair {}, {} is listed twice; first in friction_pairs[{first}]",
+            shortened(&names[0]),
+            shortened(&names[1])
+        ),
+        "take one of the two out; the order of the names does not matter",
+    )
+}

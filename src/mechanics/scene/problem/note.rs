@@ -1,0 +1,95 @@
+//! What is reported of what is allowed and seldom meant.
+
+use super::{Code, Wording, digits, pair, say, shortened};
+
+/// Notes have codes of their own; that of a problem is not shown.
+fn note(message: String, hint: impl Into<String>) -> Wording {
+    say(Code::OutOfRange, message, hint)
+}
+
+pub(in crate::mechanics::scene) fn friction_high(mu: f64) -> Wording {
+    note(
+        format!("a friction coefficient of {} is seldom meant", digits(mu)),
+        "dry stone has 0.5 to 0.8; a coefficient is the tangent of the angle of friction, not degrees or percent",
+    )
+}
+
+pub(in crate::mechanics::scene) fn grip_outside(
+    block: &str,
+    at: [f64; 2],
+    distance: f64,
+) -> Wording {
+    note(
+        format!(
+            "the grip point {} lies {} m outside the block `{}`",
+            pair(at),
+            digits(distance),
+            shortened(block)
+        ),
+        "give a point of the block in metres, or leave `at` out for its centroid",
+    )
+}
+
+pub(in crate::mechanics::scene) fn load_outside(
+    block: &str,
+    at: [f64; 2],
+    distance: f64,
+) -> Wording {
+    note(
+        format!(
+            "the load acts at {}, {} m outside the block `{}`",
+            pair(at),
+            digits(distance),
+            shortened(block)
+        ),
+        "give a point of the block in metres, or leave `at` out for its centroid",
+    )
+}
+
+pub(in crate::mechanics::scene) fn unused_robot(robot: &str, no_steps: bool) -> Wording {
+    let hint = if no_steps {
+        "give the block it `holds`, or take it out"
+    } else {
+        "let it `hold` a block in a step, or take it out; with `steps`, `holds` does not count"
+    };
+    note(
+        format!("the robot `{}` never holds a block", shortened(robot)),
+        hint,
+    )
+}
+
+pub(in crate::mechanics::scene) fn unused_block(block: &str) -> Wording {
+    note(
+        format!("no step places the block `{}`", shortened(block)),
+        "add it to `place` of a step, or take it out",
+    )
+}
+
+pub(in crate::mechanics::scene) fn default_density(blocks: usize, beside: &str) -> Wording {
+    let (count, have) = match blocks {
+        1 => ("1 block".to_owned(), "has"),
+        _ => (format!("{blocks} blocks"), "have"),
+    };
+    note(
+        format!("{count} {have} the default density of 1 kg/m³ beside {beside} in newtons"),
+        "give `density` in kg/m³ (stone has about 2500), or `weight` in newtons",
+    )
+}
+
+pub(in crate::mechanics::scene) fn no_ground() -> Wording {
+    note(
+        "the scene has no ground, so only robots can hold anything".into(),
+        "add a `ground` of one polygon or more",
+    )
+}
+
+pub(in crate::mechanics::scene) fn angle_radians(angle: f64, degrees: f64) -> Wording {
+    note(
+        format!(
+            "the angle {} looks like {}° written in radians",
+            digits(angle),
+            digits(degrees)
+        ),
+        format!("angles are in degrees: give {}", digits(degrees)),
+    )
+}

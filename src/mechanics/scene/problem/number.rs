@@ -1,0 +1,95 @@
+//! What is reported of numbers and colours.
+
+use super::{Code, Wording, digits, say, shortened};
+
+pub(in crate::mechanics::scene) fn version(found: i64) -> Wording {
+    say(
+        Code::UnknownVersion,
+        format!("version {found} of the scene format is not known"),
+        "write `\"drystone\": 1`",
+    )
+}
+
+pub(in crate::mechanics::scene) fn not_finite(x: f64) -> Wording {
+    say(
+        Code::NotFinite,
+        format!("the number is {x}"),
+        "give a finite number",
+    )
+}
+
+pub(in crate::mechanics::scene) fn absurd(x: f64, largest: f64) -> Wording {
+    say(
+        Code::TooLarge,
+        format!("the number {} is beyond ±{}", digits(x), digits(largest)),
+        "check the units: metres, kilograms, newtons",
+    )
+}
+
+pub(in crate::mechanics::scene) fn tiny(x: f64, smallest: f64) -> Wording {
+    say(
+        Code::TooSmall,
+        format!(
+            "the number {} is within ±{} of 0",
+            digits(x),
+            digits(smallest)
+        ),
+        "write 0, or check the units: metres, kilograms, newtons",
+    )
+}
+
+pub(in crate::mechanics::scene) fn tiny_extent(extent: f64, smallest: f64) -> Wording {
+    say(
+        Code::TooSmall,
+        format!(
+            "it extends over {} m, less than {} m",
+            digits(extent),
+            digits(smallest)
+        ),
+        "check the units: lengths are in metres",
+    )
+}
+
+pub(in crate::mechanics::scene) fn negative(what: &str, x: f64) -> Wording {
+    say(
+        Code::Negative,
+        format!("negative {what} {}", digits(x)),
+        format!("`{what}` has to be at least 0"),
+    )
+}
+
+pub(in crate::mechanics::scene) fn kernel(x: f64) -> Wording {
+    say(
+        Code::OutOfRange,
+        format!("the kernel {} is outside 0 … 1", digits(x)),
+        "give the share of each contact to stay clear of: 0 for none, 0.2 for a fifth",
+    )
+}
+
+pub(in crate::mechanics::scene) fn side(x: f64) -> Wording {
+    say(
+        Code::OutOfRange,
+        format!("the grid's side {} is not more than 0", digits(x)),
+        "give the edge length of a cell in metres",
+    )
+}
+
+pub(in crate::mechanics::scene) fn too_heavy(weight: f64, largest: f64) -> Wording {
+    say(
+        Code::TooLarge,
+        format!(
+            "the block comes out {} N heavy, beyond {}",
+            digits(weight),
+            digits(largest)
+        ),
+        "check the units of density, thickness, gravity and polygon",
+    )
+}
+
+pub(in crate::mechanics::scene) fn colour(text: &str) -> Wording {
+    say(
+        Code::NoColour,
+        format!("\"{}\" is not a colour", shortened(text)),
+        "write a colour as \"#8b6b3d\" or \"#863\"",
+    )
+}

@@ -1,0 +1,224 @@
+//! What is reported of outlines, cells and overlaps.
+
+use std::fmt;
+
+use super::{Code, Wording, digits, pair, point, say};
+use crate::geometry::Point;
+
+/// A side of an outline, by its corners' numbers.
+pub(in crate::mechanics::scene) struct Side {
+    /// The hole it belongs to; the outline where absent.
+    pub(in crate::mechanics::scene) hole: Option<usize>,
+    /// The numbers of its corners, from 0.
+    pub(in crate::mechanics::scene) corners: [usize; 2],
+}
+
+impl fmt::Display for Side {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "the side from corner {} to {}",
+            self.corners[0], self.corners[1]
+        )?;
+        self.hole
+            .map_or(Ok(()), |hole| write!(f, " of hole {hole}"))
+    }
+}
+
+pub(in crate::mechanics::scene) fn too_few_corners(found: usize) -> Wording {
+    let corners = match found {
+        0 => "no corners".into(),
+        1 => "only 1 corner".into(),
+        _ => format!("only {found} different corners"),
+    };
+    say(
+        Code::TooFewCorners,
+        format!("the outline has {corners}"),
+        "give at least three corners",
+    )
+}
+
+pub(in crate::mechanics::scene) fn zero_area() -> Wording {
+    say(
+        Code::ZeroArea,
+        "the outline encloses no area",
+        "give corners that do not all lie on one line",
+    )
+}
+
+pub(in crate::mechanics::scene) fn crossing(a: &Side, b: &Side, at: Point) -> Wording {
+    say(
+        Code::CrossingOutline,
+        format!("{a} meets {b} at {}", point(at)),
+        "list the corners in order around the outline, without crossing or touching it; corners count from 0",
+    )
+}
+
+pub(in crate::mechanics::scene) fn hole_outside() -> Wording {
+    say(
+        Code::HoleOutside,
+        "the hole does not lie inside the outline, or lies inside another hole",
+        "move the hole, or make it a block of its own",
+    )
+}
+
+pub(in crate::mechanics::scene) fn no_outline() -> Wording {
+    say(
+        Code::NoOutline,
+        "it has no `polygon`, no `cells` and no `shape`",
+        "give one of the three",
+    )
+}
+
+pub(in crate::mechanics::scene) fn no_shape_outline() -> Wording {
+    say(
+        Code::NoOutline,
+        "the shape has no `polygon` and no `cells`",
+        "give one of the two",
+    )
+}
+
+pub(in crate::mechanics::scene) fn two_outlines(first: &str, second: &str) -> Wording {
+    say(
+        Code::TwoOutlines,
+        format!("it has both `{first}` and `{second}`"),
+        "give one of the two",
+    )
+}
+
+pub(in crate::mechanics::scene) fn holes_alone() -> Wording {
+    say(
+        Code::HolesWithoutPolygon,
+        "`holes` go with a `polygon`",
+        "give the outline as `polygon`, or leave the holes out; cells simply leave theirs out",
+    )
+}
+
+pub(in crate::mechanics::scene) fn cells_without_grid() -> Wording {
+    say(
+        Code::NeedsGrid,
+        "cells need a grid",
+        "add `\"grid\": { \"kind\": \"triangular\", \"side\": 1 }` to the scene, or give a polygon",
+    )
+}
+
+pub(in crate::mechanics::scene) fn shape_without_grid(name: &str) -> Wording {
+    say(
+        Code::NeedsGrid,
+        format!("the built-in shape `{name}` needs a triangular grid"),
+        "add `\"grid\": { \"kind\": \"triangular\", \"side\": 1 }` to the scene, or describe a shape of your own in `shapes`",
+    )
+}
+
+pub(in crate::mechanics::scene) fn no_cells() -> Wording {
+    say(
+        Code::NoOutline,
+        "the list of cells is empty",
+        "give at least one cell",
+    )
+}
+
+pub(in crate::mechanics::scene) fn square_cell() -> Wording {
+    say(
+        Code::WrongCell,
+        "a cell of the triangular grid says which triangle it is",
+        "write [x, y, \"up\"] or [x, y, \"down\"]",
+    )
+}
+
+pub(in crate::mechanics::scene) fn triangle_cell() -> Wording {
+    say(
+        Code::WrongCell,
+        "a cell of the square grid has no \"up\" or \"down\"",
+        "write [x, y]",
+    )
+}
+
+pub(in crate::mechanics::scene) fn cell_twice(first: usize) -> Wording {
+    say(
+        Code::DuplicateCell,
+        format!("the cell is listed twice; first as number {first}, counting from 0"),
+        "take one of the two out",
+    )
+}
+
+pub(in crate::mechanics::scene) fn cells_apart() -> Wording {
+    say(
+        Code::CellsApart,
+        "the cells are not all joined by edges",
+        "make each connected part a block of its own",
+    )
+}
+
+pub(in crate::mechanics::scene) fn not_whole(p: [f64; 2]) -> Wording {
+    say(
+        Code::OffLattice,
+        format!("{} is not a lattice point", pair(p)),
+        "cells lie at whole numbers; a polygon may lie anywhere",
+    )
+}
+
+pub(in crate::mechanics::scene) fn beyond_lattice(p: [f64; 2], reach: f64) -> Wording {
+    say(
+        Code::TooLarge,
+        format!("{} is beyond ±{} lattice steps", pair(p), digits(reach)),
+        "move the scene towards the origin",
+    )
+}
+
+pub(in crate::mechanics::scene) fn angle_off_lattice(angle: f64, turn: f64) -> Wording {
+    say(
+        Code::OffLattice,
+        format!("a turn by {}° leaves the lattice", digits(angle)),
+        format!("give a multiple of {}°, or use a polygon", digits(turn)),
+    )
+}
+
+/// What two bodies have in common.
+pub(in crate::mechanics::scene) struct Common {
+    /// How far one would have to move to be clear of the other, metres.
+    pub(in crate::mechanics::scene) depth: f64,
+    /// The common area, m².
+    pub(in crate::mechanics::scene) area: f64,
+    /// Its centroid.
+    pub(in crate::mechanics::scene) at: Point,
+    /// Whether it is so slight that it may be meant for a contact.
+    pub(in crate::mechanics::scene) may_be_meant: bool,
+}
+
+pub(in crate::mechanics::scene) fn overlap(
+    a: &str,
+    b: &str,
+    common: &Common,
+    frame: Option<&str>,
+) -> Wording {
+    let when = frame.map_or(String::new(), |f| format!(" in {f}"));
+    let Common {
+        depth, area, at, ..
+    } = common;
+    let help = "move them apart until they only touch".to_owned();
+    // Rounded up, so that the number given is enough.
+    let enough = format!("{:.1e}", 1.06 * depth);
+    say(
+        Code::Overlap,
+        format!(
+            "{a} and {b} overlap {} m deep, {} m² in all, around {}{when}",
+            digits(*depth),
+            digits(*area),
+            point(*at)
+        ),
+        if common.may_be_meant {
+            format!("{help}, or give \"contact_tolerance\": {enough} if that is what is meant")
+        } else {
+            help
+        },
+    )
+}
+
+pub(in crate::mechanics::scene) fn more_overlaps(listed: usize) -> Wording {
+    say(
+        Code::MoreProblems,
+        format!("there are more overlaps than the {listed} listed"),
+        "correct these first",
+    )
+}

@@ -1,0 +1,83 @@
+//! What is reported of steps that cannot be played.
+
+use super::{Code, Wording, say, shortened};
+
+pub(in crate::mechanics::scene) fn too_many(steps: usize, most: usize) -> Wording {
+    say(
+        Code::TooManySteps,
+        format!("{steps} steps show their blocks more than {most} times in all"),
+        "take steps out, or give several scenes",
+    )
+}
+
+pub(in crate::mechanics::scene) fn placed_twice(block: &str, since: usize, now: usize) -> Wording {
+    let when = if since == now {
+        "earlier in this step".into()
+    } else {
+        format!("by steps[{since}]")
+    };
+    say(
+        Code::PlacedTwice,
+        format!("the block `{}` is already placed, {when}", shortened(block)),
+        "place a block once; `remove` it first to place it anew",
+    )
+}
+
+pub(in crate::mechanics::scene) fn removed_unplaced(block: &str) -> Wording {
+    say(
+        Code::NotPlaced,
+        format!("the block `{}` is removed but not placed", shortened(block)),
+        "remove only blocks that an earlier step placed",
+    )
+}
+
+pub(in crate::mechanics::scene) fn removed_held(block: &str, robot: &str) -> Wording {
+    say(
+        Code::RemovedWhileHeld,
+        format!(
+            "the block `{}` is removed while the robot `{}` holds it",
+            shortened(block),
+            shortened(robot)
+        ),
+        format!(
+            "add \"{}\" to `release` of this step or an earlier one",
+            shortened(robot)
+        ),
+    )
+}
+
+pub(in crate::mechanics::scene) fn held_unplaced(robot: &str, block: &str) -> Wording {
+    say(
+        Code::NotPlaced,
+        format!(
+            "the robot `{}` holds the block `{}`, which is not placed",
+            shortened(robot),
+            shortened(block)
+        ),
+        format!(
+            "add \"{}\" to `place` of this step or an earlier one",
+            shortened(block)
+        ),
+    )
+}
+
+pub(in crate::mechanics::scene) fn holds_two(robot: &str, held: &str, block: &str) -> Wording {
+    let (robot, held, block) = (shortened(robot), shortened(held), shortened(block));
+    say(
+        Code::HoldsTwo,
+        format!("the robot `{robot}` is to hold the block `{block}` while it still holds `{held}`"),
+        format!("a robot holds one block; add \"{robot}\" to `release` of this step first"),
+    )
+}
+
+pub(in crate::mechanics::scene) fn planned_placed(robot: &str, block: &str) -> Wording {
+    say(
+        Code::PlacedTwice,
+        format!(
+            "the robot `{}` plans the block `{}`, which is already placed",
+            shortened(robot),
+            shortened(block)
+        ),
+        "plan only blocks that are not placed",
+    )
+}

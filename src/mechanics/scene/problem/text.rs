@@ -1,0 +1,172 @@
+//! What is reported of a text that is no JSON.
+
+use super::{Code, Wording, say, shortened};
+
+pub(in crate::mechanics::scene) fn not_utf8(byte: u8, utf16: bool) -> Wording {
+    let help = if utf16 {
+        "the file looks like UTF-16; save it as UTF-8"
+    } else {
+        "save the file in the encoding UTF-8"
+    };
+    say(
+        Code::NotUtf8,
+        format!("the byte 0x{byte:02X} is not UTF-8 text"),
+        help,
+    )
+}
+
+pub(in crate::mechanics::scene) fn more_problems(listed: usize) -> Wording {
+    say(
+        Code::MoreProblems,
+        format!("there are more problems than the {listed} listed"),
+        "correct these first; many may have one cause",
+    )
+}
+
+pub(in crate::mechanics::scene) fn empty_text() -> Wording {
+    say(
+        Code::EmptyFile,
+        "the file is empty",
+        "start from the scene that `drystone new` writes",
+    )
+}
+
+pub(in crate::mechanics::scene) fn early_end(opened: Option<(char, usize, usize)>) -> Wording {
+    let help = match opened {
+        Some((c, line, column)) => format!(
+            "the `{c}` opened in line {line}, column {column} is never closed; is a part of the file missing?"
+        ),
+        None => "a part of the file seems to be missing".into(),
+    };
+    say(Code::EndsEarly, "the file ends too early", help)
+}
+
+pub(in crate::mechanics::scene) fn not_a_number(word: &str) -> Wording {
+    say(
+        Code::NotJson,
+        format!("`{word}` is not a number JSON knows"),
+        "give a finite number; leave a robot's limit out where there is none",
+    )
+}
+
+pub(in crate::mechanics::scene) fn foreign_word(word: &str, meant: &str) -> Wording {
+    say(
+        Code::NotJson,
+        format!("`{word}` is not JSON"),
+        format!("write `{meant}`"),
+    )
+}
+
+pub(in crate::mechanics::scene) fn bare_word(word: &str) -> Wording {
+    say(
+        Code::NotJson,
+        format!("`{}` is not JSON", shortened(word)),
+        "put strings and keys in double quotes",
+    )
+}
+
+pub(in crate::mechanics::scene) fn comment() -> Wording {
+    say(
+        Code::NotJson,
+        "JSON has no comments",
+        "take the comment out; `title` holds text for people",
+    )
+}
+
+pub(in crate::mechanics::scene) fn single_quotes() -> Wording {
+    say(
+        Code::NotJson,
+        "JSON has no single quotes",
+        "put strings and keys in double quotes",
+    )
+}
+
+pub(in crate::mechanics::scene) fn trailing_comma() -> Wording {
+    say(
+        Code::NotJson,
+        "a comma after the last entry",
+        "take the comma out, or add the entry that follows it",
+    )
+}
+
+pub(in crate::mechanics::scene) fn number_too_large(text: &str) -> Wording {
+    say(
+        Code::TooLarge,
+        format!("the number {} is too large", shortened(text)),
+        "give a number of at most 1e12",
+    )
+}
+
+pub(in crate::mechanics::scene) fn odd_number(text: &str) -> Wording {
+    say(
+        Code::NotJson,
+        format!("`{}` is not a number of JSON", shortened(text)),
+        "write numbers as 0.5, -2 or 1e3: no leading + or 0, and a digit on both sides of the point",
+    )
+}
+
+pub(in crate::mechanics::scene) fn too_deep() -> Wording {
+    say(
+        Code::NestedTooDeep,
+        "nested more than 127 deep",
+        "a scene needs no more than seven levels of brackets",
+    )
+}
+
+pub(in crate::mechanics::scene) fn open_string() -> Wording {
+    say(
+        Code::NotJson,
+        "a string holds a line break or another control character",
+        "close the string on its line; write a line break as \\n and a tab as \\t",
+    )
+}
+
+pub(in crate::mechanics::scene) fn missing_comma(close: char) -> Wording {
+    say(
+        Code::NotJson,
+        format!("expected `,` or `{close}`"),
+        "put a comma between entries, and check that every bracket is closed",
+    )
+}
+
+pub(in crate::mechanics::scene) fn not_json(expected: &str) -> Wording {
+    say(
+        Code::NotJson,
+        format!("this is not JSON: expected {expected}"),
+        "correct the text here, or shortly before",
+    )
+}
+
+pub(in crate::mechanics::scene) fn behind_the_end() -> Wording {
+    say(
+        Code::NotJson,
+        "the scene has ended before this",
+        "take out what follows the scene's last bracket, or the bracket before that is one too many",
+    )
+}
+
+pub(in crate::mechanics::scene) fn escape() -> Wording {
+    say(
+        Code::NotJson,
+        "JSON has no such escape in a string",
+        "write a backslash as \\\\, a line break as \\n, and any character by its code as \\u00e9",
+    )
+}
+
+pub(in crate::mechanics::scene) fn surrogate() -> Wording {
+    say(
+        Code::NotJson,
+        "the escape is half of a character",
+        "write the character itself, or both halves of its surrogate pair",
+    )
+}
+
+pub(in crate::mechanics::scene) fn other_format(format: &str) -> Wording {
+    let help = match format {
+        "XML" => "a scene is written as JSON; a drawing becomes one with `drystone import`",
+        _ => {
+            "a scene is written as JSON, which begins with `{`; `drystone new` writes one to start from"
+        }
+    };
+    say(Code::OtherFormat, format!("this looks like {format}"), help)
+}

@@ -1,0 +1,241 @@
+//! From a text, or a [`SceneFile`] made in code, to a checked [`Scene`], or to all its problems at once.
+//!
+//! A text is read once, into a syntax tree. The scene file is made from that tree, and so is every problem: what does not
+//! fit is noted and left out, and what could be read is still examined for its meaning.
+
+mod object;
+mod value;
+
+#[cfg(test)]
+pub(super) use self::object::KEYS;
+use self::value::Reader;
+use super::Scene;
+use super::finding::{Doubt, Finding};
+use super::format::SceneFile;
+use super::note::{self, Lines};
+use super::problem::Problems;
+use super::resolution::resolve;
+use super::source::Source;
+use super::syntax;
+
+impl Scene {
+    /// Reads and checks a scene file.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it, each with line, column and path.
+    ///
+    /// # Example
+    /// ```
+    /// use drystone::scene::Scene;
+    /// let scene = Scene::from_json(r#"{ "drystone": 1,
+    ///     "ground": [{ "polygon": [[-1, -1], [4, -1], [4, 0], [-1, 0]] }],
+    ///     "blocks": [{ "id": "a", "polygon": [[0, 0], [2, 0], [2, 1], [0, 1]], "density": 3 }] }"#)?;
+    /// assert!((scene.blocks()[0].weight - 3.0 * 2.0 * 9.81).abs() < 1e-12);
+    ///
+    /// let problems = Scene::from_json(r#"{ "drystone": 1, "blokcs": [] }"#).unwrap_err();
+    /// assert!(problems.to_string().contains("the nearest known key is `blocks`"));
+    /// # Ok::<(), drystone::scene::Problems>(())
+    /// ```
+    pub fn from_json(text: &str) -> Result<Scene, Problems> {
+        Scene::from_json_within(text, None)
+    }
+
+    /// Reads and checks a scene file, with a contact tolerance (metres, at least 0) in place of the file's own.
+    ///
+    /// # Errors
+    /// As [`Scene::from_json`].
+    pub fn from_json_within(text: &str, tolerance: Option<f64>) -> Result<Scene, Problems> {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let source = Source::parse(text).map_err(|fault| syntax::problem(text, fault))?;
+        let (mut file, findings, doubt) = read(&source);
+        file.contact_tolerance = tolerance.or(file.contact_tolerance);
+        let all = match resolve(&file, doubt) {
+            Ok(mut scene) if findings.is_empty() => {
+                scene.lines = Lines::of(&source);
+                scene.notes = note::of(&file, &scene, Some(&source));
+                return Ok(scene);
+            }
+            Ok(_) => findings,
+            Err(more) => findings.into_iter().chain(more).collect(),
+        };
+        Err(Problems::place(all, Some(&source)))
+    }
+
+    /// Reads and checks a scene file as it lies on a disk.
+    ///
+    /// # Errors
+    /// As [`Scene::from_json`], and bytes that are no UTF-8.
+    pub fn from_slice(bytes: &[u8]) -> Result<Scene, Problems> {
+        Scene::from_slice_within(bytes, None)
+    }
+
+    /// Reads and checks a scene file as it lies on a disk, with a contact tolerance (metres, at least 0) in place of the
+    /// file's own.
+    ///
+    /// # Errors
+    /// As [`Scene::from_slice`].
+    pub fn from_slice_within(bytes: &[u8], tolerance: Option<f64>) -> Result<Scene, Problems> {
+        let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+        match std::str::from_utf8(bytes) {
+            Ok(text) => Scene::from_json_within(text, tolerance),
+            Err(error) => Err(syntax::not_utf8(bytes, error.valid_up_to())),
+        }
+    }
+
+    /// A scene made in code begins here: methods with the names of the file's keys, and
+    /// [`build`](SceneFile::build) at the end.
+    ///
+    /// # Example
+    /// ```
+    /// use drystone::scene::format::{BlockEntry, LimitsEntry, RobotEntry, StepEntry};
+    /// use drystone::{Analysis, Scene, analysis::Verdict};
+    ///
+    /// let scene = Scene::builder()
+    ///     .title("A lintel, and a robot that helps")
+    ///     .friction(0.6)
+    ///     .ground([[-1.0, -1.0], [7.0, -1.0], [7.0, 0.0], [-1.0, 0.0]])
+    ///     .shape("post", [[0.0, 0.0], [1.0, 0.0], [1.0, 3.0], [0.0, 3.0]])
+    ///     .block(BlockEntry::new("left").shape("post").weight(60.0))
+    ///     .block(BlockEntry::new("lintel").polygon([[0.0, 3.0], [6.0, 3.0], [6.0, 4.0], [0.0, 4.0]]).weight(110.0))
+    ///     .robot(RobotEntry::new("crane").limits(LimitsEntry::default().force(100.0)))
+    ///     .step(StepEntry::new("One post").place(["left"]))
+    ///     .step(StepEntry::new("The crane helps").place(["lintel"]).hold_at("crane", "lintel", [5.0, 4.0]))
+    ///     .step(StepEntry::new("It lets go").release(["crane"]))
+    ///     .build()?;
+    /// let verdicts = Analysis::of(&scene).frames.iter().map(|frame| frame.verdict).collect::<Vec<_>>();
+    /// assert_eq!(verdicts, [Verdict::Stable, Verdict::Stable, Verdict::Unstable]);
+    ///
+    /// let flat = Scene::builder().block(BlockEntry::new("a").polygon([[0.0, 0.0], [1.0, 0.0]]));
+    /// assert_eq!(flat.build().unwrap_err().list[0].path, "blocks[0].polygon");
+    /// # Ok::<(), drystone::scene::Problems>(())
+    /// ```
+    pub fn builder() -> SceneFile {
+        SceneFile::default()
+    }
+
+    /// Checks a scene made in code.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it, each with its path.
+    ///
+    /// # Example
+    /// ```
+    /// use drystone::Scene;
+    /// let scene = Scene::new(Scene::builder().density(2.0).block([[0.0, 0.0], [3.0, 0.0], [0.0, 1.0]]))?;
+    /// assert_eq!(scene.blocks()[0].id, "1");
+    /// # Ok::<(), drystone::scene::Problems>(())
+    /// ```
+    pub fn new(file: SceneFile) -> Result<Scene, Problems> {
+        let mut scene =
+            resolve(&file, Doubt::default()).map_err(|findings| Problems::place(findings, None))?;
+        scene.notes = note::of(&file, &scene, None);
+        Ok(scene)
+    }
+}
+
+/// The scene file that a syntax tree holds, all that does not fit, and where that is.
+pub(super) fn read(source: &Source<'_>) -> (SceneFile, Vec<Finding>, Doubt) {
+    let mut reader = Reader::new(source);
+    let file = match &source.tree {
+        Some(tree) => object::scene(&mut reader, &tree.root),
+        None => SceneFile::default(),
+    };
+    (file, reader.findings.list, reader.doubt)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::format;
+    use crate::scene::tree::{Node, NodeKind, Tree};
+
+    /// What serde makes of a text, which knows the types only.
+    fn by_types(text: &str) -> Option<SceneFile> {
+        format::parse(text)
+    }
+
+    fn by_tree(text: &str) -> Option<SceneFile> {
+        let source = Source::parse(text).ok()?;
+        let (file, findings, _) = read(&source);
+        findings.is_empty().then_some(file)
+    }
+
+    const EVERYTHING: &str = r##"{ "$schema": "s", "drystone": 1, "title": null, "gravity": [1, -2], "friction": 0.5, "kernel": 0,
+        "density": 2, "thickness": 3, "materials": { "oak": { "density": 700, "friction": 0.1, "fill": "#123" }, "b": {} },
+        "friction_pairs": [{ "between": ["oak", "b"], "friction": 1e-3 }], "grid": { "kind": "square", "side": 2 },
+        "shapes": { "s": { "polygon": [[0, 0], [1, 0], [1, 1]], "holes": [[[0.1, 0.1]]] }, "t": { "cells": [[0, 1]] } },
+        "ground": [{ "shape": "s", "at": [1, 2], "angle": 90, "material": "b", "friction": 2, "fill": "#abc" },
+                   { "polygon": [[0, 0]], "holes": [] }, { "cells": [[1, 2, "up"], [3, 4, "down"]] }],
+        "blocks": [{ "id": "a", "polygon": [[0, 0]], "holes": [[[1, 2]]], "material": "oak", "weight": 1, "mass": 2, "density": 3,
+                     "friction": 4, "fill": "#fff", "shape": null, "at": [5, 6], "angle": -90, "cells": [[7, 8]] }, {}],
+        "robots": [{ "id": "r", "holds": "a", "at": [1, 1], "limits": { "fx": 1, "fy": 2, "torque": 3, "force": 4 } }, {}],
+        "loads": [{ "block": "a", "force": [1, 2], "at": [3, 4], "torque": 5 }], "contact_tolerance": 1e-9,
+        "corner_contacts": true, "steps": [{ "title": "t", "release": ["r"], "remove": ["a"], "place": ["a"],
+            "hold": { "r": "a", "q": { "block": "a", "at": [1, 2] } }, "plan": { "r": "a" } }, {}], "silence": ["x"] }"##;
+
+    #[test]
+    fn the_tree_and_the_types_read_the_same() {
+        let file = by_tree(EVERYTHING).expect("it fits");
+        assert_eq!(Some(&file), by_types(EVERYTHING).as_ref());
+        assert_eq!(by_tree(&file.to_json()), Some(file));
+        for text in [
+            include_str!("../../../assets/starter.json"),
+            include_str!("../../../assets/thesis/figure-4.json"),
+        ] {
+            assert_eq!(by_tree(text), by_types(text));
+        }
+    }
+
+    #[test]
+    fn the_tree_and_the_types_refuse_the_same() {
+        // Every value in turn is replaced, or its key changed.
+        let source = Source::parse(EVERYTHING).expect("JSON");
+        let mut places = Vec::new();
+        let tree = source.tree.as_ref().expect("there");
+        places_of(tree, &tree.root, &mut places);
+        assert!(places.len() > 100);
+        let mut refused = 0;
+        for range in places {
+            for other in [
+                "null",
+                "true",
+                "-1",
+                "0.5",
+                "\"x\"",
+                "[]",
+                "{}",
+                "[1, 2]",
+                "\"up\"",
+                "[1, 2, \"up\"]",
+                "1e999",
+            ] {
+                let text = format!(
+                    "{}{other}{}",
+                    &EVERYTHING[..range.start],
+                    &EVERYTHING[range.end..]
+                );
+                // serde takes the values of an object's keys as a list, too; the format does not.
+                let is_list = other.starts_with('[') && by_tree(&text).is_none();
+                assert!(is_list || by_tree(&text) == by_types(&text), "{text}");
+                refused += usize::from(by_tree(&text).is_none());
+            }
+        }
+        assert!(refused > 800, "{refused}");
+    }
+
+    fn places_of(tree: &Tree<'_>, node: &Node<'_>, places: &mut Vec<std::ops::Range<usize>>) {
+        places.push(node.range.clone());
+        match &node.kind {
+            NodeKind::List(list) => {
+                (tree.items(list).iter()).for_each(|n| places_of(tree, n, places))
+            }
+            NodeKind::Object(object) => {
+                for entry in tree.entries(object) {
+                    places.push(entry.name_range.clone());
+                    places_of(tree, &entry.value, places);
+                }
+            }
+            _ => {}
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! The outlines of a scene file's bodies as far as they can be drawn, sound or not.
+
+use super::Resolution;
+use super::body::BodyEntry;
+use crate::geometry::{Cell, Half, Point, Vector, sin_cos_degrees};
+use crate::scene::finding::{Doubt, Findings};
+use crate::scene::format::{CellEntry, CellHalf, SceneFile};
+use crate::scene::number::LARGEST;
+use crate::scene::sketch::{Placement, SketchedBody};
+use crate::scene::{BlockId, BodyId, Scene};
+
+/// Every body that has corners, the ground first, and the scene where all its bodies are sound; these may overlap in it.
+pub(in crate::mechanics::scene) fn sketch(
+    file: &SceneFile,
+    doubt: Doubt,
+) -> (Vec<SketchedBody>, Option<Scene>) {
+    let mut findings = Findings::doubting(doubt);
+    let resolution = Resolution::new(&mut findings, file);
+    let scene = resolution.scene(&mut findings);
+    (resolution.sketch(&mut findings), scene)
+}
+
+impl Resolution<'_> {
+    fn sketch(&self, findings: &mut Findings) -> Vec<SketchedBody> {
+        let (ground, blocks) = (self.ground(findings), self.blocks(findings));
+        let grounds = self.file.ground.iter().zip(&ground).enumerate();
+        let grounds = grounds.map(|(i, (entry, sound))| {
+            let rings = sound.as_ref().map(|g| g.body.polygon.rings().to_vec());
+            let name = format!("ground[{i}]");
+            self.sketched(BodyId::Ground(i), name, rings, &entry.into())
+        });
+        let blocks = self.file.blocks.iter().zip(&blocks).enumerate();
+        let blocks = blocks.map(|(i, (entry, sound))| {
+            let rings = sound.as_ref().map(|b| b.body.polygon.rings().to_vec());
+            let id = BodyId::Block(BlockId(i));
+            self.sketched(id, self.ids[i].clone(), rings, &entry.into())
+        });
+        grounds
+            .chain(blocks)
+            .filter(|body| !body.rings.is_empty())
+            .collect()
+    }
+
+    fn sketched(
+        &self,
+        id: BodyId,
+        name: String,
+        sound: Option<Vec<Vec<Point>>>,
+        written: &BodyEntry<'_>,
+    ) -> SketchedBody {
+        let at = written.at.unwrap_or([0.0, 0.0]);
+        let by = match self.lattice {
+            Some(lattice) => lattice.point(at[0], at[1]).coords,
+            None => Vector::new(at[0], at[1]),
+        };
+        let (sin, cos) = sin_cos_degrees(written.angle.unwrap_or(0.0));
+        let placement = Placement { by, sin, cos };
+        SketchedBody {
+            id,
+            name,
+            rings: sound.unwrap_or_else(|| self.raw(written, placement)),
+            placement,
+        }
+    }
+
+    /// The corners as they are written, where they can be drawn at all.
+    fn raw(&self, written: &BodyEntry<'_>, placement: Placement) -> Vec<Vec<Point>> {
+        let shape = written.shape.and_then(|name| {
+            let shapes = &self.file.shapes.0;
+            shapes.iter().find(|s| s.0 == name).map(|s| &s.1)
+        });
+        let polygon = written
+            .polygon
+            .or_else(|| shape.and_then(|s| s.polygon.as_deref()));
+        let cells = written
+            .cells
+            .or_else(|| shape.and_then(|s| s.cells.as_deref()));
+        let holes = shape.map_or(written.holes, |s| s.holes.as_slice());
+        let rings: Vec<Vec<Point>> = match (polygon, cells) {
+            (Some(corners), _) => std::iter::once(corners)
+                .chain(holes.iter().map(Vec::as_slice))
+                .map(|ring| ring.iter().map(|c| Point::new(c[0], c[1])).collect())
+                .collect(),
+            (None, Some(cells)) => cells.iter().filter_map(|cell| self.cell(*cell)).collect(),
+            (None, None) => Vec::new(),
+        };
+        let placed = rings.into_iter().map(|ring| {
+            let corners = ring.into_iter().map(|p| placement.place(p));
+            corners.collect::<Vec<Point>>()
+        });
+        let drawable = |p: &Point| p.x.abs() <= LARGEST && p.y.abs() <= LARGEST;
+        placed
+            .filter(|ring| !ring.is_empty() && ring.iter().all(drawable))
+            .collect()
+    }
+
+    /// The corners of one cell, where it is one of the scene's lattice.
+    fn cell(&self, cell: CellEntry) -> Option<Vec<Point>> {
+        let lattice = self.lattice?;
+        let (x, y, half) = match cell {
+            CellEntry::Triangle(x, y, CellHalf::Up) => (x, y, Half::Up),
+            CellEntry::Triangle(x, y, CellHalf::Down) => (x, y, Half::Down),
+            CellEntry::Square(x, y) => (x, y, Half::Whole),
+        };
+        if [x, y].iter().any(|c| c.fract() != 0.0 || c.abs() > 1e6) {
+            return None;
+        }
+        let (x, y) = (x as i64, y as i64);
+        let corners = Cell { x, y, half }.corners();
+        let point = |(x, y): (i64, i64)| lattice.point(x as f64, y as f64);
+        Some(corners.into_iter().map(point).collect())
+    }
+}

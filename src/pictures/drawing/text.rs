@@ -1,0 +1,394 @@
+//! [`Text`]: a line of words, and how wide words are in our own fonts.
+//!
+//! Widths are sums of advances, without kerning: a pair moves by a few hundredths of the size, which wrapping and
+//! placing do not notice. The width of a character that a face lacks, and that another font
+//! has to draw, is estimated.
+
+use std::sync::OnceLock;
+
+#[cfg(feature = "cli")]
+use skrifa::GlyphId;
+use skrifa::MetadataProvider;
+use skrifa::instance::{LocationRef, Size};
+#[cfg(feature = "cli")]
+use skrifa::outline::{DrawSettings, OutlinePen};
+use skrifa::raw::{FileRef, FontRef};
+
+use super::{Colour, PagePoint};
+
+/// A font of ours, with which every word of every figure is set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Face {
+    /// Libertinus Serif.
+    Serif,
+    /// Libertinus Serif Italic.
+    SerifItalic,
+    /// Libertinus Serif Bold.
+    SerifBold,
+    /// Inter.
+    Sans,
+    /// Inter, half bold.
+    SansBold,
+}
+
+impl Face {
+    /// All faces.
+    pub const ALL: [Face; 5] = [
+        Face::Serif,
+        Face::SerifItalic,
+        Face::SerifBold,
+        Face::Sans,
+        Face::SansBold,
+    ];
+
+    /// The font file.
+    pub fn data(self) -> &'static [u8] {
+        match self {
+            Face::Serif => include_bytes!("../../../assets/fonts/LibertinusSerif-Regular.otf"),
+            Face::SerifItalic => include_bytes!("../../../assets/fonts/LibertinusSerif-Italic.otf"),
+            Face::SerifBold => include_bytes!("../../../assets/fonts/LibertinusSerif-Bold.otf"),
+            Face::Sans => include_bytes!("../../../assets/fonts/Inter-Regular.ttf"),
+            Face::SansBold => include_bytes!("../../../assets/fonts/Inter-SemiBold.ttf"),
+        }
+    }
+
+    /// The family's own name first, then what a reader's machine may have instead.
+    pub fn families(self) -> &'static str {
+        match self {
+            Face::Serif | Face::SerifItalic | Face::SerifBold => {
+                "'Libertinus Serif', 'Linux Libertine O', Palatino, Georgia, serif"
+            }
+            Face::Sans | Face::SansBold => "Inter, 'Helvetica Neue', Arial, sans-serif",
+        }
+    }
+
+    /// The weight, 100 … 900.
+    pub fn weight(self) -> u16 {
+        match self {
+            Face::Serif | Face::SerifItalic | Face::Sans => 400,
+            Face::SansBold => 600,
+            Face::SerifBold => 700,
+        }
+    }
+
+    /// Whether it is slanted.
+    pub fn italic(self) -> bool {
+        self == Face::SerifItalic
+    }
+
+    /// Whether the face has a character.
+    pub fn has(self, character: char) -> bool {
+        self.font().charmap().map(character).is_some()
+    }
+
+    /// The number of the glyph that the face has for a character.
+    pub fn glyph(self, character: char) -> Option<u16> {
+        let glyph = self.font().charmap().map(character)?;
+        u16::try_from(glyph.to_u32()).ok()
+    }
+
+    fn font(self) -> FontRef<'static> {
+        FontRef::new(self.data()).expect("our font files are sound, a test opens each")
+    }
+}
+
+/// One pull of the pen that draws a letter, in units of its font, y up.
+#[cfg(feature = "cli")]
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Pull {
+    /// Begin a new part here.
+    Move([f32; 2]),
+    /// A straight line to here.
+    Line([f32; 2]),
+    /// A curve with one control point.
+    Quad([f32; 2], [f32; 2]),
+    /// A curve with two.
+    Cubic([f32; 2], [f32; 2], [f32; 2]),
+    /// Straight back to the beginning of the part.
+    Close,
+}
+
+/// Draws a glyph of a face; one without ink, a space, takes no pull.
+#[cfg(feature = "cli")]
+pub(crate) fn outline(face: Face, glyph: u16, pen: impl FnMut(Pull)) {
+    struct Pen<P>(P);
+    impl<P: FnMut(Pull)> OutlinePen for Pen<P> {
+        fn move_to(&mut self, x: f32, y: f32) {
+            (self.0)(Pull::Move([x, y]));
+        }
+        fn line_to(&mut self, x: f32, y: f32) {
+            (self.0)(Pull::Line([x, y]));
+        }
+        fn quad_to(&mut self, a: f32, b: f32, x: f32, y: f32) {
+            (self.0)(Pull::Quad([a, b], [x, y]));
+        }
+        fn curve_to(&mut self, a: f32, b: f32, c: f32, d: f32, x: f32, y: f32) {
+            (self.0)(Pull::Cubic([a, b], [c, d], [x, y]));
+        }
+        fn close(&mut self) {
+            (self.0)(Pull::Close);
+        }
+    }
+    if let Some(outline) = face.font().outline_glyphs().get(GlyphId::from(glyph)) {
+        let plain = DrawSettings::unhinted(Size::unscaled(), LocationRef::default());
+        // Our fonts are sound: a test opens each.
+        let _ = outline.draw(plain, &mut Pen(pen));
+    }
+}
+
+/// Which end of a line of words its place is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Anchor {
+    /// The left end.
+    Start,
+    /// The middle.
+    Middle,
+    /// The right end.
+    End,
+}
+
+/// A line of words.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Text {
+    /// Where: on the base line, at the end that `anchor` says.
+    pub at: PagePoint,
+    /// Which end lies there.
+    pub anchor: Anchor,
+    /// The words.
+    pub words: String,
+    /// The font.
+    pub face: Face,
+    /// Size of the font in pixels.
+    pub size: f64,
+    /// Colour.
+    pub fill: Colour,
+    /// Colour and width in pixels of a seam around the letters that keeps them apart from what they lie on.
+    pub halo: Option<(Colour, f64)>,
+}
+
+impl Text {
+    /// Words that begin at a place.
+    pub fn new(
+        at: PagePoint,
+        words: impl Into<String>,
+        face: Face,
+        size: f64,
+        fill: Colour,
+    ) -> Text {
+        Text {
+            at,
+            anchor: Anchor::Start,
+            words: words.into(),
+            face,
+            size,
+            fill,
+            halo: None,
+        }
+    }
+
+    /// The same words, at their place with another end.
+    pub fn anchored(self, anchor: Anchor) -> Text {
+        Text { anchor, ..self }
+    }
+
+    /// The same words with a seam around them.
+    pub fn with_halo(self, colour: Colour, width: f64) -> Text {
+        Text {
+            halo: Some((colour, width)),
+            ..self
+        }
+    }
+}
+
+/// The space at which no line is broken.
+pub const NO_BREAK: char = '\u{a0}';
+
+/// Whether bytes are a font, or a collection of fonts.
+pub fn opens(data: &[u8]) -> bool {
+    FileRef::new(data).is_ok_and(|file| file.fonts().any(|font| font.is_ok()))
+}
+
+/// Whether a font, or one of a collection, has a character.
+pub fn covers(data: &[u8], character: char) -> bool {
+    let Ok(file) = FileRef::new(data) else {
+        return false;
+    };
+    let mut fonts = file.fonts().filter_map(Result::ok);
+    fonts.any(|font| font.charmap().map(character).is_some())
+}
+
+/// How wide words are, in pixels.
+pub fn width(words: &str, face: Face, size: f64) -> f64 {
+    let common = common_advances(face);
+    let advance = |c: char| match common.get(c as usize) {
+        Some(advance) => *advance,
+        None => advance(&face.font(), c),
+    };
+    words.chars().map(advance).sum::<f64>() * size
+}
+
+/// How far the pen moves for a character, in parts of the size.
+fn advance(font: &FontRef<'_>, c: char) -> f64 {
+    let Some(glyph) = font.charmap().map(c) else {
+        return elsewhere(c);
+    };
+    let metrics = font.glyph_metrics(Size::new(1.0), LocationRef::default());
+    f64::from(metrics.advance_width(glyph).unwrap_or(0.0))
+}
+
+/// How wide a character is, in parts of the size, that is set in a font of other hands: a full square in the scripts and
+/// signs that are written in squares.
+fn elsewhere(c: char) -> f64 {
+    match u32::from(c) {
+        0x1100..=0x115F
+        | 0x2E80..=0xA4CF
+        | 0xAC00..=0xD7A3
+        | 0xF900..=0xFAFF
+        | 0xFE30..=0xFE6F
+        | 0xFF00..=0xFF60
+        | 0x1F000..=0x3FFFF => 1.0,
+        _ => 0.62,
+    }
+}
+
+/// Advances of the first 128 characters, looked up once: breaking lines asks for them again and again.
+fn common_advances(face: Face) -> &'static [f64] {
+    static KNOWN: [OnceLock<Vec<f64>>; Face::ALL.len()] =
+        [const { OnceLock::new() }; Face::ALL.len()];
+    KNOWN[face as usize].get_or_init(|| {
+        let font = face.font();
+        (0..128_u8).map(|c| advance(&font, char::from(c))).collect()
+    })
+}
+
+/// Words broken into lines of at most `room` pixels. A word that is too wide for a line is broken where it must be.
+/// White space of any kind counts as one space, but for [`NO_BREAK`], which holds its neighbours together; no words
+/// make no lines.
+pub fn wrap(words: &str, face: Face, size: f64, room: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    let mut line = String::new();
+    let breaks = |c: char| c.is_whitespace() && c != NO_BREAK;
+    for word in words.split(breaks).filter(|word| !word.is_empty()) {
+        let longer = if line.is_empty() {
+            word.to_owned()
+        } else {
+            format!("{line} {word}")
+        };
+        if width(&longer, face, size) <= room {
+            line = longer;
+            continue;
+        }
+        if !line.is_empty() {
+            lines.push(std::mem::take(&mut line));
+        }
+        for character in word.chars() {
+            line.push(character);
+            if line.chars().count() > 1 && width(&line, face, size) > room {
+                line.pop();
+                lines.push(std::mem::take(&mut line));
+                line.push(character);
+            }
+        }
+    }
+    if !line.is_empty() {
+        lines.push(line);
+    }
+    lines
+}
+
+/// Words in as few lines as `room` pixels allow, at most `most` of them, and those about equally long: no last word stands
+/// alone.
+pub fn balanced(words: &str, face: Face, size: f64, room: f64, most: usize) -> Vec<String> {
+    let mut lines = cut(wrap(words, face, size, room), most, face, size, room);
+    let count = lines.len();
+    if count < 2 || lines.last().is_some_and(|l| l.ends_with('…')) {
+        return lines;
+    }
+    let mut narrower = room;
+    while narrower > room / 3.0 {
+        narrower -= 4.0;
+        let next = wrap(words, face, size, narrower);
+        if next.len() > count {
+            break;
+        }
+        lines = next;
+    }
+    lines
+}
+
+/// The first lines, the last of them ending in "…" where there are more than `most`.
+pub fn cut(mut lines: Vec<String>, most: usize, face: Face, size: f64, room: f64) -> Vec<String> {
+    if lines.len() > most {
+        lines.truncate(most);
+        if let Some(last) = lines.last_mut() {
+            while !last.is_empty() && width(&format!("{last} …"), face, size) > room {
+                last.pop();
+            }
+            let kept = last.trim_end().len();
+            last.truncate(kept);
+            last.push_str(" …");
+        }
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn widths_grow_with_size_and_words_and_know_the_letters() {
+        for face in Face::ALL {
+            assert!(
+                width("W", face, 20.0) > 2.0 * width("i", face, 20.0),
+                "{face:?}"
+            );
+            let (one, two) = (width("Robot 0", face, 10.0), width("Robot 0", face, 20.0));
+            assert!(
+                (two - 2.0 * one).abs() < 1e-3 && one > 20.0,
+                "{face:?} {one}"
+            );
+        }
+    }
+
+    #[test]
+    fn wrapping_keeps_every_word_and_no_line_is_too_wide() {
+        let words = "The robot 0 wants to place anewblockwithanamethatisfartoolong here";
+        let lines = wrap(words, Face::Serif, 15.0, 120.0);
+        assert!(lines.len() > 3);
+        assert!(lines.iter().all(|l| width(l, Face::Serif, 15.0) <= 120.0));
+        assert_eq!(lines.concat().replace(' ', ""), words.replace(' ', ""));
+        assert!(wrap(" \n\t", Face::Serif, 15.0, 120.0).is_empty());
+        assert_eq!(
+            wrap("a pull of 750\u{a0}mN", Face::Sans, 12.0, 80.0)
+                .last()
+                .map(String::as_str),
+            Some("750\u{a0}mN")
+        );
+        let cut = cut(lines, 2, Face::Serif, 15.0, 120.0);
+        assert_eq!(cut.len(), 2);
+        assert!(cut[1].ends_with('…') && width(&cut[1], Face::Serif, 15.0) <= 120.0);
+    }
+
+    #[test]
+    fn balanced_lines_are_as_few_and_leave_no_word_alone() {
+        let words = "A flying buttress that takes a vault's thrust";
+        let greedy = wrap(words, Face::SerifBold, 20.0, 380.0);
+        let balanced = balanced(words, Face::SerifBold, 20.0, 380.0, 5);
+        assert_eq!((greedy.len(), balanced.len()), (2, 2));
+        assert_eq!(greedy[1], "thrust");
+        assert!(balanced[1].split(' ').count() > 2, "{balanced:?}");
+        assert_eq!(balanced.join(" "), words);
+    }
+
+    #[test]
+    fn every_character_that_our_own_words_use_is_in_every_face() {
+        let ours = "ABCXYZabcxyz0123456789 .,;:·–—…()[]|/+-−×=±°²³½≤≥→∑√μΣφθ∞“”‘’□";
+        for face in Face::ALL {
+            for c in ours.chars() {
+                assert!(face.has(c), "{face:?} lacks {c:?}");
+            }
+        }
+        assert!(!Face::Serif.has('石'));
+    }
+}

@@ -1,0 +1,291 @@
+//! Numbers, and the steps of outlines: as few characters as tell a hundredth of a pixel.
+
+use crate::drawing::{Outline, PagePoint, Segment};
+
+/// The one number printer: at most two decimals, a hundredth of a pixel, no needless zero, no −0.
+///
+/// # Panics
+/// For a number that is not finite.
+pub(super) fn number(value: f64) -> String {
+    assert!(
+        value.is_finite(),
+        "a drawing holds the number {value}; every number of a drawing is finite"
+    );
+    let mut text = format!("{value:.2}");
+    let kept = text.trim_end_matches('0').trim_end_matches('.').len();
+    text.truncate(kept);
+    if text == "-0" { "0".to_owned() } else { text }
+}
+
+/// What [`number`] tells of a number, as a number again.
+///
+/// # Panics
+/// As [`number`].
+#[cfg(all(feature = "cli", feature = "png"))]
+pub(in crate::pictures::output) fn rounded(value: f64) -> f64 {
+    let whole = (value * 100.0).round();
+    // Half a hundredth goes to the even neighbour, and not, as here, away from zero.
+    match (value * 100.0 - whole).abs() < 0.49 {
+        true => whole / 100.0,
+        false => number(value).parse().unwrap_or_default(),
+    }
+}
+
+/// Where the path data of an outline leads.
+#[cfg(all(feature = "cli", feature = "png"))]
+pub(in crate::pictures::output) trait Pen {
+    /// Begins a new part.
+    fn begin(&mut self, x: f64, y: f64);
+    /// A straight line.
+    fn line(&mut self, x: f64, y: f64);
+    /// A curve by way of two control points.
+    fn curve(&mut self, points: [(f64, f64); 3]);
+    /// Straight back to where the part began.
+    fn close(&mut self);
+}
+
+/// Follows an outline as whoever reads its path data does: by steps of whole hundredths, added up.
+#[cfg(all(feature = "cli", feature = "png"))]
+pub(in crate::pictures::output) fn trace(outline: &Outline, pen: &mut impl Pen) {
+    let (mut begin, mut at, mut from) = ((0, 0), (0, 0), (0.0, 0.0));
+    for segment in &outline.segments {
+        let ahead = |to: PagePoint| {
+            let to = hundredths(to);
+            let step = |to: i64, at: i64| (to - at) as f64 / 100.0;
+            (from.0 + step(to.0, at.0), from.1 + step(to.1, at.1))
+        };
+        match *segment {
+            Segment::Move(p) => {
+                at = hundredths(p);
+                begin = at;
+                from = (at.0 as f64 / 100.0, at.1 as f64 / 100.0);
+                pen.begin(from.0, from.1);
+            }
+            Segment::Line(p) => {
+                from = ahead(p);
+                at = hundredths(p);
+                pen.line(from.0, from.1);
+            }
+            Segment::Curve(a, b, c) => {
+                let points = [ahead(a), ahead(b), ahead(c)];
+                from = points[2];
+                at = hundredths(c);
+                pen.curve(points);
+            }
+            Segment::Close => {
+                at = begin;
+                from = (at.0 as f64 / 100.0, at.1 as f64 / 100.0);
+                pen.close();
+            }
+        }
+    }
+}
+
+/// Writes the path data of an outline.
+pub(super) fn steps(data: &mut String, outline: &Outline) {
+    let mut pen = Steps {
+        data: std::mem::take(data),
+        ..Steps::default()
+    };
+    for segment in &outline.segments {
+        match *segment {
+            Segment::Move(p) => pen.begin(p),
+            Segment::Line(p) => pen.line(p),
+            Segment::Curve(a, b, c) => pen.curve('c', &[a, b, c]),
+            Segment::Close => pen.close(),
+        }
+    }
+    *data = pen.data;
+}
+
+/// Path data in the making. Steps are told from where the last one ended, which takes fewer digits than places on the
+/// page, and count in whole hundredths, so that roundings do not add up.
+#[derive(Default)]
+pub(super) struct Steps {
+    /// What is written so far.
+    pub data: String,
+    begin: (i64, i64),
+    at: (i64, i64),
+    letter: char,
+}
+
+impl Steps {
+    /// Begins a new part.
+    pub fn begin(&mut self, to: PagePoint) {
+        self.at = hundredths(to);
+        self.begin = self.at;
+        self.put('M', &[self.at.0, self.at.1]);
+    }
+
+    /// A straight line.
+    pub fn line(&mut self, to: PagePoint) {
+        let to = hundredths(to);
+        let (x, y) = (to.0 - self.at.0, to.1 - self.at.1);
+        match (x, y) {
+            // A line of no length is a dot where its ends are round; it stays.
+            (_, 0) => self.put('h', &[x]),
+            (0, _) => self.put('v', &[y]),
+            _ => self.put('l', &[x, y]),
+        }
+        self.at = to;
+    }
+
+    /// A curve through its control points to its end: `q` has one of them, `c` two.
+    pub fn curve(&mut self, letter: char, points: &[PagePoint]) {
+        let from = self.at;
+        for (number, point) in points.iter().enumerate() {
+            self.at = hundredths(*point);
+            let step = [self.at.0 - from.0, self.at.1 - from.1];
+            match number {
+                0 => self.put(letter, &step),
+                _ => self.more(&step),
+            }
+        }
+    }
+
+    /// Straight back to where the part began.
+    pub fn close(&mut self) {
+        self.put('z', &[]);
+        self.at = self.begin;
+    }
+
+    fn put(&mut self, letter: char, numbers: &[i64]) {
+        // A letter need not be said twice; after a move, though, it would mean a line.
+        let stated = letter == self.letter && !matches!(letter, 'M' | 'z');
+        if !stated {
+            self.data.push(letter);
+            self.letter = letter;
+        }
+        let Some((first, more)) = numbers.split_first() else {
+            return;
+        };
+        match stated {
+            true => self.more(&[*first]),
+            false => put(&mut self.data, *first),
+        }
+        self.more(more);
+    }
+
+    /// Numbers behind another one.
+    fn more(&mut self, numbers: &[i64]) {
+        for number in numbers {
+            if *number >= 0 {
+                self.data.push(' ');
+            }
+            put(&mut self.data, *number);
+        }
+    }
+}
+
+/// A place in whole hundredths of a pixel.
+fn hundredths(point: PagePoint) -> (i64, i64) {
+    let whole = |value: f64| {
+        assert!(
+            value.is_finite(),
+            "a drawing holds the number {value}; every number of a drawing is finite"
+        );
+        // `as` holds on at the ends, nine orders of magnitude beyond any page.
+        (value * 100.0).round() as i64
+    };
+    (whole(point.x), whole(point.y))
+}
+
+/// Hundredths as a decimal number without a needless zero. A drawing has thousands of them, so no formatter is asked.
+fn put(data: &mut String, hundredths: i64) {
+    let (whole, part) = (
+        hundredths.unsigned_abs() / 100,
+        hundredths.unsigned_abs() % 100,
+    );
+    if hundredths < 0 {
+        data.push('-');
+    }
+    if whole > 0 || part == 0 {
+        let digits = whole.checked_ilog10().unwrap_or(0);
+        for place in (0..=digits).rev() {
+            data.push(digit(whole / 10_u64.pow(place)));
+        }
+    }
+    if part > 0 {
+        data.push('.');
+        data.push(digit(part / 10));
+        if part % 10 > 0 {
+            data.push(digit(part));
+        }
+    }
+}
+
+/// The last digit of a number.
+fn digit(number: u64) -> char {
+    char::from(b'0' + (number % 10) as u8)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn written(outline: &Outline) -> String {
+        let mut data = String::new();
+        steps(&mut data, outline);
+        data
+    }
+
+    #[test]
+    fn numbers_are_short_and_never_minus_zero() {
+        let cases = [
+            (0.0, "0"),
+            (-0.0, "0"),
+            (-0.004, "0"),
+            (1.5, "1.5"),
+            (-2.25, "-2.25"),
+            (100.0, "100"),
+            (1.0 / 3.0, "0.33"),
+        ];
+        for (value, expected) in cases {
+            assert_eq!(number(value), expected);
+        }
+        for (hundredths, expected) in [
+            (0, "0"),
+            (-5, "-.05"),
+            (70, ".7"),
+            (-1230, "-12.3"),
+            (4, ".04"),
+            (101, "1.01"),
+        ] {
+            let mut text = String::new();
+            put(&mut text, hundredths);
+            assert_eq!(text, expected);
+        }
+    }
+
+    #[test]
+    fn steps_lead_where_the_outline_leads() {
+        let p = PagePoint::new;
+        let outline = Outline {
+            segments: vec![
+                Segment::Move(p(10.0, 20.0)),
+                Segment::Line(p(15.5, 20.004)),
+                Segment::Line(p(15.5, 12.25)),
+                Segment::Line(p(14.0, 12.0)),
+                Segment::Line(p(13.0, 13.0)),
+                Segment::Curve(p(1.0, 2.0), p(3.0, 3.0), p(13.5, 12.96)),
+                Segment::Close,
+                Segment::Move(p(-0.001, -1.0)),
+                Segment::Line(p(-0.001, -1.0)),
+            ],
+        };
+        let expected = "M10 20h5.5v-7.75l-1.5-.25-1 1c-12-11-10-10 .5-.04zM0-1h0";
+        assert_eq!(written(&outline), expected);
+    }
+
+    #[test]
+    fn roundings_do_not_add_up() {
+        let outline = Outline::line((0..=3000).map(|i| PagePoint::new(f64::from(i) / 3.0, 0.5)));
+        let data = written(&outline);
+        let sum: f64 = data
+            .trim_start_matches("M0 .5h")
+            .split(' ')
+            .map(|n| n.parse::<f64>().expect("a number"))
+            .sum();
+        assert!((sum - 1000.0).abs() < 1e-6, "{sum}");
+    }
+}

@@ -1,0 +1,115 @@
+//! What lines of thrust do in structures known by hand.
+
+use super::*;
+use crate::analysis::Analysis;
+
+fn scene(text: &str) -> Scene {
+    Scene::from_json(text).unwrap_or_else(|problems| panic!("{problems}"))
+}
+
+fn of(scene: &Scene) -> Vec<Stretch> {
+    let analysis = Analysis::of(scene);
+    stretches(scene, &scene.frames[0], &analysis.frames[0], 1.0)
+}
+
+#[test]
+fn in_an_arch_the_line_runs_from_joint_to_joint_and_bends_in_line_with_each_centroid() {
+    let scene = scene(include_str!("../../../../assets/study/arch-27.json"));
+    let stretches = of(&scene);
+    let mut bends = 0;
+    for pair in stretches.chunk_by(|a, b| a.on == b.on) {
+        let [a, b] = pair else {
+            panic!("two pieces to a voussoir: {pair:?}")
+        };
+        // Low down the thrust is so steep that it meets the weight outside the voussoir: there it stops.
+        assert_eq!(a.through, b.through);
+        if a.through {
+            assert_eq!(a.to, b.from);
+            let centroid = scene.blocks[a.on.0].centroid;
+            assert!((a.to.x - centroid.x).abs() < 1e-6, "the weight meets them");
+            bends += 1;
+        }
+    }
+    assert!(bends >= 9, "{bends}");
+    assert!(stretches.iter().any(|s| !s.through));
+}
+
+#[test]
+fn a_torque_moves_a_robots_line_aside() {
+    let scene = scene(
+        r#"{ "drystone": 1, "blocks": [ { "id": "a", "polygon": [[0,0],[4,0],[4,2],[0,2]], "weight": 8 } ],
+             "robots": [ { "id": "r", "limits": { "torque": 100 } } ],
+             "steps": [ { "place": ["a"], "hold": { "r": { "block": "a", "at": [3, 1] } } } ] }"#,
+    );
+    // 8 N at the grip with −8 N·m about it act along the line through the centroid: nothing is left to bend.
+    assert!(of(&scene).iter().all(|s| (s.from.x - 2.0).abs() < 1e-6));
+}
+
+/// A beam of 30 N on two posts, loaded.
+fn beam(loads: &str) -> Scene {
+    scene(&format!(
+        r#"{{ "drystone": 1, "friction": 0.7,
+             "ground": [ {{ "polygon": [[0,-1],[1,-1],[1,0],[0,0]] }}, {{ "polygon": [[9,-1],[10,-1],[10,0],[9,0]] }} ],
+             "blocks": [ {{ "id": "beam", "polygon": [[0,0],[10,0],[10,1],[0,1]], "weight": 30 }} ],
+             "loads": [ {loads} ] }}"#
+    ))
+}
+
+#[test]
+fn a_loaded_beam_shows_its_reactions_and_its_load_and_no_line_between_them() {
+    let stretches = of(&beam(
+        r#"{ "block": "beam", "force": [0, -12], "at": [4, 1] }"#,
+    ));
+    assert_eq!(stretches.len(), 3, "{stretches:?}");
+    for s in &stretches {
+        assert!(!s.through && (s.to.x - s.from.x).abs() < 1e-9, "{s:?}");
+        assert!((s.to - s.from).norm() <= 0.5 + 1e-9);
+    }
+    let load = stretches.iter().find(|s| s.giver == Giver::Load(0));
+    let load = load.expect("the load belongs to the line");
+    assert_eq!(
+        (load.from, load.force),
+        (Point::new(4.0, 1.0), Vector::new(0.0, -12.0))
+    );
+}
+
+#[test]
+fn a_load_bends_the_line_where_its_own_line_meets_it() {
+    let scene = scene(
+        r#"{ "drystone": 1, "friction": 0.7, "ground": [ { "polygon": [[0,-1],[4,-1],[4,0],[0,0]] } ],
+             "blocks": [ { "id": "a", "polygon": [[0,0],[4,0],[4,4],[0,4]], "weight": 40 } ],
+             "loads": [ { "block": "a", "force": [10, 0], "at": [0, 3] } ] }"#,
+    );
+    let stretches = of(&scene);
+    // 40 N down through x = 2 and 10 N at height 3 meet in (2, 3); from there the ground is reached at (2.75, 0).
+    let [main, load] = &stretches[..] else {
+        panic!("{stretches:?}")
+    };
+    assert!(
+        (main.from - Point::new(2.75, 0.0)).norm() < 1e-6,
+        "{main:?}"
+    );
+    assert!((main.to - Point::new(2.0, 3.0)).norm() < 1e-6, "{main:?}");
+    assert_eq!(load.giver, Giver::Load(0));
+    assert!((load.from - Point::new(0.0, 3.0)).norm() < 1e-9);
+    assert!((load.to - main.to).norm() < 1e-6);
+}
+
+#[test]
+fn a_stack_is_one_straight_line() {
+    let scene = scene(
+        r#"{ "drystone": 1, "friction": 0.7, "ground": [ { "polygon": [[0,-1],[2,-1],[2,0],[0,0]] } ],
+             "blocks": [ { "id": "a", "polygon": [[0,0],[2,0],[2,1],[0,1]], "weight": 7 },
+                         { "id": "b", "polygon": [[0,1],[2,1],[2,3],[0,3]], "weight": 5 } ] }"#,
+    );
+    let stretches = of(&scene);
+    assert!(stretches.iter().all(|s| s.through), "{stretches:?}");
+    assert!(
+        stretches
+            .iter()
+            .all(|s| (s.from.x - 1.0).abs() + (s.to.x - 1.0).abs() < 1e-6)
+    );
+    let along: f64 = stretches.iter().map(|s| (s.to - s.from).norm()).sum();
+    // Through the lower block and up to the centroid of the upper one.
+    assert!((along - 2.0).abs() < 1e-6, "{stretches:?}");
+}

@@ -1,0 +1,190 @@
+//! [`gallery`]: the figures of the source in our hand, drawn from scenes that come with the program.
+
+use super::caption::caption;
+use super::freebody::freebody;
+use super::option::{Corners, Fill, ForceStyle, Normalisation, Options};
+use super::plate::Panel;
+use super::ring::ring;
+use super::shapes::shapes;
+use super::{Kind, draw};
+use crate::analysis::Analysis;
+use crate::drawing::{Drawing, Theme};
+use crate::scene::Scene;
+
+/// A figure of the gallery.
+#[derive(Clone, Debug)]
+pub struct Plate {
+    /// What its files are called, such as `figure-4`.
+    pub name: &'static str,
+    /// What it shows, in plain words.
+    pub caption: String,
+    /// The figure.
+    pub drawing: Drawing,
+}
+
+/// What a plate is made of.
+enum Subject {
+    /// A block of a scene cut free.
+    Freebody(&'static str, &'static str),
+    /// The ring of colours.
+    Ring,
+    /// The sheet of shapes.
+    Shapes,
+    /// The forces of a scene.
+    Forces(&'static str),
+    /// The forces of several scenes, in lettered panels.
+    Plate {
+        title: &'static str,
+        columns: usize,
+        scenes: &'static [&'static str],
+        panels: &'static [Panel],
+    },
+}
+
+const fn panel(of: usize, frame: usize, caption: &'static str) -> Panel {
+    Panel { of, frame, caption }
+}
+
+macro_rules! scene {
+    ($name:literal) => {
+        include_str!(concat!("../../../assets/thesis/", $name, ".json"))
+    };
+}
+
+/// Figures 1 to 9 of [Vallat23](crate::doc::references), by name.
+const PLATES: [(&str, Subject); 10] = [
+    ("figure-1", Subject::Freebody(scene!("figure-1"), "a")),
+    ("figure-2", Subject::Freebody(scene!("figure-2"), "k")),
+    ("figure-3a", Subject::Ring),
+    ("figure-3b", Subject::Forces(scene!("figure-3b"))),
+    ("figure-4", Subject::Forces(scene!("figure-4"))),
+    ("figure-5", Subject::Forces(scene!("figure-5"))),
+    (
+        "figure-6",
+        Subject::Plate {
+            title: "Figure 6: three kernels",
+            columns: 3,
+            scenes: &[
+                scene!("figure-6-kernel-0"),
+                scene!("figure-6-kernel-02"),
+                scene!("figure-6-kernel-05"),
+            ],
+            panels: &[
+                panel(0, 0, "(a) An upright link, no kernel"),
+                panel(1, 0, "(b) Kernel 0.2"),
+                panel(2, 0, "(c) Kernel 0.5"),
+                panel(0, 1, "(d) A leaning link, no kernel"),
+                panel(1, 1, "(e) Kernel 0.2"),
+                panel(2, 1, "(f) Kernel 0.5"),
+            ],
+        },
+    ),
+    ("figure-7", Subject::Shapes),
+    (
+        "figure-8",
+        Subject::Plate {
+            title: "Figure 8: bridges of four and of five blocks",
+            columns: 3,
+            scenes: &[
+                scene!("figure-8-left"),
+                scene!("figure-8-right"),
+                scene!("figure-8-right-corners"),
+            ],
+            panels: &[
+                panel(0, 0, "(a) Four blocks"),
+                panel(1, 0, "(b) Five blocks"),
+                panel(2, 0, "(b′) The same with corner contacts"),
+            ],
+        },
+    ),
+    (
+        "figure-9",
+        Subject::Plate {
+            title: "Figure 9: held by corners, held by a torque",
+            columns: 2,
+            scenes: &[
+                scene!("figure-9a"),
+                scene!("figure-9a-corners"),
+                scene!("figure-9b"),
+                scene!("figure-9b-torque"),
+            ],
+            panels: &[
+                panel(0, 0, "(a) Held by corners, which are left out"),
+                panel(1, 0, "(a′) The same with corner contacts"),
+                panel(2, 0, "(b) Held by a robot that gives no torque"),
+                panel(3, 0, "(b′) The same with a torque"),
+            ],
+        },
+    ),
+];
+
+/// Every figure of the source, each beside what it refuses with the effect switched on that it leaves out.
+///
+/// Arrows and their lengths are the source's: normal and friction force apart, the largest single unknown one edge long.
+pub fn gallery(theme: &Theme) -> Vec<Plate> {
+    PLATES
+        .iter()
+        .map(|(name, subject)| plate(name, subject, theme))
+        .collect()
+}
+
+fn plate(name: &'static str, subject: &Subject, theme: &Theme) -> Plate {
+    let options = Options {
+        style: ForceStyle::Components,
+        normalisation: Normalisation::Source,
+        fill: Fill::Source,
+        theme: theme.clone(),
+        ..Options::default()
+    };
+    let (drawing, caption) = match subject {
+        Subject::Ring => {
+            let ring = ring(theme);
+            let caption = ring.description.clone();
+            (ring, caption)
+        }
+        Subject::Shapes => (
+            shapes(theme),
+            "The shapes that come with the triangular lattice, each with its cells and its lattice origin.".into(),
+        ),
+        Subject::Freebody(text, block) => {
+            let scene = read(text);
+            let id = scene.blocks.iter().position(|b| b.id == *block);
+            let id = crate::scene::BlockId(id.expect("the block is in our own scene"));
+            // The source's figures name every unknown.
+            let options = Options {
+                corners: Corners::All,
+                ..options
+            };
+            let drawing = freebody(&Analysis::of(&scene), 0, id, &options);
+            let drawing = drawing.expect("the block is placed in our own scene");
+            let caption = format!("{}. Block {block} cut free.", scene.title);
+            (drawing, caption)
+        }
+        Subject::Forces(text) => {
+            let scene = read(text);
+            let found = Analysis::of(&scene);
+            (draw(&found, Kind::Forces, &options), caption(&found))
+        }
+        Subject::Plate {
+            title,
+            columns,
+            scenes,
+            panels,
+        } => {
+            let scenes: Vec<Scene> = scenes.iter().map(|text| read(text)).collect();
+            let found: Vec<Analysis> = scenes.iter().map(Analysis::of).collect();
+            let captions: Vec<String> = found.iter().map(caption).collect();
+            let drawing = super::plate::plate(&found, panels, title, *columns, &options);
+            (drawing, captions.join(" "))
+        }
+    };
+    Plate {
+        name,
+        caption,
+        drawing,
+    }
+}
+
+fn read(text: &str) -> Scene {
+    Scene::from_json(text).expect("our own scenes are sound, a test reads each")
+}

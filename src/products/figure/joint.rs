@@ -1,0 +1,170 @@
+//! [`Joint`]: what a mechanism does at an interface: a hinge where one end keeps contact, a slip where it slides.
+//!
+//! Along a mechanism nothing admissible can object to, a contact opens with at least μ times the speed at which it
+//! slides. One that opens with just that still rubs: it slips. One that opens faster is free.
+
+use crate::analysis::{Analysis, Contact, FrameAnalysis, Motion};
+use crate::geometry::{Point, Vector};
+use crate::scene::{BlockId, BodyId};
+
+/// Speeds below this share of the largest between two bodies are noise of the solution.
+const NOISE: f64 = 2e-3;
+
+/// How the two bodies of an interface move against each other; they part where it neither is a hinge nor slips.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Joint {
+    /// The contact's number in the frame.
+    pub contact: usize,
+    /// The application point about which it turns, where one keeps contact and the other opens.
+    pub hinge: Option<Point>,
+    /// Speed of the first body past the second along (−n_y, n_x), 0 where it does not slide or no longer touches.
+    pub slip: f64,
+    /// Speed at which a joint that slides opens, 0 where it goes along the joint.
+    pub lift: f64,
+}
+
+/// Every interface of a frame whose bodies move against each other.
+pub(crate) fn joints(analysis: &Analysis, frame: usize) -> Vec<Joint> {
+    let found = &analysis.frames[frame];
+    let motions = by_block(analysis, found);
+    let relative: Vec<[Vector; 2]> = found
+        .contacts
+        .iter()
+        .map(|contact| {
+            contact.application_points.map(|p| {
+                let [a, b] = contact.interface.bodies;
+                velocity(analysis, &motions, a, p) - velocity(analysis, &motions, b, p)
+            })
+        })
+        .collect();
+    let largest = relative
+        .iter()
+        .flatten()
+        .map(|v| v.norm())
+        .fold(0.0, f64::max);
+    if largest <= 0.0 {
+        return Vec::new();
+    }
+    let spin = |body| match body {
+        BodyId::Ground(_) => 0.0,
+        BodyId::Block(BlockId(id)) => motions[id].map_or(0.0, |m| m.spin),
+    };
+    let one = |(number, contact): (usize, &Contact)| {
+        let [a, b] = contact.interface.bodies;
+        let turning = (spin(a) - spin(b)).abs() * found.length;
+        let found = joint(contact, relative[number], turning, NOISE * largest)?;
+        Some(Joint {
+            contact: number,
+            ..found
+        })
+    };
+    found.contacts.iter().enumerate().filter_map(one).collect()
+}
+
+/// `None` where the two bodies stay together.
+fn joint(contact: &Contact, relative: [Vector; 2], turning: f64, noise: f64) -> Option<Joint> {
+    let interface = &contact.interface;
+    let along = relative.map(|v| v.dot(&interface.tangent()));
+    let opening = relative.map(|v| v.dot(&interface.normal));
+    // In touch is what opens by just the friction coefficient, or goes along the joint.
+    let touches = [0, 1].map(|k| {
+        let free = opening[k] - interface.friction * along[k].abs();
+        opening[k] <= noise || free.abs() <= noise
+    });
+    let points = contact.application_points;
+    let hinge = match touches {
+        [true, false] => Some(points[0]),
+        [false, true] => Some(points[1]),
+        // The two points are one, or nearly: they keep contact together while the bodies turn about them.
+        [true, true] if turning > 5.0 * noise => Some(points[0]),
+        _ => None,
+    };
+    let slide = match touches {
+        [true, _] => along[0],
+        [_, true] => along[1],
+        _ => 0.0,
+    };
+    let slip = if slide.abs() > noise { slide } else { 0.0 };
+    let lift = match touches {
+        [true, _] => opening[0],
+        _ => opening[1],
+    };
+    let lift = if slip != 0.0 && lift > noise {
+        lift
+    } else {
+        0.0
+    };
+    let parted = touches == [false, false];
+    (hinge.is_some() || slip != 0.0 || parted).then_some(Joint {
+        contact: 0,
+        hinge,
+        slip,
+        lift,
+    })
+}
+
+/// The motion of each block by its number, `None` for those that stay.
+fn by_block(analysis: &Analysis, found: &FrameAnalysis) -> Vec<Option<Motion>> {
+    let mut motions = vec![None; analysis.scene.blocks.len()];
+    for motion in &found.mechanism {
+        motions[motion.block.0] = Some(*motion);
+    }
+    motions
+}
+
+fn velocity(analysis: &Analysis, motions: &[Option<Motion>], body: BodyId, at: Point) -> Vector {
+    match body {
+        BodyId::Ground(_) => Vector::zeros(),
+        BodyId::Block(id) => motions[id.0].map_or(Vector::zeros(), |m| m.at(&analysis.scene, at)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    fn of(text: &str) -> (Scene, Vec<Joint>) {
+        let scene = Scene::from_json(text).unwrap_or_else(|problems| panic!("{problems}"));
+        let joints = joints(&Analysis::of(&scene), 0);
+        (scene, joints)
+    }
+
+    #[test]
+    fn the_hinges_of_a_thin_arch_alternate_between_its_two_faces() {
+        let (_, joints) = of(include_str!("../../../assets/study/arch-27-thin.json"));
+        assert!(joints.iter().all(|j| j.slip == 0.0));
+        let mut hinges: Vec<Point> = joints.iter().filter_map(|j| j.hinge).collect();
+        // From one springing to the other; the arch is a half circle about the origin with a centreline of radius 1.
+        let angle = |p: &Point| libm::atan2(p.y, -p.x);
+        hinges.sort_by(|a, b| angle(a).total_cmp(&angle(b)));
+        let mut outside: Vec<bool> = hinges.iter().map(|p| p.coords.norm() > 1.0).collect();
+        outside.dedup();
+        assert_eq!(outside, [true, false, true, false, true], "{hinges:?}");
+    }
+
+    #[test]
+    fn a_block_on_a_steep_slope_slips_and_a_tall_one_turns() {
+        let on_slope = |high: f64| {
+            format!(
+                r#"{{ "drystone": 1, "friction": 0.4,
+                     "shapes": {{ "slope": {{ "polygon": [[-9,-1],[9,-1],[9,0],[-9,0]] }},
+                                  "block": {{ "polygon": [[0,0],[1,0],[1,{high}],[0,{high}]] }} }},
+                     "ground": [ {{ "shape": "slope", "angle": 30 }} ],
+                     "blocks": [ {{ "id": "a", "shape": "block", "angle": 30, "weight": 5 }} ] }}"#
+            )
+        };
+        let (_, slides) = of(&on_slope(0.5));
+        let [joint] = slides[..] else {
+            panic!("{slides:?}")
+        };
+        assert_eq!(joint.hinge, None);
+        assert!(joint.slip != 0.0);
+        let (_, turns) = of(&on_slope(8.0).replace("0.4", "2.0"));
+        let [joint] = turns[..] else {
+            panic!("{turns:?}")
+        };
+        let hinge = joint.hinge.expect("it turns about its lower corner");
+        assert!(hinge.coords.norm() < 1e-9 && joint.slip == 0.0, "{joint:?}");
+    }
+}

@@ -1,0 +1,282 @@
+//! What accuracy costs, for people: a page, a table, a picture.
+//!
+//! All are made from one [`Study`] and dated by the version that was measured, not by a clock. The JSON form is
+//! [`result::accuracy_json`](crate::result::accuracy_json).
+
+mod picture;
+
+pub use picture::picture;
+
+use std::fmt::Write as _;
+
+use maud::{DOCTYPE, PreEscaped, html};
+
+use crate::analysis::{Accuracy, Verdict};
+use crate::chart::{Point, Scatter, Series, Undrawn, scatter};
+use crate::result::word;
+use crate::study::{Case, Mark, Method, Run, Study, Summary, summary};
+use crate::text;
+use crate::wording::verdict::plain;
+
+/// Errors below this are drawn and told as this: nothing in f64 is nearer than its last bit.
+const LEAST: f64 = 1e-16;
+/// An error is drawn no higher than this, and a point without one there.
+const MOST: f64 = 1.0;
+
+const STYLE: &str = include_str!("../../../assets/accuracy.css");
+
+/// `41 frames`, `1 frame`.
+fn frames(study: &Study) -> String {
+    match study.cases.len() {
+        1 => "1 frame".into(),
+        n => format!("{n} frames"),
+    }
+}
+
+/// How every page begins: which version, and on what the numbers depend.
+pub fn heading(study: &Study) -> String {
+    format!(
+        "drystone {}, {}. Times are medians of this run and mean something only beside each other; verdicts, errors \
+         and iterations are the same everywhere.",
+        env!("CARGO_PKG_VERSION"),
+        frames(study)
+    )
+}
+
+fn colour(method: Method) -> [u8; 3] {
+    match method {
+        Method::Source(2) => [214, 196, 225],
+        Method::Source(4) => [184, 150, 205],
+        Method::Source(6) => [140, 95, 175],
+        Method::Source(_) => [95, 50, 135],
+        Method::ForceForm => [150, 150, 150],
+        Method::Kinematic => [120, 185, 225],
+        Method::Unique => [40, 125, 190],
+        Method::Level(Accuracy::Draft) => [150, 200, 110],
+        Method::Level(Accuracy::Standard) => [55, 145, 70],
+        Method::Level(Accuracy::Proved) => [15, 85, 50],
+    }
+}
+
+/// Time against error, a line per method, the front of what no other beats, and wrong verdicts struck out in red.
+///
+/// # Errors
+/// Where the picture cannot be drawn.
+pub fn svg(study: &Study) -> Result<String, Undrawn> {
+    let lines = summary(study);
+    let place = |line: &Summary| Point {
+        x: line.time.max(1e-6),
+        y: line.total_error.unwrap_or(MOST).clamp(LEAST, MOST),
+        wrong: line.wrong > 0,
+    };
+    let shown = |line: &&Summary| line.total_error.is_some() || line.wrong > 0;
+    let series = Method::ALL.map(|method| Series {
+        name: method.name().to_owned(),
+        colour: colour(method),
+        points: lines
+            .iter()
+            .filter(|l| l.method == method)
+            .filter(shown)
+            .map(place)
+            .collect(),
+    });
+    let mut front: Vec<(f64, f64)> = lines
+        .iter()
+        .filter(|l| l.best)
+        .map(|l| (place(l).x, place(l).y))
+        .collect();
+    front.sort_by(|a, b| a.0.total_cmp(&b.0));
+    scatter(&Scatter {
+        title: format!(
+            "What accuracy costs: {}, drystone {}",
+            frames(study),
+            env!("CARGO_PKG_VERSION")
+        ),
+        x: "time, in parts of that of standard".into(),
+        y: "worst relative error of the total force".into(),
+        series: series.into(),
+        wrong: "wrong verdicts".into(),
+        front: ("nothing is faster and better".into(), front),
+    })
+}
+
+fn small(value: Option<f64>) -> String {
+    value.map_or("–".into(), |v| match v {
+        v if v < LEAST => "0".into(),
+        v => format!("{v:.1e}"),
+    })
+}
+
+/// One line per frame, method and tolerance, for spreadsheets.
+pub fn csv(study: &Study) -> String {
+    let mut text = String::from(
+        "drystone,frame,blocks,truth,method,tolerance,seconds,iterations,verdict,mark,total_error,largest_error,\
+         failures,imbalance,violation\n",
+    );
+    let number = |v: Option<f64>| v.map_or(String::new(), |v| format!("{v:e}"));
+    for case in &study.cases {
+        for run in &case.runs {
+            // A `String` takes every character; this cannot fail.
+            let _ = writeln!(
+                text,
+                "{},{},{},{},{},{:e},{:e},{},{},{},{},{},{},{},{}",
+                env!("CARGO_PKG_VERSION"),
+                text::csv(&case.name),
+                case.blocks,
+                word(case.truth.verdict),
+                text::csv(run.method.name()),
+                run.tolerance,
+                run.seconds,
+                run.outcome.iterations,
+                word(run.outcome.verdict),
+                mark(run.mark),
+                number(run.total_error),
+                number(run.largest_error),
+                run.outcome.points,
+                number(run.outcome.imbalance),
+                number(run.outcome.violation),
+            );
+        }
+    }
+    text
+}
+
+fn mark(mark: Mark) -> &'static str {
+    match mark {
+        Mark::Right => "right",
+        Mark::Wrong => "WRONG",
+        Mark::Undecided => "undecided",
+        Mark::Unknown => "unknown",
+    }
+}
+
+/// The summary as a table in Markdown.
+pub fn markdown(study: &Study) -> String {
+    let mut text = String::from(
+        "| method | tolerance | time | iterations | error of total: median | worst | of largest force: worst | wrong | undecided |\n\
+         |---|---|---|---|---|---|---|---|---|\n",
+    );
+    for line in summary(study) {
+        let _ = writeln!(
+            text,
+            "| {} | {:.0e} | {:.2} | {} | {} | {} | {} | {} | {} |",
+            text::markdown(line.method.name()),
+            line.tolerance,
+            line.time,
+            line.iterations,
+            small(line.median_error),
+            small(line.total_error),
+            small(line.largest_error),
+            match line.wrong {
+                0 => "0".into(),
+                n => format!("**{n}**"),
+            },
+            line.undecided
+        );
+    }
+    text
+}
+
+/// A page: the picture, the summary, and every run of every frame to unfold.
+///
+/// # Errors
+/// Where the picture cannot be drawn.
+pub fn page(study: &Study) -> Result<String, Undrawn> {
+    let picture = svg(study)?;
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width";
+                title { "What accuracy costs" }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                h1 { "What accuracy costs" }
+                p { (heading(study)) }
+                (PreEscaped(picture))
+                p.small {
+                    "Errors are those of the total force (of the total sticking where a frame falls) against a reference in "
+                    "extended precision that is certified by its own bound. A red cross: at least one frame got the wrong "
+                    "verdict. The band of gold: no other method is both faster and more precise."
+                }
+                h2 { "All frames together" }
+                (lines(&summary(study)))
+                h2 { "Frame by frame" }
+                @for case in &study.cases { (frame(case)) }
+            }
+        }
+    };
+    Ok(page.into_string())
+}
+
+fn lines(lines: &[Summary]) -> maud::Markup {
+    html! {
+        table {
+            tr {
+                th { "method" } th { "tolerance" } th { "time" } th { "iterations" } th { "median error" }
+                th { "worst error" } th { "worst of largest force" } th { "wrong" } th { "undecided" }
+            }
+            @for line in lines {
+                tr.best[line.best].wrong[line.wrong > 0] {
+                    td { (line.method.name()) }
+                    td { (format!("{:.0e}", line.tolerance)) }
+                    td { (format!("{:.2}", line.time)) }
+                    td { (line.iterations) }
+                    td { (small(line.median_error)) }
+                    td { (small(line.total_error)) }
+                    td { (small(line.largest_error)) }
+                    td { (line.wrong) " of " (line.frames) }
+                    td { (line.undecided) }
+                }
+            }
+        }
+    }
+}
+
+fn frame(case: &Case) -> maud::Markup {
+    let wrong = case.runs.iter().filter(|r| r.mark == Mark::Wrong).count();
+    let truth = &case.truth;
+    html! {
+        details {
+            summary {
+                (text::line(&case.name)) ": " (plain(truth.verdict)) ", " (case.blocks) " blocks"
+                @if truth.within_band { ", within the band" }
+                @if wrong > 0 { ", " (wrong) " wrong verdicts" }
+            }
+            p.small {
+                @match (truth.verdict, truth.total) {
+                    (Verdict::Undecided, _) => { "No reference could be certified." }
+                    (_, Some(total)) => { "Reference " (format!("{total:.15e}")) " N, certified to " (small(Some(truth.gap))) "." }
+                    (_, None) => { "The verdict is certified; there is no finite sum to compare." }
+                }
+                @if let Some(largest) = truth.largest { " Largest force " (format!("{largest:.15e}")) " N." }
+            }
+            table {
+                tr {
+                    th { "method" } th { "tolerance" } th { "milliseconds" } th { "iterations" } th { "verdict" }
+                    th { "error of total" } th { "of largest force" } th { "failures" } th { "imbalance" } th { "violation" }
+                }
+                @for run in &case.runs { (line(run)) }
+            }
+        }
+    }
+}
+
+fn line(run: &Run) -> maud::Markup {
+    html! {
+        tr.wrong[run.mark == Mark::Wrong] {
+            td { (run.method.name()) }
+            td { (format!("{:.0e}", run.tolerance)) }
+            td { (format!("{:.3}", 1e3 * run.seconds)) }
+            td { (run.outcome.iterations) }
+            td.undecided[run.mark == Mark::Undecided] { (plain(run.outcome.verdict)) @if run.mark == Mark::Wrong { " (wrong)" } }
+            td { (small(run.total_error)) }
+            td { (small(run.largest_error)) }
+            td { (run.outcome.points) }
+            td { (small(run.outcome.imbalance)) }
+            td { (small(run.outcome.violation)) }
+        }
+    }
+}

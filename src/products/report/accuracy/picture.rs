@@ -1,0 +1,386 @@
+//! [`picture`]: what accuracy costs at a glance: method by row, its time and its error for every tolerance, and its wrong
+//! verdicts in numbers.
+
+use crate::analysis::Accuracy;
+use crate::drawing::{
+    Anchor, Colour, Drawing, Face, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme,
+};
+use crate::output::svg::{self, Words, WordsError};
+use crate::study::{DEFAULT_TOLERANCE, Method, Summary};
+use crate::wording::number::counted;
+
+const WIDTH: f64 = 860.0;
+/// Height of a row.
+const ROW: f64 = 30.0;
+/// Where the first row begins.
+const TOP: f64 = 112.0;
+/// Where the axis of times begins and ends.
+const TIMES: (f64, f64) = (214.0, 384.0);
+/// Where the axis of errors begins and ends.
+const ERRORS: (f64, f64) = (432.0, 610.0);
+/// Where the first and the last column of wrong verdicts stand.
+const WRONG: (f64, f64) = (664.0, 824.0);
+/// Errors are shown from here, where nothing in f64 is nearer than its last bit, to 1.
+const LEAST: f64 = 1e-16;
+
+/// The summary of a study of so many frames as an SVG, its words as outlines.
+///
+/// # Errors
+/// [`WordsError`] where its words cannot be laid out.
+pub fn picture(lines: &[Summary], frames: usize) -> Result<String, WordsError> {
+    let options = svg::Options {
+        words: Words::Outlines,
+        ..svg::Options::default()
+    };
+    svg::write_with(&drawing(lines, frames), &options)
+}
+
+fn drawing(lines: &[Summary], frames: usize) -> Drawing {
+    let theme = Theme::thesis();
+    let mut tolerances: Vec<f64> = lines.iter().map(|l| l.tolerance).collect();
+    tolerances.sort_by(|a, b| b.total_cmp(a));
+    tolerances.dedup();
+    let methods: Vec<Method> = Method::ALL
+        .into_iter()
+        .filter(|method| lines.iter().any(|l| l.method == *method))
+        .collect();
+    let times = lines.iter().map(|l| l.time).filter(|t| *t > 0.0);
+    let (fastest, slowest) = times.fold((1.0_f64, 1.0_f64), |(a, b), t| (a.min(t), b.max(t)));
+    let page = Page {
+        theme: &theme,
+        times: (0.9 * fastest, 1.1 * slowest),
+        tolerances: &tolerances,
+        bottom: TOP + ROW * methods.len() as f64,
+    };
+    let mut items = page.head(frames);
+    for (row, method) in methods.iter().enumerate() {
+        let of = lines.iter().filter(|l| l.method == *method);
+        items.extend(page.row(row, *method, &of.collect::<Vec<_>>()));
+    }
+    let sentence = "A dot is one tolerance of the solver, from loose (pale) to tight (dark); the default is ringed. Red: \
+                    some verdict is wrong.";
+    items.push(page.words(
+        PagePoint::new(24.0, page.bottom + 34.0),
+        sentence,
+        Face::Sans,
+        12.0,
+    ));
+    Drawing {
+        width: WIDTH,
+        height: page.bottom + 52.0,
+        title: "What accuracy costs".into(),
+        description: described(lines, frames),
+        background: Some(theme.page),
+        items,
+    }
+}
+
+/// The picture in sentences: the default, and how many verdicts each method gets wrong there.
+fn described(lines: &[Summary], frames: usize) -> String {
+    let at = |line: &&Summary| default(line.tolerance);
+    let described = lines.iter().filter(at).map(|line| {
+        format!(
+            "{}: {:.2} times the time of standard, {} of {frames} verdicts wrong",
+            line.method.name(),
+            line.time,
+            line.wrong
+        )
+    });
+    let described: Vec<String> = described.collect();
+    format!("At the default tolerance, {}.", described.join("; "))
+}
+
+fn default(tolerance: f64) -> bool {
+    libm::log10(tolerance / DEFAULT_TOLERANCE).abs() < 0.01
+}
+
+struct Page<'p> {
+    theme: &'p Theme,
+    times: (f64, f64),
+    tolerances: &'p [f64],
+    bottom: f64,
+}
+
+impl Page<'_> {
+    fn words(&self, at: PagePoint, words: &str, face: Face, size: f64) -> Item {
+        Text::new(at, words, face, size, self.theme.faint).into()
+    }
+
+    fn head(&self, frames: usize) -> Vec<Item> {
+        let theme = self.theme;
+        let title = "What accuracy costs";
+        let title = Text::new(
+            PagePoint::new(24.0, 36.0),
+            title,
+            Face::SerifBold,
+            22.0,
+            theme.ink,
+        );
+        let frames = counted(frames, "frame");
+        let under = format!("{frames}, drystone {}", env!("CARGO_PKG_VERSION"));
+        let mut items: Vec<Item> = vec![
+            title.into(),
+            self.words(PagePoint::new(24.0, 56.0), &under, Face::Sans, 12.0),
+        ];
+        let heads = [
+            (TIMES.0, "time, in parts of that of standard"),
+            (ERRORS.0, "worst error of the total force"),
+            (WRONG.0 - 12.0, "wrong verdicts, by tolerance"),
+        ];
+        for (x, words) in heads {
+            items.push(self.words(PagePoint::new(x, 82.0), words, Face::SansBold, 11.5));
+        }
+        let mut tick = |x: f64, words: String, line: bool| {
+            let at = PagePoint::new(x, TOP - 10.0);
+            let text = Text::new(at, words, Face::Sans, 11.0, theme.faint).anchored(Anchor::Middle);
+            items.push(text.into());
+            if line {
+                let line =
+                    Outline::line([PagePoint::new(x, TOP - 4.0), PagePoint::new(x, self.bottom)]);
+                items.push(Path::stroked(line, Stroke::new(theme.rule, 1.0)).into());
+            }
+        };
+        for time in [0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0] {
+            if (self.times.0..=self.times.1).contains(&time) {
+                tick(self.time(time), format!("{time}"), true);
+            }
+        }
+        for power in [-16, -12, -8, -4, 0] {
+            tick(
+                self.error(libm::pow(10.0, f64::from(power))),
+                ten(power),
+                true,
+            );
+        }
+        for (column, tolerance) in self.tolerances.iter().enumerate() {
+            tick(
+                self.column(column),
+                ten(libm::round(libm::log10(*tolerance)) as i32),
+                false,
+            );
+        }
+        items
+    }
+
+    fn time(&self, time: f64) -> f64 {
+        place(time, self.times, TIMES)
+    }
+
+    fn error(&self, error: f64) -> f64 {
+        place(error.clamp(LEAST, 1.0), (LEAST, 1.0), ERRORS)
+    }
+
+    fn column(&self, column: usize) -> f64 {
+        let last = self.tolerances.len().saturating_sub(1).max(1) as f64;
+        WRONG.0 + (WRONG.1 - WRONG.0) * column as f64 / last
+    }
+
+    fn row(&self, row: usize, method: Method, lines: &[&Summary]) -> Vec<Item> {
+        let theme = self.theme;
+        let y = TOP + ROW * (row as f64 + 0.5);
+        let mut items: Vec<Item> = Vec::new();
+        let chosen = method == Method::Level(Accuracy::Standard);
+        if row.is_multiple_of(2) {
+            let band = PageRect {
+                at: PagePoint::new(16.0, y - ROW / 2.0),
+                width: WIDTH - 32.0,
+                height: ROW,
+            };
+            let band = Path::filled(Outline::rounded(band, 3.0), theme.block);
+            items.push(band.with_opacity(0.55).into());
+        }
+        let face = if chosen { Face::SansBold } else { Face::Sans };
+        let name = Text::new(
+            PagePoint::new(24.0, y + 4.5),
+            method.name(),
+            face,
+            13.0,
+            theme.ink,
+        );
+        items.push(name.into());
+        let mut dots: Vec<(f64, &Summary)> = Vec::new();
+        dots.extend(lines.iter().map(|l| (self.time(l.time), *l)));
+        dots.extend(
+            lines
+                .iter()
+                .filter_map(|l| Some((self.error(l.total_error?), *l))),
+        );
+        for (x, line) in dots {
+            let place = self
+                .tolerances
+                .iter()
+                .position(|t| *t == line.tolerance)
+                .unwrap_or(0);
+            let at = PagePoint::new(x, y);
+            let ring = chosen && default(line.tolerance);
+            if ring {
+                let circle = Outline::circle(at, 8.5);
+                items.push(Path::stroked(circle, Stroke::new(theme.ink, 1.6)).into());
+            }
+            let dot = Path::filled(Outline::circle(at, 4.6), self.shade(place, line.wrong > 0));
+            items.push(dot.cased(theme.page, 0.8).into());
+        }
+        for line in lines {
+            let column = self
+                .tolerances
+                .iter()
+                .position(|t| *t == line.tolerance)
+                .unwrap_or(0);
+            let at = PagePoint::new(self.column(column), y + 4.5);
+            let (face, colour) = if line.wrong > 0 {
+                (Face::SansBold, theme.falls)
+            } else {
+                (Face::Sans, theme.faint)
+            };
+            let words = line.wrong.to_string();
+            items.push(
+                Text::new(at, words, face, 13.0, colour)
+                    .anchored(Anchor::Middle)
+                    .into(),
+            );
+            if chosen && default(line.tolerance) {
+                let circle = Outline::circle(at.moved(0.0, -4.5), 11.0);
+                items.push(Path::stroked(circle, Stroke::new(theme.ink, 1.6)).into());
+            }
+        }
+        items
+    }
+
+    /// The tighter the tolerance, the darker.
+    fn shade(&self, place: usize, wrong: bool) -> Colour {
+        let last = self.tolerances.len().saturating_sub(1).max(1) as f64;
+        let full = if wrong {
+            self.theme.falls
+        } else {
+            self.theme.motion
+        };
+        self.theme.page.mixed(full, 0.3 + 0.7 * place as f64 / last)
+    }
+}
+
+/// Where a value lies on a logarithmic axis.
+fn place(value: f64, (least, most): (f64, f64), (from, to): (f64, f64)) -> f64 {
+    let share = libm::log10(value.max(least) / least) / libm::log10(most / least).max(1e-9);
+    from + (to - from) * share.clamp(0.0, 1.0)
+}
+
+/// 10 to a power, as it is written: `10⁻⁹`, `1`.
+fn ten(power: i32) -> String {
+    if power == 0 {
+        return "1".into();
+    }
+    let raised = |c: char| match c {
+        '-' => '⁻',
+        digit => "⁰¹²³⁴⁵⁶⁷⁸⁹"
+            .chars()
+            .nth(digit.to_digit(10).unwrap_or(0) as usize)
+            .unwrap_or(digit),
+    };
+    format!(
+        "10{}",
+        power.to_string().chars().map(raised).collect::<String>()
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The table of the documentation as the summary it was printed from.
+    fn printed() -> Vec<Summary> {
+        let text = include_str!("../../../doc/accuracy.md");
+        let number = |cell: &str| cell.trim_matches('*').parse::<f64>().ok();
+        let line = |line: &str| {
+            let cells: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
+            let method = Method::ALL
+                .into_iter()
+                .find(|m| cells.first() == Some(&m.name()))?;
+            let [
+                _,
+                tolerance,
+                time,
+                iterations,
+                median,
+                worst,
+                largest,
+                wrong,
+                undecided,
+            ] = cells[..]
+            else {
+                return None;
+            };
+            Some(Summary {
+                method,
+                tolerance: number(tolerance)?,
+                time: number(time)?,
+                total_error: number(worst),
+                median_error: number(median),
+                largest_error: number(largest),
+                wrong: number(wrong)? as usize,
+                undecided: number(undecided)? as usize,
+                frames: 40,
+                iterations: number(iterations)? as usize,
+                best: false,
+            })
+        };
+        text.lines().filter_map(line).collect()
+    }
+
+    /// `UPDATE_SNAPSHOTS=1` draws it anew.
+    #[test]
+    fn the_picture_in_the_documentation_shows_its_table() {
+        let lines = printed();
+        assert_eq!(lines.len(), 60);
+        let drawn = picture(&lines, 41).expect("drawn");
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/accuracy.svg");
+        if std::env::var_os("UPDATE_SNAPSHOTS").is_some() && std::env::var_os("CI").is_none() {
+            std::fs::write(path, &drawn).expect("writable");
+        }
+        let kept = std::fs::read_to_string(path).expect("it is there");
+        assert!(
+            drawn == kept,
+            "assets/accuracy.svg is not the picture of the table"
+        );
+    }
+
+    /// What the README says of the picture.
+    #[test]
+    fn what_is_proved_is_never_wrong_and_what_is_not_sometimes_is() {
+        let lines = printed();
+        for method in Method::ALL {
+            let wrong: usize = lines
+                .iter()
+                .filter(|l| l.method == method)
+                .map(|l| l.wrong)
+                .sum();
+            let proved = matches!(method, Method::Level(_));
+            assert_eq!(wrong == 0, proved, "{}", method.name());
+        }
+    }
+
+    #[test]
+    fn every_row_tells_its_wrong_verdicts_and_the_default_alone_is_ringed() {
+        let lines = printed();
+        let drawing = drawing(&lines, 41);
+        let texts = |wanted: &str| {
+            let text = |item: &&Item| matches!(item, Item::Text(t) if t.words == wanted);
+            drawing.items.iter().filter(text).count()
+        };
+        for method in Method::ALL {
+            assert_eq!(texts(method.name()), 1, "{}", method.name());
+        }
+        let none = lines.iter().filter(|l| l.wrong == 0).count();
+        assert_eq!(texts("0"), none);
+        let ring = |item: &&Item| matches!(item, Item::Path(p) if p.fill.is_none() && p.stroke.as_ref().is_some_and(|s| s.width == 1.6));
+        assert_eq!(drawing.items.iter().filter(ring).count(), 3);
+        for item in &drawing.items {
+            if let Item::Text(t) = item {
+                assert!(
+                    t.at.x > 0.0 && t.at.x < WIDTH && t.at.y < drawing.height,
+                    "{}",
+                    t.words
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! What an import did, for programs.
+
+use serde::Serialize;
+
+use crate::import::Imported;
+use crate::scene::format::Lines;
+use crate::text;
+
+/// What an import did as one JSON object: how the drawing was understood, what was not taken, and what was moved so that it
+/// touches. Ends with a line feed.
+///
+/// # Units
+/// Metres.
+///
+/// # Example
+/// ```
+/// use drystone::import::{Format, Options, import};
+/// let imported = import("a; POLYGON ((0 0, 2 0, 2 1))\nb; POINT (3 3)", Format::Wkt, &Options::default()).expect("one block");
+/// let json = drystone::result::import_json(&imported);
+/// assert!(json.contains(r#""element": "line 2 \"b\"""#));
+/// ```
+pub fn import_json(imported: &Imported) -> String {
+    let scene = &imported.scene;
+    let done = Done {
+        drystone: env!("CARGO_PKG_VERSION"),
+        blocks: scene.blocks.len(),
+        ground: scene.ground.len(),
+        robots: scene.robots.len(),
+        notes: &imported.notes,
+        warnings: (imported.remarks.iter())
+            .map(|r| Warning {
+                element: &r.element,
+                message: &r.message,
+                help: &r.help,
+            })
+            .collect(),
+        snapped: (imported.snapped.iter())
+            .map(|s| Moved {
+                body: &s.body,
+                element: &s.element,
+                corners: s.corners,
+                distance: s.distance,
+                to: &s.to,
+            })
+            .collect(),
+    };
+    let mut bytes = Vec::new();
+    let mut writer = serde_json::Serializer::with_formatter(&mut bytes, Lines::new(1));
+    done.serialize(&mut writer)
+        .expect("plain structures with text keys always serialise into memory");
+    bytes.push(b'\n');
+    text::json(&String::from_utf8(bytes).expect("serde_json writes UTF-8"))
+}
+
+#[derive(Serialize)]
+struct Done<'a> {
+    drystone: &'static str,
+    blocks: usize,
+    ground: usize,
+    robots: usize,
+    notes: &'a [String],
+    warnings: Vec<Warning<'a>>,
+    snapped: Vec<Moved<'a>>,
+}
+
+#[derive(Serialize)]
+struct Warning<'a> {
+    element: &'a str,
+    message: &'a str,
+    #[serde(skip_serializing_if = "str::is_empty")]
+    help: &'a str,
+}
+
+#[derive(Serialize)]
+struct Moved<'a> {
+    body: &'a str,
+    element: &'a str,
+    corners: usize,
+    distance: f64,
+    to: &'a [String],
+}

@@ -1,0 +1,255 @@
+//! A result as one line among many: which scene it is about, and of the result no more than was asked for.
+
+mod name;
+
+use serde_json::Value;
+
+use super::{Layout, Result, Timing, to_json, word};
+use crate::analysis::{Analysis, Verdict};
+use crate::text;
+use name::{NAMES, Name};
+
+/// Which scene a line is about.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Origin {
+    /// The file, as given.
+    pub file: Option<String>,
+    /// The line in it, or of standard input, from 1; absent where the scene is a file of its own.
+    pub line: Option<usize>,
+}
+
+/// What of a result is written: names of the result of [`to_json`], parts of parts behind a dot, as `frames.proof.power`;
+/// of a list the part of each of its entries. Beside them there are `verdict`, the worst of all frames, `picture`, and
+/// `all`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fields {
+    chosen: Vec<Vec<&'static str>>,
+}
+
+impl Default for Fields {
+    /// The title and the worst verdict.
+    fn default() -> Fields {
+        Fields {
+            chosen: vec![vec!["scene"], vec!["verdict"]],
+        }
+    }
+}
+
+/// A field that is not there.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("there is no field {typed}{}", match near { Some(near) => format!("; did you mean {near}?"), None => String::new() })]
+pub struct UnknownField {
+    /// As it was typed.
+    pub typed: String,
+    /// The nearest that there is.
+    pub near: Option<String>,
+}
+
+impl Fields {
+    /// Reads a list such as `verdict,frames.total_force`.
+    ///
+    /// # Errors
+    /// Every name that is none.
+    ///
+    /// # Example
+    /// ```
+    /// use drystone::result::Fields;
+    /// assert!(Fields::read("verdict,frames.proof").is_ok());
+    /// let wrong = Fields::read("verdict,frames.prof").unwrap_err();
+    /// assert_eq!(wrong[0].to_string(), "there is no field frames.prof; did you mean frames.proof?");
+    /// ```
+    pub fn read(list: &str) -> std::result::Result<Fields, Vec<UnknownField>> {
+        let (mut chosen, mut unknown) = (Vec::new(), Vec::new());
+        for typed in list.split(',').map(str::trim) {
+            match name::find(typed) {
+                Some(path) => chosen.push(path),
+                None => unknown.push(UnknownField {
+                    typed: text::line(typed),
+                    near: name::nearest(typed),
+                }),
+            }
+        }
+        match unknown.is_empty() {
+            true => Ok(Fields { chosen }),
+            false => Err(unknown),
+        }
+    }
+
+    /// Whether a field is asked for by its name, or by that of one of its parts or of the part it is in. `all` and `frames`
+    /// ask for nothing that results have on request only.
+    pub fn ask(&self, path: &[&str]) -> bool {
+        let within = |chosen: &Vec<&str>| {
+            let short = chosen.len().min(path.len());
+            chosen.len() > 1 && path[..short] == chosen[..short]
+        };
+        self.chosen.iter().any(within)
+    }
+
+    fn are_all(&self) -> bool {
+        self.chosen.iter().any(|path| path == &["all"])
+    }
+
+    /// Whether nothing but the title and the worst verdict is wanted, so that [`verdict_line`] does.
+    pub fn are_few(&self) -> bool {
+        let few = |path: &Vec<&str>| matches!(path[..], ["scene"] | ["verdict"]);
+        self.chosen.iter().all(few)
+    }
+}
+
+/// The picture of a scene, if one was wanted.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum PictureOutcome {
+    /// None was.
+    NotAsked,
+    /// The name of its file in its folder.
+    Drawn(String),
+    /// Why there is none.
+    Refused(String),
+}
+
+/// The line for an analysis. Ends with a line feed; the same analysis gives the same bytes, unless `solve.seconds` is
+/// among the fields.
+///
+/// # Example
+/// ```
+/// use drystone::{Analysis, Scene, result::{Fields, PictureOutcome, Origin, line_of}};
+/// let scene = Scene::from_json(r#"{ "drystone": 1, "title": "A dart", "blocks": [{ "polygon": [[0, 0], [3, 0], [0, 2]] }] }"#)?;
+/// let origin = Origin { line: Some(7), ..Origin::default() };
+/// let line = line_of(&origin, &Analysis::of(&scene), &PictureOutcome::NotAsked, &Fields::default());
+/// assert_eq!(line, "{\"line\":7,\"scene\":\"A dart\",\"verdict\":\"unstable\"}\n");
+/// # Ok::<(), drystone::scene::Problems>(())
+/// ```
+pub fn line_of(
+    origin: &Origin,
+    analysis: &Analysis,
+    picture: &PictureOutcome,
+    fields: &Fields,
+) -> String {
+    let mut out = begun(origin);
+    let verdict = word(analysis.verdict());
+    let all = fields.are_all();
+    if fields.are_few() {
+        put_few(&mut out, &analysis.scene.title, analysis.verdict(), fields);
+    } else if all {
+        put(&mut out, "verdict", &Value::from(verdict));
+        let whole = to_json(analysis, Timing::LeftOut, Layout::OneLine);
+        out.push(',');
+        out.push_str(whole.trim_start_matches('{').trim_end_matches("}\n"));
+    } else {
+        let timing = match fields.ask(&["frames", "solve", "seconds"]) {
+            true => Timing::Included,
+            false => Timing::LeftOut,
+        };
+        let whole = serde_json::to_value(Result::of(analysis, timing)).unwrap_or_default();
+        for name in NAMES.iter() {
+            let chosen = below(&fields.chosen, name.word);
+            match name.word {
+                _ if chosen.is_empty() => {}
+                "verdict" => put(&mut out, "verdict", &Value::from(verdict)),
+                word => {
+                    if let Some(value) = whole.get(word) {
+                        key(&mut out, word);
+                        pick(&mut out, value, &name.parts, &chosen);
+                    }
+                }
+            }
+        }
+    }
+    match picture {
+        PictureOutcome::NotAsked => {}
+        PictureOutcome::Drawn(name) => put(&mut out, "picture", &Value::from(&**name)),
+        PictureOutcome::Refused(why) => {
+            put(&mut out, "picture", &Value::Null);
+            put(&mut out, "picture_refused", &Value::from(&**why));
+        }
+    }
+    ended(out)
+}
+
+/// The line of a verdict, where no more than that and the scene's title are wanted. Ends with a line feed.
+pub fn verdict_line(origin: &Origin, title: &str, verdict: Verdict, fields: &Fields) -> String {
+    let mut out = begun(origin);
+    put_few(&mut out, title, verdict, fields);
+    ended(out)
+}
+
+fn put_few(out: &mut String, title: &str, verdict: Verdict, fields: &Fields) {
+    for name in ["scene", "verdict"] {
+        if fields.chosen.iter().any(|path| path == &[name]) {
+            let value = match name {
+                "scene" => title,
+                _ => word(verdict),
+            };
+            put(out, name, &Value::from(value));
+        }
+    }
+}
+
+fn begun(origin: &Origin) -> String {
+    let mut out = String::from("{");
+    if let Some(file) = &origin.file {
+        put(&mut out, "file", &Value::from(&**file));
+    }
+    if let Some(line) = origin.line {
+        put(&mut out, "line", &Value::from(line));
+    }
+    out
+}
+
+fn ended(mut out: String) -> String {
+    out.push_str("}\n");
+    text::json(&out)
+}
+
+fn key(out: &mut String, name: &str) {
+    if !out.ends_with('{') {
+        out.push(',');
+    }
+    out.push('"');
+    out.push_str(name);
+    out.push_str("\":");
+}
+
+fn put(out: &mut String, name: &str, value: &Value) {
+    key(out, name);
+    out.push_str(&value.to_string());
+}
+
+/// What of the chosen paths lies below a name: an empty path where the name itself is chosen.
+fn below(chosen: &[Vec<&'static str>], name: &str) -> Vec<Vec<&'static str>> {
+    let under = chosen.iter().filter(|path| path.first() == Some(&name));
+    under.map(|path| path[1..].to_vec()).collect()
+}
+
+/// Writes of a value what is chosen, in the order of the names.
+fn pick(out: &mut String, value: &Value, parts: &[Name], chosen: &[Vec<&'static str>]) {
+    let whole = chosen.iter().any(Vec::is_empty);
+    match value {
+        Value::Array(list) if !parts.is_empty() => {
+            out.push('[');
+            for (number, entry) in list.iter().enumerate() {
+                if number > 0 {
+                    out.push(',');
+                }
+                pick(out, entry, parts, chosen);
+            }
+            out.push(']');
+        }
+        Value::Object(map) if !parts.is_empty() => {
+            let mut inner = String::from("{");
+            for name in parts {
+                let deeper = match whole {
+                    true => vec![Vec::new()],
+                    false => below(chosen, name.word),
+                };
+                if let (Some(value), false) = (map.get(name.word), deeper.is_empty()) {
+                    key(&mut inner, name.word);
+                    pick(&mut inner, value, &name.parts, &deeper);
+                }
+            }
+            out.push_str(&inner);
+            out.push('}');
+        }
+        value => out.push_str(&value.to_string()),
+    }
+}

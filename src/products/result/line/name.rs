@@ -1,0 +1,83 @@
+//! The names that a line of a batch may be asked for, in the order in which results have them: those of the keys of a
+//! result, and beside them `verdict`, the worst of all frames.
+
+use std::sync::LazyLock;
+
+use crate::result::key::{KEYS, Type};
+use crate::text;
+
+/// A name and those of its parts, or of the parts of each of its entries.
+#[derive(Debug)]
+pub(super) struct Name {
+    pub word: &'static str,
+    pub parts: Vec<Name>,
+}
+
+/// Everything that may be asked for, `all` and `picture` apart. The file is part of every line.
+pub(super) static NAMES: LazyLock<Vec<Name>> = LazyLock::new(|| {
+    let mut names = Vec::new();
+    // What stands below a robot's own name is asked for together with all robots.
+    for key in KEYS
+        .iter()
+        .filter(|k| k.path != "file" && !k.path.contains('*'))
+    {
+        let mut list = &mut names;
+        for word in key.path.split('.') {
+            let word = word.trim_end_matches("[]");
+            let known = list.iter().position(|name: &Name| name.word == word);
+            let place = known.unwrap_or_else(|| {
+                list.push(leaf(word));
+                list.len() - 1
+            });
+            list = &mut list[place].parts;
+        }
+        if key.kind == Type::Motions {
+            list.extend(["block", "velocity", "spin"].map(leaf));
+        }
+    }
+    let behind = names.iter().position(|name| name.word == "scene");
+    names.insert(behind.map_or(0, |place| place + 1), leaf("verdict"));
+    names
+});
+
+fn leaf(word: &'static str) -> Name {
+    Name {
+        word,
+        parts: Vec::new(),
+    }
+}
+
+/// The path behind a name as it was typed.
+pub(super) fn find(typed: &str) -> Option<Vec<&'static str>> {
+    if typed == "all" {
+        return Some(vec!["all"]);
+    }
+    let mut names: &'static [Name] = &NAMES;
+    let mut path = Vec::new();
+    for word in typed.split('.') {
+        let name = names.iter().find(|name| name.word == word)?;
+        path.push(name.word);
+        names = &name.parts;
+    }
+    Some(path)
+}
+
+/// The nearest known name.
+pub(super) fn nearest(typed: &str) -> Option<String> {
+    let known = all();
+    text::nearest(typed, known.iter().map(String::as_str)).map(str::to_owned)
+}
+
+/// Every name, parts behind dots.
+fn all() -> Vec<String> {
+    fn add(names: &[Name], before: &str, list: &mut Vec<String>) {
+        for name in names {
+            let path = format!("{before}{}", name.word);
+            add(&name.parts, &format!("{path}."), list);
+            list.push(path);
+        }
+    }
+    let mut list = vec!["all".to_owned()];
+    add(&NAMES, "", &mut list);
+    list
+}

@@ -1,0 +1,453 @@
+//! [`to_json`]: an analysis as the JSON object that other programs read.
+//!
+//! Invariant: the same analysis gives the same bytes, apart from seconds, which [`Timing::LeftOut`] leaves out. Every
+//! number is plain: no −0, and the shortest decimal that reads back as the same f64. A number that could not be computed,
+//! which happens in frames that are `undecided` only, is `null`. Lists that say nothing are absent where the contract
+//! does not name them: `unsupported`, `notices`, `doubt`. What was not asked for is absent: `margins`,
+//! `only_by_wedging`.
+//!
+//! This file is serde's second door, beside `scene::format`: that one reads a person's file, this one writes for programs,
+//! and the two change for different reasons.
+
+#[cfg(feature = "report")]
+mod accuracy;
+#[cfg(feature = "import")]
+mod import;
+pub mod key;
+mod line;
+mod margin;
+mod note;
+mod refusal;
+mod page;
+mod proof;
+mod solve;
+mod wedging;
+
+use serde::{Serialize, Serializer};
+
+#[cfg(feature = "report")]
+pub use accuracy::accuracy_json;
+#[cfg(feature = "import")]
+pub use import::import_json;
+pub use key::schema;
+pub use line::{Fields, Origin, PictureOutcome, UnknownField, line_of, verdict_line};
+use margin::Margins;
+pub use page::{Counts, quoted, report_json};
+use proof::ProofNumbers;
+pub use refusal::{problem_line, refusal};
+use solve::Solve;
+use wedging::Wedging;
+
+use crate::analysis::{
+    Analysis, Contact, EffectName, Failure, FrameAnalysis, Motion as Moved, RobotForce,
+};
+use crate::geometry::{Point, Vector};
+use crate::interface::ContactKind;
+use crate::scene::format::Lines;
+use crate::scene::{BlockId, BodyId, RobotId, Scene, ToleranceSource};
+use crate::text;
+pub use crate::wording::verdict::word;
+
+/// Whether a result tells how long it took.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Timing {
+    /// `solve.seconds` is there, and differs from run to run.
+    Included,
+    /// `solve.seconds` is absent: the same scene gives the same bytes.
+    LeftOut,
+}
+
+/// How much white space a result has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Layout {
+    /// One line per property, and one per interface, robot or failure. Ends with a line feed.
+    Lines,
+    /// All of it on one line, as JSON Lines want it. Ends with a line feed.
+    OneLine,
+}
+
+/// The result of an analysis as one JSON object.
+///
+/// Forces are those on `bodies[0]`, `normal` points into `bodies[0]`, `"ground"` names the ground. The `amount` of a
+/// failure is its share of `total_sticking` in newtons, `|F_x| + |F_y|` for a robot, whose limits are per component;
+/// the amount of a missing torque is in N·m.
+///
+/// # Units
+/// Metres, newtons, N·m; a spin is per metre, because the fastest point moves with speed 1.
+///
+/// # Example
+/// ```
+/// use drystone::analysis::Analysis;
+/// use drystone::result::{Layout, Timing, to_json};
+/// use drystone::scene::Scene;
+///
+/// let scene = Scene::from_json(r#"{ "drystone": 1, "blocks": [{ "id": "a", "polygon": [[0, 0], [3, 0], [0, 2]] }] }"#)?;
+/// let json = to_json(&Analysis::of(&scene), Timing::LeftOut, Layout::OneLine);
+/// assert!(json.contains(r#""verdict":"unstable""#), "nothing holds it");
+/// # Ok::<(), drystone::scene::Problems>(())
+/// ```
+pub fn to_json(analysis: &Analysis, timing: Timing, layout: Layout) -> String {
+    written(&Result::of(analysis, timing), layout)
+}
+
+/// Likewise, with the `file` that the scene was read from, as it was given.
+pub fn to_json_of(file: &str, analysis: &Analysis, timing: Timing, layout: Layout) -> String {
+    let mut result = Result::of(analysis, timing);
+    result.file = Some(file);
+    written(&result, layout)
+}
+
+fn written(result: &Result, layout: Layout) -> String {
+    let mut bytes = Vec::new();
+    let written = match layout {
+        Layout::Lines => result.serialize(&mut serde_json::Serializer::with_formatter(
+            &mut bytes,
+            Lines::new(2),
+        )),
+        Layout::OneLine => serde_json::to_writer(&mut bytes, &result),
+    };
+    written.expect("plain structures with text keys always serialise into memory");
+    bytes.push(b'\n');
+    text::json(&String::from_utf8(bytes).expect("serde_json writes UTF-8"))
+}
+
+#[derive(Serialize)]
+struct Result<'a> {
+    drystone: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    file: Option<&'a str>,
+    scene: &'a str,
+    contact_tolerance: Tolerance,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    notes: Vec<note::Entry<'a>>,
+    frames: Vec<Frame<'a>>,
+}
+
+/// Within how many metres edges touch and within how many they are made one, how that was found, and what was moved.
+#[derive(Serialize)]
+struct Tolerance {
+    gap: Number,
+    from: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    digits: Option<usize>,
+    healed_within: Number,
+    moved_corners: usize,
+    largest_move: Number,
+}
+
+/// A total is the least unless the result says that it is not.
+fn is_least(least: &bool) -> bool {
+    *least
+}
+
+#[derive(Serialize)]
+struct Frame<'a> {
+    title: &'a str,
+    verdict: &'static str,
+    #[serde(skip_serializing_if = "str::is_empty")]
+    doubt: String,
+    length: Number,
+    total_force: Number,
+    #[serde(skip_serializing_if = "is_least")]
+    total_force_least: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    total_force_bound: Option<Number>,
+    total_sticking: Number,
+    weight: Number,
+    interfaces: Vec<Interface<'a>>,
+    robots: Vec<Robot<'a>>,
+    failures: Vec<Missing<'a>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    unsupported: Vec<&'a str>,
+    mechanism: Vec<Motion<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    margins: Option<Margins<'a>>,
+    /// `null` where it was asked for and stays open.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    only_by_wedging: Option<Option<bool>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    wedging: Option<Wedging<'a>>,
+    effects: Vec<Effect<'a>>,
+    proof: ProofNumbers,
+    solve: Solve,
+    #[serde(skip_serializing_if = "<[String]>::is_empty")]
+    notices: &'a [String],
+}
+
+#[derive(Serialize)]
+struct Interface<'a> {
+    bodies: [&'a str; 2],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    kind: Option<&'static str>,
+    ends: [Pair; 2],
+    application_points: [Pair; 2],
+    normal: Pair,
+    mu: Number,
+    normal_forces: [Number; 2],
+    friction_force: Number,
+    resultant: Resultant,
+    friction_used: Number,
+}
+
+#[derive(Serialize)]
+struct Resultant {
+    at: Pair,
+    force: Pair,
+}
+
+#[derive(Serialize)]
+struct Robot<'a> {
+    id: &'a str,
+    holds: &'a str,
+    at: Pair,
+    force: Pair,
+    torque: Number,
+    limit_used: Number,
+}
+
+/// A failure. Exactly one of `bodies` and `robot` is there, and exactly one of `force` and `torque`.
+#[derive(Serialize)]
+struct Missing<'a> {
+    kind: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    bodies: Option<[&'a str; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    robot: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    holds: Option<&'a str>,
+    at: Pair,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    force: Option<Pair>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    torque: Option<Number>,
+    amount: Number,
+}
+
+#[derive(Serialize)]
+struct Motion<'a> {
+    block: &'a str,
+    velocity: Pair,
+    spin: Number,
+}
+
+#[derive(Serialize)]
+struct Effect<'a> {
+    effect: &'static str,
+    simulated: bool,
+    why: &'a str,
+    unknowns: usize,
+}
+
+/// A plain number: −0 is written 0.0, a number that is not finite is written null.
+#[derive(Clone, Copy)]
+struct Number(f64);
+
+impl Serialize for Number {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        // Adding 0 turns −0 into 0 and leaves every other number alone.
+        serializer.serialize_f64(self.0 + 0.0)
+    }
+}
+
+type Pair = [Number; 2];
+
+fn place(p: Point) -> Pair {
+    [Number(p.x), Number(p.y)]
+}
+
+fn arrow(v: Vector) -> Pair {
+    [Number(v.x), Number(v.y)]
+}
+
+impl<'a> Result<'a> {
+    fn of(analysis: &'a Analysis, timing: Timing) -> Result<'a> {
+        let scene = &analysis.scene;
+        let frames = scene.frames.iter().zip(&analysis.frames);
+        Result {
+            drystone: env!("CARGO_PKG_VERSION"),
+            file: None,
+            scene: &scene.title,
+            contact_tolerance: Tolerance::of(scene),
+            notes: analysis.notes.iter().map(note::Entry::of).collect(),
+            frames: frames
+                .map(|(step, frame)| Frame::of(scene, &step.title, frame, timing))
+                .collect(),
+        }
+    }
+}
+
+impl Tolerance {
+    fn of(scene: &Scene) -> Tolerance {
+        let (from, digits) = match scene.healed.source {
+            ToleranceSource::Lattice => ("lattice", None),
+            ToleranceSource::Given => ("given", None),
+            ToleranceSource::Decimals(k) => ("decimals", Some(k)),
+            ToleranceSource::Digits(n) => ("significant_digits", Some(n)),
+            ToleranceSource::Float32 => ("float32", None),
+            ToleranceSource::Size => ("size", None),
+            ToleranceSource::Noise => ("noise", None),
+        };
+        Tolerance {
+            gap: Number(scene.tolerance.gap),
+            from,
+            digits,
+            healed_within: Number(scene.healed.within),
+            moved_corners: scene.healed.corners,
+            largest_move: Number(scene.healed.distance),
+        }
+    }
+}
+
+impl<'a> Frame<'a> {
+    fn of(scene: &'a Scene, title: &'a str, frame: &'a FrameAnalysis, timing: Timing) -> Frame<'a> {
+        let block = |id: BlockId| scene.blocks[id.0].id.as_str();
+        Frame {
+            title,
+            verdict: word(frame.verdict),
+            doubt: frame.doubt(),
+            length: Number(frame.length),
+            total_force: Number(frame.total_force),
+            total_force_least: frame.least_force,
+            total_force_bound: frame.force_bound.map(Number),
+            total_sticking: Number(frame.total_sticking),
+            weight: Number(frame.weight),
+            interfaces: frame
+                .contacts
+                .iter()
+                .map(|c| Interface::of(scene, c))
+                .collect(),
+            robots: frame.robots.iter().map(|r| Robot::of(scene, r)).collect(),
+            failures: frame
+                .failures
+                .iter()
+                .map(|f| Missing::of(scene, f))
+                .collect(),
+            unsupported: frame.unsupported.iter().map(|id| block(*id)).collect(),
+            mechanism: frame
+                .mechanism
+                .iter()
+                .map(|m| Motion::of(scene, m))
+                .collect(),
+            margins: frame.margins.as_ref().map(|m| Margins::of(scene, m)),
+            only_by_wedging: looked_at(frame, EffectName::Wedging).then_some(frame.only_by_wedging),
+            wedging: (frame.wedged.as_ref()).map(|w| Wedging::of(scene, frame, w)),
+            effects: frame
+                .effects
+                .iter()
+                .map(|e| Effect {
+                    effect: e.effect.word(),
+                    simulated: e.simulated,
+                    why: &e.why,
+                    unknowns: e.unknowns,
+                })
+                .collect(),
+            proof: ProofNumbers::of(frame.proof),
+            solve: Solve::of(&frame.solve, timing),
+            notices: &frame.notices,
+        }
+    }
+}
+
+/// Whether an effect was simulated.
+fn looked_at(frame: &FrameAnalysis, effect: EffectName) -> bool {
+    frame
+        .effects
+        .iter()
+        .any(|e| e.effect == effect && e.simulated)
+}
+
+impl<'a> Motion<'a> {
+    fn of(scene: &'a Scene, motion: &Moved) -> Motion<'a> {
+        Motion {
+            block: &scene.blocks[motion.block.0].id,
+            velocity: arrow(motion.velocity),
+            spin: Number(motion.spin),
+        }
+    }
+}
+
+impl<'a> Interface<'a> {
+    fn of(scene: &'a Scene, contact: &Contact) -> Interface<'a> {
+        let interface = &contact.interface;
+        Interface {
+            bodies: interface.bodies.map(|b| scene.name(b)),
+            kind: (interface.kind == ContactKind::Corner).then_some("corner"),
+            ends: interface.ends.map(place),
+            application_points: contact.application_points.map(place),
+            normal: arrow(interface.normal),
+            mu: Number(interface.friction),
+            normal_forces: contact.normal_forces.map(Number),
+            friction_force: Number(contact.friction_force),
+            resultant: Resultant {
+                at: place(contact.resultant.at),
+                force: arrow(contact.resultant.force),
+            },
+            friction_used: Number(contact.friction_used),
+        }
+    }
+}
+
+impl<'a> Robot<'a> {
+    fn of(scene: &'a Scene, robot: &RobotForce) -> Robot<'a> {
+        Robot {
+            id: &scene.robots[robot.robot.0].id,
+            holds: &scene.blocks[robot.block.0].id,
+            at: place(robot.at),
+            force: arrow(robot.force),
+            torque: Number(robot.torque),
+            limit_used: Number(robot.limit_used),
+        }
+    }
+}
+
+impl<'a> Missing<'a> {
+    fn of(scene: &'a Scene, failure: &Failure) -> Missing<'a> {
+        let contact = |kind, bodies: [BodyId; 2], at, force: Vector| Missing {
+            kind,
+            bodies: Some(bodies.map(|b| scene.name(b))),
+            robot: None,
+            holds: None,
+            at: place(at),
+            force: Some(arrow(force)),
+            torque: None,
+            amount: Number(force.norm()),
+        };
+        let grip = |kind, robot: RobotId, block: BlockId, at| Missing {
+            kind,
+            bodies: None,
+            robot: Some(&scene.robots[robot.0].id),
+            holds: Some(&scene.blocks[block.0].id),
+            at: place(at),
+            force: None,
+            torque: None,
+            amount: Number(0.0),
+        };
+        match *failure {
+            Failure::Tension { bodies, at, force } => contact("tension", bodies, at, force),
+            Failure::Friction { bodies, at, force } => contact("friction", bodies, at, force),
+            Failure::RobotForce {
+                robot,
+                block,
+                at,
+                force,
+            } => Missing {
+                force: Some(arrow(force)),
+                amount: Number(force.x.abs() + force.y.abs()),
+                ..grip("robot_force", robot, block, at)
+            },
+            Failure::RobotTorque {
+                robot,
+                block,
+                at,
+                torque,
+            } => Missing {
+                torque: Some(Number(torque)),
+                amount: Number(torque.abs()),
+                ..grip("robot_torque", robot, block, at)
+            },
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

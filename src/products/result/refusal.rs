@@ -1,0 +1,96 @@
+//! A refused file as one JSON object, in the place where its result would stand.
+
+use serde::Serialize;
+
+use super::{Layout, Origin};
+use crate::scene::Problem;
+use crate::scene::format::Lines;
+use crate::text;
+
+#[derive(Serialize)]
+struct Refusal<'a> {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    file: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    line: Option<usize>,
+    problems: Vec<Entry<'a>>,
+}
+
+#[derive(Serialize)]
+struct Entry<'a> {
+    code: &'static str,
+    path: &'a str,
+    line: Option<usize>,
+    column: Option<usize>,
+    message: &'a str,
+    hint: &'a str,
+}
+
+/// All that is wrong with a file, as one JSON object: `{ "file", "problems": [{ code, path, line, column, message, hint }] }`.
+///
+/// Lines and columns count from 1, columns in characters; both are `null` where the problem has no place in a text.
+///
+/// # Example
+/// ```
+/// use drystone::result::{Layout, refusal};
+/// use drystone::scene::Scene;
+///
+/// let problems = Scene::from_json("{ }").unwrap_err();
+/// let json = refusal("empty.json", &problems.list, Layout::OneLine);
+/// assert!(json.starts_with(r#"{"file":"empty.json","problems":[{"code":"missing_key","path":"drystone","line":1,"#));
+/// ```
+pub fn refusal(file: &str, problems: &[Problem], layout: Layout) -> String {
+    written(
+        &Refusal {
+            file: Some(file),
+            line: None,
+            problems: entries(problems, 0),
+        },
+        layout,
+    )
+}
+
+/// The same on one line, for a scene that may be a line among many; ends with a line feed.
+///
+/// Lines and columns are those of the input, so that an editor finds them: of a scene that is a line of its own, that line.
+pub fn problem_line(origin: &Origin, problems: &[Problem]) -> String {
+    let before = origin.line.map_or(0, |line| line - 1);
+    written(
+        &Refusal {
+            file: origin.file.as_deref(),
+            line: origin.line,
+            problems: entries(problems, before),
+        },
+        Layout::OneLine,
+    )
+}
+
+/// Problems of a text before which there are so many lines.
+fn entries(problems: &[Problem], before: usize) -> Vec<Entry<'_>> {
+    let place = |number: usize| (number > 0).then_some(number);
+    problems
+        .iter()
+        .map(|problem| Entry {
+            code: problem.code.word(),
+            path: &problem.path,
+            line: place(problem.line).map(|line| before + line),
+            column: place(problem.column),
+            message: &problem.message,
+            hint: &problem.help,
+        })
+        .collect()
+}
+
+fn written(refusal: &Refusal<'_>, layout: Layout) -> String {
+    let mut bytes = Vec::new();
+    let written = match layout {
+        Layout::Lines => refusal.serialize(&mut serde_json::Serializer::with_formatter(
+            &mut bytes,
+            Lines::new(1),
+        )),
+        Layout::OneLine => serde_json::to_writer(&mut bytes, refusal),
+    };
+    written.expect("plain structures with text keys always serialise into memory");
+    bytes.push(b'\n');
+    text::json(&String::from_utf8(bytes).expect("serde_json writes UTF-8"))
+}

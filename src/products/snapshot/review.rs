@@ -1,0 +1,158 @@
+//! [`page`]: a report to look at, as one HTML file: expected, difference and found beside each other, one over the other with a
+//! slider, or blinking in turns; what changed in words; and the commands that accept it.
+//!
+//! The page holds its pictures itself and asks for nothing from elsewhere. The pictures of an SVG are drawn by us, not by the
+//! browser, so that what is looked at is what is kept.
+
+use std::path::Path;
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+use super::check::{CheckOutcome, Finding, Layer, Snapshot, State};
+use super::discovery::shown;
+use crate::text::{line, shell};
+
+const STYLE: &str = include_str!("../../../assets/snapshot/review.css");
+const SCRIPT: &str = include_str!("../../../assets/snapshot/review.js");
+/// A drawing with more changes than this unfolds on request: the pictures tell most of it.
+const OPEN: usize = 12;
+/// So many changes of one file stand in the page.
+const MOST_LISTED: usize = 60;
+
+/// The page of a report. `folders` are those of the command line, for the commands to copy.
+///
+/// # Example
+/// ```
+/// use drystone::snapshot::{CheckOutcome, review::page};
+/// let page = page(&CheckOutcome::default(), &["scenes".into()]);
+/// assert!(page.contains("Everything is as its references say"));
+/// ```
+pub fn page(report: &CheckOutcome, folders: &[std::path::PathBuf]) -> String {
+    let failing: Vec<&Snapshot> = report.failing().collect();
+    let places: Vec<String> = folders.iter().map(|f| shell(&shown(f))).collect();
+    let places = places.join(" ");
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width";
+                title { "Snapshots" }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                h1 { "Snapshots" }
+                p.pale { (report.summary()) "." }
+                @if report.holds() {
+                    p { "Everything is as its references say." }
+                } @else if !failing.is_empty() {
+                    (command(&format!("drystone snapshot {places} --accept"), "All of them"))
+                    nav {
+                        @for (number, snapshot) in failing.iter().enumerate() {
+                            a href=(format!("#s{number}")) { (line(&snapshot.name)) } " "
+                        }
+                    }
+                }
+                @for (number, snapshot) in failing.iter().enumerate() {
+                    section id=(format!("s{number}")) {
+                        h2 { (line(&snapshot.name)) }
+                        @for finding in &snapshot.findings { (described(finding)) }
+                        (command(&format!("drystone snapshot {places} --accept --only {}", shell(&snapshot.name)), "This one"))
+                    }
+                }
+                @if !report.orphans.is_empty() {
+                    section {
+                        h2 { "References without a scene" }
+                        ul {
+                            @for (path, words) in &report.orphans {
+                                li { code { (line(&shown(path))) } " " (line(words)) }
+                            }
+                        }
+                    }
+                }
+                script { (PreEscaped(SCRIPT)) }
+            }
+        }
+    };
+    page.into_string()
+}
+
+fn command(words: &str, what: &str) -> Markup {
+    html! {
+        div.command { span { (what) ":" } code { (words) } button type="button" { "Copy" } }
+    }
+}
+
+fn described(finding: &Finding) -> Markup {
+    let state = match finding.state {
+        State::Missing => "new",
+        State::Changed => "changed",
+        State::Unreadable => "unreadable",
+        State::Large => "large",
+    };
+    html! {
+        h3 { span.state { (finding.layer.name()) " " (state) } " " (line(&shown(&finding.file))) }
+        @if finding.words.len() > OPEN && finding.layer == Layer::Svg {
+            details { summary { (finding.words.len()) " changes" } (words(finding)) }
+        } @else {
+            (words(finding))
+        }
+        @if finding.layer == Layer::Pixels { (pictures(finding)) }
+    }
+}
+
+fn words(finding: &Finding) -> Markup {
+    html! {
+        ul {
+            @for words in finding.words.iter().take(MOST_LISTED) { li { (line(words)) } }
+            @if finding.words.len() > MOST_LISTED { li { "… and " (finding.words.len() - MOST_LISTED) " more" } }
+        }
+    }
+}
+
+fn pictures(finding: &Finding) -> Markup {
+    // What cannot be read would be an empty frame.
+    let expected = finding
+        .expected
+        .as_deref()
+        .filter(|_| finding.state == State::Changed);
+    let shown = [
+        ("Expected", expected),
+        ("Difference", finding.difference.as_deref()),
+        (
+            "Found",
+            Some(finding.fresh.as_slice()).filter(|f| !f.is_empty()),
+        ),
+    ];
+    html! {
+        div.three {
+            @for (what, bytes) in shown {
+                @if let Some(bytes) = bytes {
+                    figure { (picture(bytes, what, &finding.file)) figcaption { (what) } }
+                }
+            }
+        }
+        @if let Some(expected) = expected {
+            div.onion {
+                div.controls {
+                    span { "expected" }
+                    input type="range" min="0" max="100" value="50" aria-label="from the expected picture to the one found";
+                    span { "found" }
+                    button type="button" aria-pressed="false" { "Blink" }
+                }
+                div.stack {
+                    (picture(expected, "Expected", &finding.file))
+                    (picture(&finding.fresh, "Found", &finding.file))
+                }
+            }
+        }
+    }
+}
+
+fn picture(png: &[u8], what: &str, file: &Path) -> Markup {
+    let source = format!("data:image/png;base64,{}", STANDARD.encode(png));
+    let words = format!("{what}: {}", line(&shown(file)));
+    html! { img src=(source) alt=(words); }
+}
