@@ -7,7 +7,7 @@
 
 use std::error::Error;
 
-use drystone::scene::Problems;
+use drystone::scene::SceneError;
 use drystone::scene::format::{BlockEntry, Pair};
 use drystone::{Analysis, Scene};
 
@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 /// Bricks of 1 × 0.25, the lowest first; the k-th from the top overhangs the one below it by `share`/2k.
-fn stack(share: f64) -> Result<Scene, Problems> {
+fn stack(share: f64) -> Result<Scene, SceneError> {
     let mut right = 0.0;
     let mut scene = Scene::builder().ground(rectangle(-3.0, -1.0, 0.0, 0.0));
     for row in 0..BRICKS {

@@ -37,7 +37,7 @@
 //!     .block(BlockEntry::new("lintel").polygon([[0.0, 3.0], [6.0, 3.0], [6.0, 4.0], [0.0, 4.0]]))
 //!     .build()?;
 //! assert_eq!(Analysis::of(&scene).frames[0].contacts.len(), 4);
-//! # Ok::<(), drystone::scene::Problems>(())
+//! # Ok::<(), drystone::scene::SceneError>(())
 //! ```
 //!
 //! # What a verdict says, and what it does not

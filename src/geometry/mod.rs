@@ -15,7 +15,7 @@ mod zonotope;
 
 pub(crate) use lattice::boundary;
 pub use lattice::{Cell, Half, Lattice, LatticeKind};
-pub(crate) use nearby::{Around, Nearby};
+pub(crate) use nearby::{Aabb, BoxIndex};
 pub use overlap::{Overlap, Pieces, overlap};
 pub(crate) use polygon::sin_cos_degrees;
 pub use polygon::{Bounds, Edge, Flaw, Polygon};

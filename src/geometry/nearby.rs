@@ -1,4 +1,4 @@
-//! [`Nearby`]: things found by the boxes around them.
+//! [`BoxIndex`]: things found by the boxes around them.
 //!
 //! Of few every box is looked at; of many a tree is made first, which is dearer than many such looks. A box may have more
 //! sides than the plane has: of thin stones that lean, upright boxes overlap by the hundred, and boxes that lean as they
@@ -14,44 +14,44 @@ const TOGETHER: usize = 8;
 
 /// The least and the greatest of each coordinate of a thing.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Around<const D: usize = 2> {
+pub(crate) struct Aabb<const D: usize = 2> {
     pub(crate) min: [f64; D],
     pub(crate) max: [f64; D],
 }
 
-impl Around {
+impl Aabb {
     /// The box with everything that lies `by` metres off it.
-    pub(crate) fn grown(self, by: f64) -> Around {
-        Around {
+    pub(crate) fn grown(self, by: f64) -> Aabb {
+        Aabb {
             min: self.min.map(|least| least - by),
             max: self.max.map(|most| most + by),
         }
     }
 }
 
-impl Around<4> {
+impl Aabb<4> {
     /// The upright box around some points and the one that leans by 45°: x, y, x + y and y − x.
-    pub(crate) fn leaning(points: &[Point]) -> Around<4> {
-        points.iter().fold(Around::NOTHING, |around, p| {
+    pub(crate) fn leaning(points: &[Point]) -> Aabb<4> {
+        points.iter().fold(Aabb::NOTHING, |around, p| {
             let at = [p.x, p.y, p.x + p.y, p.y - p.x];
-            around.and(&Around { min: at, max: at })
+            around.and(&Aabb { min: at, max: at })
         })
     }
 }
 
-impl<const D: usize> Around<D> {
-    const NOTHING: Around<D> = Around {
+impl<const D: usize> Aabb<D> {
+    const NOTHING: Aabb<D> = Aabb {
         min: [f64::INFINITY; D],
         max: [f64::NEG_INFINITY; D],
     };
 
     /// Whether two boxes share a point.
-    pub(crate) fn meets(&self, other: &Around<D>) -> bool {
+    pub(crate) fn meets(&self, other: &Aabb<D>) -> bool {
         (0..D).all(|d| self.min[d] <= other.max[d] && self.max[d] >= other.min[d])
     }
 
-    fn and(&self, other: &Around<D>) -> Around<D> {
-        Around {
+    fn and(&self, other: &Aabb<D>) -> Aabb<D> {
+        Aabb {
             min: std::array::from_fn(|d| self.min[d].min(other.min[d])),
             max: std::array::from_fn(|d| self.max[d].max(other.max[d])),
         }
@@ -64,25 +64,25 @@ impl<const D: usize> Around<D> {
 }
 
 /// Things that have boxes around them.
-pub(crate) enum Nearby<T, const D: usize = 2> {
-    Few(Row<T, D>),
+pub(crate) enum BoxIndex<T, const D: usize = 2> {
+    Few(SortedBoxes<T, D>),
     Many(Tree<T, D>),
 }
 
 /// Things sorted by the left ends of their boxes.
-pub(crate) struct Row<T, const D: usize> {
+pub(crate) struct SortedBoxes<T, const D: usize> {
     all: Vec<Placed<T, D>>,
 }
 
 struct Placed<T, const D: usize> {
-    own: Around<D>,
+    own: Aabb<D>,
     /// How far the boxes up to and with this one reach to the right.
     reach: f64,
     thing: T,
 }
 
-impl<T, const D: usize> Row<T, D> {
-    fn of(things: Vec<T>, around: impl Fn(&T) -> Around<D>) -> Row<T, D> {
+impl<T, const D: usize> SortedBoxes<T, D> {
+    fn of(things: Vec<T>, around: impl Fn(&T) -> Aabb<D>) -> SortedBoxes<T, D> {
         let placed = |thing: T| Placed {
             own: around(&thing),
             reach: 0.0,
@@ -95,10 +95,10 @@ impl<T, const D: usize> Row<T, D> {
             farthest = farthest.max(placed.own.max[0]);
             placed.reach = farthest;
         }
-        Row { all }
+        SortedBoxes { all }
     }
 
-    fn near(&self, asked: Around<D>) -> impl Iterator<Item = &T> {
+    fn near(&self, asked: Aabb<D>) -> impl Iterator<Item = &T> {
         // Before `begin` all boxes end, and from `end` on all begin, beside the one asked about.
         let left = asked.min[0];
         let begin = self.all.partition_point(|placed| placed.reach < left);
@@ -110,13 +110,13 @@ impl<T, const D: usize> Row<T, D> {
 
 /// Things halved again and again, across what parts them best, until few are left together.
 pub(crate) struct Tree<T, const D: usize> {
-    all: Vec<(Around<D>, T)>,
+    all: Vec<(Aabb<D>, T)>,
     /// Each before the two that it parts in.
     nodes: Vec<Node<D>>,
 }
 
 struct Node<const D: usize> {
-    around: Around<D>,
+    around: Aabb<D>,
     /// The first node that is not part of this one.
     next: usize,
     /// Its things, where it has no parts.
@@ -124,9 +124,9 @@ struct Node<const D: usize> {
 }
 
 impl<T, const D: usize> Tree<T, D> {
-    fn of(things: Vec<T>, around: impl Fn(&T) -> Around<D>) -> Tree<T, D> {
+    fn of(things: Vec<T>, around: impl Fn(&T) -> Aabb<D>) -> Tree<T, D> {
         let boxes = things.iter().map(around).enumerate();
-        let mut order: Vec<(Around<D>, usize)> = boxes.map(|(n, own)| (own, n)).collect();
+        let mut order: Vec<(Aabb<D>, usize)> = boxes.map(|(n, own)| (own, n)).collect();
         let usual = usual(&order);
         let mut nodes = Vec::with_capacity(4 * order.len() / TOGETHER);
         parted(&mut order, 0, &usual, &mut nodes);
@@ -139,7 +139,7 @@ impl<T, const D: usize> Tree<T, D> {
         }
     }
 
-    fn near(&self, asked: Around<D>) -> impl Iterator<Item = &T> {
+    fn near(&self, asked: Aabb<D>) -> impl Iterator<Item = &T> {
         let (mut node, mut things) = (0, [].iter());
         std::iter::from_fn(move || {
             loop {
@@ -160,10 +160,10 @@ impl<T, const D: usize> Tree<T, D> {
 
 /// How long boxes are in each direction, half of them at most; where they are but points, a part of how far the inner half of
 /// them is spread. The ground may reach much farther than all else.
-fn usual<const D: usize>(order: &[(Around<D>, usize)]) -> [f64; D] {
+fn usual<const D: usize>(order: &[(Aabb<D>, usize)]) -> [f64; D] {
     const PART: f64 = 1e-3;
     let mut all = Vec::with_capacity(order.len());
-    let mut part = |of: &dyn Fn(&Around<D>) -> f64, quarters: usize| {
+    let mut part = |of: &dyn Fn(&Aabb<D>) -> f64, quarters: usize| {
         all.clear();
         all.extend(order.iter().map(|(own, _)| of(own)));
         let place = quarters * all.len() / 4;
@@ -171,13 +171,13 @@ fn usual<const D: usize>(order: &[(Around<D>, usize)]) -> [f64; D] {
     };
     std::array::from_fn(|d| {
         let length = part(&|own| own.max[d] - own.min[d], 2);
-        let middle = |own: &Around<D>| own.middle(d);
+        let middle = |own: &Aabb<D>| own.middle(d);
         length + PART * (part(&middle, 3) - part(&middle, 1)) + f64::MIN_POSITIVE
     })
 }
 
 /// How far apart the middles of boxes are, twice.
-fn spread<const D: usize>(order: &[(Around<D>, usize)]) -> [f64; D] {
+fn spread<const D: usize>(order: &[(Aabb<D>, usize)]) -> [f64; D] {
     let (mut least, mut most) = ([f64::INFINITY; D], [f64::NEG_INFINITY; D]);
     for (own, _) in order {
         for d in 0..D {
@@ -190,19 +190,19 @@ fn spread<const D: usize>(order: &[(Around<D>, usize)]) -> [f64; D] {
 
 /// Puts boxes in the order of the tree's leaves and adds its nodes; the first of them is number `begin` of all.
 fn parted<const D: usize>(
-    order: &mut [(Around<D>, usize)],
+    order: &mut [(Aabb<D>, usize)],
     begin: usize,
     usual: &[f64; D],
     nodes: &mut Vec<Node<D>>,
 ) {
     let number = nodes.len();
     nodes.push(Node {
-        around: Around::NOTHING,
+        around: Aabb::NOTHING,
         next: 0,
         things: begin..begin,
     });
     if order.len() <= TOGETHER {
-        nodes[number].around = order.iter().fold(Around::NOTHING, |all, b| all.and(&b.0));
+        nodes[number].around = order.iter().fold(Aabb::NOTHING, |all, b| all.and(&b.0));
         nodes[number].things.end += order.len();
     } else {
         let spread = spread(order);
@@ -222,16 +222,16 @@ fn parted<const D: usize>(
     nodes[number].next = nodes.len();
 }
 
-impl<T, const D: usize> Nearby<T, D> {
-    pub(crate) fn of(things: Vec<T>, around: impl Fn(&T) -> Around<D>) -> Nearby<T, D> {
+impl<T, const D: usize> BoxIndex<T, D> {
+    pub(crate) fn of(things: Vec<T>, around: impl Fn(&T) -> Aabb<D>) -> BoxIndex<T, D> {
         if things.len() > FEW {
-            return Nearby::Many(Tree::of(things, around));
+            return BoxIndex::Many(Tree::of(things, around));
         }
-        Nearby::Few(Row::of(things, around))
+        BoxIndex::Few(SortedBoxes::of(things, around))
     }
 
     /// All of them with the boxes around them, in no order that may matter.
-    pub(crate) fn all(&self) -> impl Iterator<Item = (&Around<D>, &T)> {
+    pub(crate) fn all(&self) -> impl Iterator<Item = (&Aabb<D>, &T)> {
         let (few, many) = self.parts();
         let few = few.into_iter().flat_map(|row| &row.all);
         let many = many.into_iter().flat_map(|tree| &tree.all);
@@ -240,17 +240,17 @@ impl<T, const D: usize> Nearby<T, D> {
     }
 
     /// Those whose boxes share a point with a box, in no order that may matter.
-    pub(crate) fn near(&self, around: Around<D>) -> impl Iterator<Item = &T> {
+    pub(crate) fn near(&self, around: Aabb<D>) -> impl Iterator<Item = &T> {
         let (few, many) = self.parts();
         let few = few.into_iter().flat_map(move |row| row.near(around));
         let many = many.into_iter();
         few.chain(many.flat_map(move |tree| tree.near(around)))
     }
 
-    fn parts(&self) -> (Option<&Row<T, D>>, Option<&Tree<T, D>>) {
+    fn parts(&self) -> (Option<&SortedBoxes<T, D>>, Option<&Tree<T, D>>) {
         match self {
-            Nearby::Few(few) => (Some(few), None),
-            Nearby::Many(tree) => (None, Some(tree)),
+            BoxIndex::Few(few) => (Some(few), None),
+            BoxIndex::Many(tree) => (None, Some(tree)),
         }
     }
 }
@@ -259,8 +259,8 @@ impl<T, const D: usize> Nearby<T, D> {
 mod tests {
     use super::*;
 
-    fn point(at: [f64; 2]) -> Around {
-        Around { min: at, max: at }
+    fn point(at: [f64; 2]) -> Aabb {
+        Aabb { min: at, max: at }
     }
 
     /// A hundred needles side by side, all leaning by 45°: their upright boxes meet, the leaning ones do not.
@@ -270,8 +270,8 @@ mod tests {
             let x = n as f64;
             [Point::new(x, 0.0), Point::new(x + 200.0, 200.0)]
         };
-        let leaning = |n: &usize| Around::leaning(&needle(*n));
-        let things = Nearby::of((0..100).collect(), leaning);
+        let leaning = |n: &usize| Aabb::leaning(&needle(*n));
+        let things = BoxIndex::of((0..100).collect(), leaning);
         for n in 0..100 {
             assert_eq!(things.near(leaning(&n)).collect::<Vec<_>>(), [&n]);
         }
@@ -281,10 +281,10 @@ mod tests {
     fn few_and_many_are_found_alike() {
         for side in [7_usize, 8, 12] {
             let at = |n: usize| [(n / side) as f64, (n % side) as f64];
-            let things = Nearby::of((0..side * side).collect(), |n| point(at(*n)));
-            assert_eq!(matches!(things, Nearby::Few(_)), side * side <= FEW);
+            let things = BoxIndex::of((0..side * side).collect(), |n| point(at(*n)));
+            assert_eq!(matches!(things, BoxIndex::Few(_)), side * side <= FEW);
             assert_eq!(things.all().count(), side * side);
-            let found = things.near(Around {
+            let found = things.near(Aabb {
                 min: [0.5, 1.0],
                 max: [2.0, 3.0],
             });
@@ -311,12 +311,12 @@ mod tests {
             let all: Vec<[i32; 4]> = (0..count).map(|_| any()).collect();
             let around = |b: [i32; 4]| {
                 let [x, y, right, high] = b.map(f64::from);
-                Around {
+                Aabb {
                     min: [x, y],
                     max: [right, high],
                 }
             };
-            let things = Nearby::of((0..count).collect(), |n| around(all[*n]));
+            let things = BoxIndex::of((0..count).collect(), |n| around(all[*n]));
             for _ in 0..60 {
                 let asked = any();
                 let mut found: Vec<usize> = things.near(around(asked)).copied().collect();

@@ -4,7 +4,7 @@
 //! of an edge and [`Edge::outward`] always points out of it. Repeated corners are dropped; corners on a straight line
 //! stay, they are the author's.
 
-use super::{Around, Nearby, Point, Vector, cross};
+use super::{Aabb, BoxIndex, Point, Vector, cross};
 
 /// A simple polygon, perhaps with holes.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,9 +39,9 @@ impl Edge {
     }
 
     /// The box around it.
-    pub(crate) fn around(&self) -> Around {
+    pub(crate) fn around(&self) -> Aabb {
         let (a, b) = (self.from, self.to);
-        Around {
+        Aabb {
             min: [a.x.min(b.x), a.y.min(b.y)],
             max: [a.x.max(b.x), a.y.max(b.y)],
         }
@@ -392,7 +392,7 @@ struct Side {
 }
 
 impl Side {
-    fn around(&self) -> Around {
+    fn around(&self) -> Aabb {
         self.edge.around()
     }
 
@@ -427,7 +427,7 @@ fn crossings(rings: &[Vec<Point>], repeats: &Repeats) -> Vec<Flaw> {
             edge,
         }));
     }
-    let nearby = (all.len() > FEW_SIDES).then(|| Nearby::of(all.clone(), Side::around));
+    let nearby = (all.len() > FEW_SIDES).then(|| BoxIndex::of(all.clone(), Side::around));
     let mut flaws = Vec::new();
     for (number, a) in all.iter().enumerate() {
         let before = flaws.len();

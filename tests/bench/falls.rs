@@ -16,7 +16,7 @@ mod turn;
 use std::hint::black_box;
 
 use drystone::analysis::{Ask, Options, Verdict};
-use drystone::internals::effect::{Situation, assemble};
+use drystone::internals::effect::{FrameContext, assemble};
 use drystone::internals::interface::Interfaces;
 use drystone::internals::program::{Conic, Program, Scale, source};
 use drystone::internals::solve::{Conditioning, Status, TOLERANCE, solve};
@@ -112,7 +112,7 @@ fn posed(conic: &Conic) {
 fn program(scene: &Scene) -> Program {
     let found = Interfaces::of(scene);
     let frame = &scene.frames()[0];
-    let (assembly, _) = assemble(&Situation {
+    let (assembly, _) = assemble(&FrameContext {
         scene,
         frame,
         interfaces: &found.in_frame(scene, frame),

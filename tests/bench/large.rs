@@ -6,7 +6,7 @@
 
 use divan::{AllocProfiler, Bencher, black_box};
 use drystone::internals::assembly::Assembly;
-use drystone::internals::effect::{Situation, assemble};
+use drystone::internals::effect::{FrameContext, assemble};
 use drystone::internals::interface::Interfaces;
 use drystone::internals::program::{Program, Scale};
 use drystone::internals::proof::{self, Forces, Held, Pressed};
@@ -97,7 +97,7 @@ fn g_draw_as_svg(bencher: Bencher, case: Case) {
 fn components(scene: &Scene, found: &Interfaces) -> (Assembly, Vec<Assembly>) {
     let frame = &scene.frames()[0];
     let interfaces = found.in_frame(scene, frame);
-    let (assembly, _) = assemble(&Situation {
+    let (assembly, _) = assemble(&FrameContext {
         scene,
         frame,
         interfaces: &interfaces,

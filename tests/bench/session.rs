@@ -35,7 +35,7 @@ fn main() {
             wholes.push(start.elapsed().as_secs_f64() * 1e6);
         }
         for (name, list) in &mut steps.0 {
-            let known = list.iter().filter(|s| s.1 == Source::Guess).count();
+            let known = list.iter().filter(|s| s.1 == Source::WarmStart).count();
             let share = 100 * known / list.len();
             let times = list.iter().map(|s| s.0).collect();
             println!("| {blocks} | {name} | {:.1} | {share} % |", median(times));

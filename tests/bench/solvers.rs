@@ -13,7 +13,7 @@ mod turn;
 
 use std::hint::black_box;
 
-use drystone::internals::effect::{Situation, assemble};
+use drystone::internals::effect::{FrameContext, assemble};
 use drystone::internals::interface::Interfaces;
 use drystone::internals::program::{
     Column, Conic, Program, Scale, columns, kinematic, least_left, sticking_columns,
@@ -119,7 +119,7 @@ fn program(file: &Value, degrees: f64) -> Program {
     let scene = scene(&file);
     let found = Interfaces::of(&scene);
     let frame = &scene.frames()[0];
-    let (assembly, _) = assemble(&Situation {
+    let (assembly, _) = assemble(&FrameContext {
         scene: &scene,
         frame,
         interfaces: &found.in_frame(&scene, frame),

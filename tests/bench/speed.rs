@@ -7,7 +7,7 @@ use std::fs;
 use std::process::Command;
 
 use divan::{Bencher, black_box};
-use drystone::internals::effect::{Situation, assemble};
+use drystone::internals::effect::{FrameContext, assemble};
 use drystone::internals::interface::Interfaces;
 use drystone::internals::program::{Program, Scale, source};
 use drystone::internals::solve::{Conditioning, TOLERANCE, balance, solve};
@@ -102,7 +102,7 @@ fn program(scene: &Scene) -> Program {
     let found = Interfaces::of(scene);
     let frame = &scene.frames()[0];
     let interfaces = found.in_frame(scene, frame);
-    let (assembly, _) = assemble(&Situation {
+    let (assembly, _) = assemble(&FrameContext {
         scene,
         frame,
         interfaces: &interfaces,

@@ -10,7 +10,7 @@ use std::path::Path;
 
 use drystone::analysis::{EffectName, Verdict};
 use drystone::internals::assembly::Assembly;
-use drystone::internals::effect::{Situation, assemble};
+use drystone::internals::effect::{FrameContext, assemble};
 use drystone::internals::geometry::{Point, Vector};
 use drystone::internals::interface::{ContactKind, Interfaces};
 use drystone::internals::program::{Count, Program, Scale, columns};
@@ -51,7 +51,7 @@ fn scenes() -> Vec<(String, Value)> {
 fn assembly_of(scene: &Scene, frame: &Frame) -> (Assembly, Vec<ContactKind>) {
     let found = Interfaces::of(scene);
     let interfaces = found.in_frame(scene, frame);
-    let situation = Situation {
+    let situation = FrameContext {
         scene,
         frame,
         interfaces: &interfaces,

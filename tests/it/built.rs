@@ -156,7 +156,7 @@ fn code_is_told_what_a_file_is_told() {
             continue;
         };
         let (read, made) = (Scene::from_json(text), Scene::new(file));
-        let list = |scene: Result<Scene, drystone::scene::Problems>| {
+        let list = |scene: Result<Scene, drystone::scene::SceneError>| {
             scene.map_or_else(|problems| said(&problems.list), |_| Vec::new())
         };
         let (read, made) = (list(read), list(made));

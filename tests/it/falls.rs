@@ -4,7 +4,7 @@ use drystone::Analysis;
 use drystone::analysis::{
     Ask, EffectName, Failure, FrameAnalysis, MarginKind, MarginKinds, Options, Verdict, verdicts,
 };
-use drystone::internals::effect::{Situation, assemble};
+use drystone::internals::effect::{FrameContext, assemble};
 use drystone::internals::geometry::{Point, Vector, cross};
 use drystone::internals::interface::Interfaces;
 use drystone::internals::program::{
@@ -254,7 +254,7 @@ fn what_a_stack_of_ten_thousand_lacks_is_what_the_balance_above_each_joint_says(
 fn program(scene: &Scene) -> Program {
     let found = Interfaces::of(scene);
     let frame = &scene.frames()[0];
-    let (assembly, _) = assemble(&Situation {
+    let (assembly, _) = assemble(&FrameContext {
         scene,
         frame,
         interfaces: &found.in_frame(scene, frame),

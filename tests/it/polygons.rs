@@ -3,7 +3,7 @@
 use drystone::analysis::{Analysis, Ask, Options as Asked, Toward, Verdict};
 use drystone::drawing::{Drawing, Group, Item};
 use drystone::figure::{self, Kind, Options};
-use drystone::report::entry::{Entry, File, Wanted};
+use drystone::report::entry::{Entry, File, ReportOptions};
 use drystone::scene::Scene;
 
 use crate::labels::{classes, texts};
@@ -134,7 +134,7 @@ fn a_report_says_of_what_falls_that_missing_forces_are_counted() {
         text: "{}",
     };
     let captions = |scene: &Scene| {
-        let entry = Entry::of(file, &Analysis::of(scene), &Wanted::default());
+        let entry = Entry::of(file, &Analysis::of(scene), &ReportOptions::default());
         let grids = entry.steps.iter().flat_map(|s| &s.grids);
         let captions: Vec<String> = grids.map(|g| g.caption.clone()).collect();
         (captions.join(" / "), entry.row.friction)

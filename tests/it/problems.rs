@@ -3,7 +3,7 @@
 //! `tests/reference/problems.txt` holds the cases: a title, a scene, and all that is said of it. `UPDATE_SNAPSHOTS=1`
 //! writes what is said now in place of what was.
 
-use drystone::scene::{Code, Problems, Scene, starter};
+use drystone::scene::{Code, SceneError, Scene, starter};
 use serde_json::{Value, json};
 
 const REFERENCE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/problems.txt");
@@ -34,7 +34,7 @@ fn cases() -> Vec<Case> {
         .collect()
 }
 
-fn refused(text: &str) -> Problems {
+fn refused(text: &str) -> SceneError {
     let problems = Scene::from_json(text).expect_err("refused");
     assert!(!problems.list.is_empty());
     for problem in &problems.list {
@@ -98,7 +98,7 @@ fn every_code_of_a_problem_occurs() {
         Code::MoreProblems,
     ];
     assert_eq!(missing, elsewhere);
-    let only = |problems: Problems| problems.list[0].code;
+    let only = |problems: SceneError| problems.list[0].code;
     assert_eq!(
         only(Scene::from_slice(b"\xE9").expect_err("refused")),
         Code::NotUtf8

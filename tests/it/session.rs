@@ -140,7 +140,7 @@ fn played(
         );
         assert_eq!(session.verdict(), scratch);
         tally.steps += 1;
-        tally.guessed += usize::from(session.source() == Source::Guess);
+        tally.guessed += usize::from(session.source() == Source::WarmStart);
         match scratch {
             Verdict::Stable => tally.stable += 1,
             Verdict::Unstable => tally.unstable += 1,

@@ -309,7 +309,7 @@ fn snapshots_are_told_in_words_whatever_their_names() {
 
 #[test]
 fn a_report_keeps_words_as_words_in_all_its_forms() {
-    use drystone::report::entry::{Entry, File, Wanted};
+    use drystone::report::entry::{Entry, File, ReportOptions};
     use drystone::report::page::{Form, Piece, Refused, Report};
     use drystone::scene::Problem;
     each(|hostile, _, analysis| {
@@ -318,7 +318,7 @@ fn a_report_keeps_words_as_words_in_all_its_forms() {
             name: hostile,
             text: &text,
         };
-        let entry = Entry::of(file, analysis, &Wanted::default());
+        let entry = Entry::of(file, analysis, &ReportOptions::default());
         let mut problem: Problem = Scene::from_json("").expect_err("refused").list.remove(0);
         problem.path = hostile.into();
         problem.message = hostile.into();

@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::cli::complaint::Complaint;
+use crate::cli::complaint::CliError;
 use crate::cli::destination;
-use crate::cli::ending::Ending;
+use crate::cli::ending::ExitStatus;
 use crate::cli::progress::{Progress, Shown};
 use crate::cli::source;
 use crate::cli::terminal::Terminal;
@@ -48,7 +48,7 @@ enum Form {
 }
 
 impl Accuracy {
-    pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
         let mut forms = Vec::with_capacity(self.output.len());
         for path in &self.output {
             forms.push((path, form(path).map_err(|c| vec![c])?));
@@ -92,11 +92,11 @@ impl Accuracy {
         for (path, _) in &files {
             terminal.note(&format!("{}: {frames} frames", path.display()));
         }
-        Ok(Ending::Done)
+        Ok(ExitStatus::Done)
     }
 }
 
-fn form(path: &Path) -> Result<Form, Complaint> {
+fn form(path: &Path) -> Result<Form, CliError> {
     let ending = path
         .extension()
         .map(|e| e.to_string_lossy().to_ascii_lowercase());
@@ -106,14 +106,14 @@ fn form(path: &Path) -> Result<Form, Complaint> {
         Some("json") => Ok(Form::Json),
         Some("svg") => Ok(Form::Svg),
         Some("md") => Ok(Form::Markdown),
-        _ => Err(Complaint::CommandLine(format!(
+        _ => Err(CliError::CommandLine(format!(
             "{}: a study is .html, .csv, .json, .svg or .md",
             path.display()
         ))),
     }
 }
 
-fn written(study: &Study, form: Form) -> Result<String, Complaint> {
+fn written(study: &Study, form: Form) -> Result<String, CliError> {
     match form {
         Form::Csv => Ok(csv(study)),
         Form::Json => Ok(accuracy_json(study)),
@@ -123,8 +123,8 @@ fn written(study: &Study, form: Form) -> Result<String, Complaint> {
     }
 }
 
-fn undrawn(error: &dyn std::error::Error) -> Complaint {
-    Complaint::NotWritten {
+fn undrawn(error: &dyn std::error::Error) -> CliError {
+    CliError::NotWritten {
         what: "the chart".into(),
         why: error.to_string(),
     }

@@ -12,12 +12,12 @@ use std::thread;
 use clap::Args;
 
 use crate::analysis::{Analysis, Ask, Options, Verdict, verdicts};
-use crate::batch::{Record, Records, Room, in_order};
-use crate::cli::complaint::Complaint;
+use crate::batch::{Record, Records, Capacity, in_order};
+use crate::cli::complaint::CliError;
 use crate::cli::destination;
-use crate::cli::ending::Ending;
-use crate::cli::level::Level;
-use crate::cli::look::Look;
+use crate::cli::ending::ExitStatus;
+use crate::cli::level::AnalysisArgs;
+use crate::cli::look::StyleArgs;
 use crate::cli::picture::{Format, Picture};
 use crate::cli::script;
 use crate::cli::terminal::Terminal;
@@ -63,9 +63,9 @@ pub(crate) struct Batch {
     #[command(flatten)]
     picture: Picture,
     #[command(flatten)]
-    look: Look,
+    look: StyleArgs,
     #[command(flatten)]
-    level: Level,
+    level: AnalysisArgs,
 }
 
 fn fields(typed: &str) -> Result<Fields, String> {
@@ -76,7 +76,7 @@ fn fields(typed: &str) -> Result<Fields, String> {
 }
 
 impl Batch {
-    pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
         let work = self.work().map_err(|c| vec![c])?;
         let inputs = input::of(&self.inputs, self.render.is_some())?;
         let mut output = Output::open(self.output.as_deref(), self.resume, &inputs.files)
@@ -99,11 +99,11 @@ impl Batch {
             },
             usize::from,
         );
-        let mut ending = Ending::Done;
+        let mut ending = ExitStatus::Done;
         let mut failed = None;
         in_order(
             records,
-            Room::of(threads),
+            Capacity::of(threads),
             move |record| work.answer(record),
             |answer| {
                 let written = match answer {
@@ -136,7 +136,7 @@ impl Batch {
         }
     }
 
-    fn work(&self) -> Result<Work, Complaint> {
+    fn work(&self) -> Result<Work, CliError> {
         let format = self.picture.asked().unwrap_or(Format::Png);
         let picture = self.picture.clone().or_width(WIDTH, format).of_many();
         let drawn = match &self.render {
@@ -172,7 +172,7 @@ impl Batch {
 
 /// What is done with every scene.
 struct Work {
-    level: Level,
+    level: AnalysisArgs,
     margins: Ask,
     wedging: Ask,
     fields: Fields,
@@ -191,12 +191,12 @@ struct Drawn {
 /// A line of the output, and what it says of its scene.
 struct Answer {
     line: String,
-    ending: Ending,
+    ending: ExitStatus,
 }
 
 impl Work {
     /// The line for a record; a complaint where its picture could not be written, as nothing later could be either.
-    fn answer(&self, record: Record) -> Result<Answer, Complaint> {
+    fn answer(&self, record: Record) -> Result<Answer, CliError> {
         let origin = Origin {
             file: record.file.as_ref().map(|f| f.display().to_string()),
             line: record.line,
@@ -217,7 +217,7 @@ impl Work {
         })
     }
 
-    fn examined(&self, origin: &Origin, name: &str, record: &Record) -> Result<Answer, Complaint> {
+    fn examined(&self, origin: &Origin, name: &str, record: &Record) -> Result<Answer, CliError> {
         let bytes = match &record.bytes {
             Ok(bytes) => bytes,
             Err(why) => return Ok(refused(origin, &[problem(Code::NotReadable, why, "")])),
@@ -232,7 +232,7 @@ impl Work {
             let verdict = verdict.unwrap_or(Verdict::Stable);
             return Ok(Answer {
                 line: verdict_line(origin, &scene.title, verdict, &self.fields),
-                ending: Ending::from(verdict),
+                ending: ExitStatus::from(verdict),
             });
         }
         let analysis = Analysis::with(&scene, &options);
@@ -242,7 +242,7 @@ impl Work {
         };
         Ok(Answer {
             line: line_of(origin, &analysis, &picture, &self.fields),
-            ending: Ending::of(&analysis),
+            ending: ExitStatus::of(&analysis),
         })
     }
 
@@ -262,7 +262,7 @@ impl Work {
 
 impl Drawn {
     /// Draws a scene into its file. The file is there, whole, before the line that tells of it.
-    fn draw(&self, analysis: &Analysis, name: &str) -> Result<PictureOutcome, Complaint> {
+    fn draw(&self, analysis: &Analysis, name: &str) -> Result<PictureOutcome, CliError> {
         let name = format!("{name}.{}", self.format.ending());
         let legible = match self.picture.draws_words(self.format) {
             true => Arc::new(script::legible(&analysis.scene, &self.fonts)),
@@ -280,7 +280,7 @@ impl Drawn {
                 destination::write(&[file], Existing::Replace)?;
                 Ok(PictureOutcome::Drawn(name))
             }
-            Err(Complaint::CommandLine(why) | Complaint::NotWritten { why, .. }) => {
+            Err(CliError::CommandLine(why) | CliError::NotWritten { why, .. }) => {
                 Ok(PictureOutcome::Refused(why))
             }
             Err(other) => Err(other),
@@ -304,6 +304,6 @@ fn problem(code: Code, message: &str, help: &str) -> Problem {
 fn refused(origin: &Origin, problems: &[Problem]) -> Answer {
     Answer {
         line: problem_line(origin, problems),
-        ending: Ending::WrongInput,
+        ending: ExitStatus::WrongInput,
     }
 }

@@ -7,9 +7,9 @@ use clap::{Args, ValueEnum};
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 
 use crate::analysis::{Analysis, Ask, MarginKind, MarginKinds, Options};
-use crate::cli::complaint::Complaint;
-use crate::cli::ending::Ending;
-use crate::cli::level::Level;
+use crate::cli::complaint::CliError;
+use crate::cli::ending::ExitStatus;
+use crate::cli::level::AnalysisArgs;
 use crate::cli::page::Page;
 use crate::cli::progress::{Progress, Shown};
 use crate::cli::source::{self, FrameChoice};
@@ -54,7 +54,7 @@ pub(crate) struct Check {
     #[arg(long, value_name = "N")]
     frame: Option<FrameChoice>,
     #[command(flatten)]
-    level: Level,
+    level: AnalysisArgs,
 }
 
 /// A margin by the name it has in results.
@@ -112,7 +112,7 @@ fn is_list(word: &str) -> bool {
 }
 
 impl Check {
-    pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
         let outcomes = source::read_each(&self.scenes, self.frame, self.level.contact_tolerance)
             .map_err(|c| vec![c])?;
         // Programs get an object for every file, in its place; a person reads of what is wrong before anything else.
@@ -196,10 +196,10 @@ impl Check {
         };
         printed.map_err(|c| vec![c])?;
         let wrong = refused.iter().map(|(.., complaint)| complaint.ending());
-        Ok((analyses.iter().map(Ending::of))
+        Ok((analyses.iter().map(ExitStatus::of))
             .chain(wrong)
             .max()
-            .unwrap_or(Ending::Done))
+            .unwrap_or(ExitStatus::Done))
     }
 }
 

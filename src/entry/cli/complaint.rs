@@ -1,4 +1,4 @@
-//! [`Complaint`]: everything that can go wrong with a command, and how a person is shown it.
+//! [`CliError`]: everything that can go wrong with a command, and how a person is shown it.
 //!
 //! The only file that names ariadne. A problem of a scene is shown in the line of the file where it is; ariadne is handed
 //! that one line and nothing else, so that a long file costs no more than a short one.
@@ -8,10 +8,10 @@ use std::ops::Range;
 
 use ariadne::{Color, Config, Label, Report, ReportKind, Source};
 
-use crate::cli::ending::Ending;
+use crate::cli::ending::ExitStatus;
 use crate::cli::page::{Page, broken, seen};
 use crate::drawing::style;
-use crate::scene::{Code, Problem, Problems};
+use crate::scene::{Code, Problem, SceneError};
 use crate::text::line;
 
 /// So many problems of one file are shown; a file with more has one cause, and it is among the first.
@@ -25,13 +25,13 @@ const NARROWEST: usize = 12;
 
 /// Something that is wrong, and that ends the command.
 #[derive(Debug)]
-pub(crate) enum Complaint {
+pub(crate) enum CliError {
     /// A scene is wrong.
     Scene {
         /// The file's name.
         name: String,
         /// What is wrong with it.
-        problems: Problems,
+        problems: SceneError,
     },
     /// A style file is wrong.
     Style {
@@ -64,18 +64,18 @@ pub(crate) enum Complaint {
     },
 }
 
-impl Complaint {
+impl CliError {
     /// How the command ends for it.
-    pub(crate) fn ending(&self) -> Ending {
+    pub(crate) fn ending(&self) -> ExitStatus {
         match self {
-            Complaint::NotWritten { .. } => Ending::NotWritten,
-            Complaint::Scene { .. }
-            | Complaint::Style { .. }
-            | Complaint::NotRead { .. }
-            | Complaint::NoSuchFrame(_)
-            | Complaint::Drawing(_)
-            | Complaint::Book(_)
-            | Complaint::CommandLine(_) => Ending::WrongInput,
+            CliError::NotWritten { .. } => ExitStatus::NotWritten,
+            CliError::Scene { .. }
+            | CliError::Style { .. }
+            | CliError::NotRead { .. }
+            | CliError::NoSuchFrame(_)
+            | CliError::Drawing(_)
+            | CliError::Book(_)
+            | CliError::CommandLine(_) => ExitStatus::WrongInput,
         }
     }
 
@@ -94,11 +94,11 @@ impl Complaint {
             }]
         };
         match self {
-            Complaint::Scene { problems, .. } => problems.list.clone(),
-            Complaint::NoSuchFrame(what) => {
+            CliError::Scene { problems, .. } => problems.list.clone(),
+            CliError::NoSuchFrame(what) => {
                 alone(Code::NoSuchFrame, what.clone(), "give a smaller number")
             }
-            Complaint::NotRead { what, why } => alone(
+            CliError::NotRead { what, why } => alone(
                 Code::NotReadable,
                 format!("cannot read {what}: {why}"),
                 "check the path, and that the file may be read",
@@ -112,7 +112,7 @@ impl Complaint {
     pub(crate) fn page(&self, width: Option<usize>) -> Page {
         let mut page = Page::default();
         match self {
-            Complaint::Scene { name, problems } => {
+            CliError::Scene { name, problems } => {
                 page.block(&all(name, problems.text.as_deref(), &problems.list, width));
                 if problems.list.iter().any(|problem| problem.place.is_some()) {
                     page.line(
@@ -120,20 +120,20 @@ impl Complaint {
                     );
                 }
             }
-            Complaint::Style { name, problems } => {
+            CliError::Style { name, problems } => {
                 for problem in &problems.0 {
                     page.line(&format!("error: {name}: {problem}"));
                 }
             }
-            Complaint::NotRead { what, why } => {
+            CliError::NotRead { what, why } => {
                 page.line(&format!("error: cannot read {what}: {why}"));
             }
-            Complaint::Drawing(page) => return page.clone(),
-            Complaint::CommandLine(what) | Complaint::NoSuchFrame(what) => {
+            CliError::Drawing(page) => return page.clone(),
+            CliError::CommandLine(what) | CliError::NoSuchFrame(what) => {
                 page.line(&format!("error: {what}"));
                 page.ours("\nFor more information, try '--help'.\n");
             }
-            Complaint::Book(problems) => {
+            CliError::Book(problems) => {
                 for (number, problem) in problems.iter().enumerate() {
                     if number > 0 {
                         page.end();
@@ -142,7 +142,7 @@ impl Complaint {
                     page.block(problem);
                 }
             }
-            Complaint::NotWritten { what, why } => {
+            CliError::NotWritten { what, why } => {
                 page.line(&format!("error: cannot write {what}: {why}"));
             }
         }

@@ -4,8 +4,8 @@ use clap::{Args, CommandFactory};
 use clap_complete::Shell;
 
 use crate::cli::CommandLine;
-use crate::cli::complaint::Complaint;
-use crate::cli::ending::Ending;
+use crate::cli::complaint::CliError;
+use crate::cli::ending::ExitStatus;
 use crate::cli::terminal::Terminal;
 
 /// Print the completions for a shell
@@ -18,7 +18,7 @@ pub(crate) struct Completions {
 }
 
 impl Completions {
-    pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
         let mut bytes = Vec::new();
         clap_complete::generate(
             self.shell,
@@ -27,6 +27,6 @@ impl Completions {
             &mut bytes,
         );
         terminal.print_bytes(&bytes).map_err(|c| vec![c])?;
-        Ok(Ending::Done)
+        Ok(ExitStatus::Done)
     }
 }

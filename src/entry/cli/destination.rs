@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::cli::complaint::Complaint;
+use crate::cli::complaint::CliError;
 use crate::cli::picture::Format;
 use crate::output::file::{Existing, same, write_whole};
 
@@ -32,7 +32,7 @@ impl Destination {
     }
 
     /// The format the picture has there: that of the file's ending, which must agree with the one asked for.
-    pub(crate) fn format(&self, asked: Option<Format>) -> Result<Format, Complaint> {
+    pub(crate) fn format(&self, asked: Option<Format>) -> Result<Format, CliError> {
         let Destination::File(path) = self else {
             return Ok(asked.unwrap_or(Format::Svg));
         };
@@ -44,14 +44,14 @@ impl Destination {
             .find(|format| ending.as_deref() == Some(format.ending()));
         let Some(by_name) = by_name else {
             let shown = path.display();
-            return Err(Complaint::CommandLine(format!(
+            return Err(CliError::CommandLine(format!(
                 "{shown}: a picture is .svg, .png or .pdf; for a folder end its name with a slash"
             )));
         };
         match asked {
             Some(format) if format != by_name => {
                 let (shown, asked) = (path.display(), format.ending());
-                Err(Complaint::CommandLine(format!(
+                Err(CliError::CommandLine(format!(
                     "{shown} is not what --format {asked} makes; leave one of them out"
                 )))
             }
@@ -61,7 +61,7 @@ impl Destination {
 }
 
 /// Refuses outputs that would overwrite an input or one another, by whatever names or links.
-pub(crate) fn apart(outputs: &[PathBuf], inputs: &[&Path]) -> Result<(), Complaint> {
+pub(crate) fn apart(outputs: &[PathBuf], inputs: &[&Path]) -> Result<(), CliError> {
     // What a shell feeds into standard input is a file like any other, where the system has a name for it.
     let stdin = Path::new("/dev/stdin");
     let is_stdin = |input: &Path| input == Path::new("-");
@@ -76,13 +76,13 @@ pub(crate) fn apart(outputs: &[PathBuf], inputs: &[&Path]) -> Result<(), Complai
                 true => "standard input".to_owned(),
                 false => input.display().to_string(),
             };
-            return Err(Complaint::CommandLine(format!(
+            return Err(CliError::CommandLine(format!(
                 "the output {shown} and the input {input} are the same file; give the output another name"
             )));
         }
         let twice = |other: &&PathBuf| *other == output || same(other, output);
         if let Some(other) = outputs[..number].iter().find(twice) {
-            return Err(Complaint::CommandLine(format!(
+            return Err(CliError::CommandLine(format!(
                 "the outputs {} and {shown} are the same file; give one of them another name",
                 other.display()
             )));
@@ -92,16 +92,16 @@ pub(crate) fn apart(outputs: &[PathBuf], inputs: &[&Path]) -> Result<(), Complai
 }
 
 /// Writes all files or none.
-pub(crate) fn write(files: &[(PathBuf, Vec<u8>)], existing: Existing) -> Result<(), Complaint> {
-    write_whole(files, existing).map_err(|unwritten| Complaint::NotWritten {
+pub(crate) fn write(files: &[(PathBuf, Vec<u8>)], existing: Existing) -> Result<(), CliError> {
+    write_whole(files, existing).map_err(|unwritten| CliError::NotWritten {
         what: unwritten.path.display().to_string(),
         why: unwritten.why.to_string(),
     })
 }
 
 /// Makes a folder, and those above it, where there is none.
-pub(crate) fn make_folder(folder: &Path) -> Result<(), Complaint> {
-    fs::create_dir_all(folder).map_err(|error| Complaint::NotWritten {
+pub(crate) fn make_folder(folder: &Path) -> Result<(), CliError> {
+    fs::create_dir_all(folder).map_err(|error| CliError::NotWritten {
         what: folder.display().to_string(),
         why: error.to_string(),
     })

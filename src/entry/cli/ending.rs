@@ -1,4 +1,4 @@
-//! [`Ending`]: how a command ended, in the order in which the worse one wins.
+//! [`ExitStatus`]: how a command ended, in the order in which the worse one wins.
 
 use std::process::ExitCode;
 
@@ -6,7 +6,7 @@ use crate::analysis::{Analysis, Verdict};
 
 /// How a command ended. The greater is the one that is reported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Ending {
+pub(crate) enum ExitStatus {
     /// Done, and everything that was asked about is stable.
     Done,
     /// Done; nothing is unstable, and some frame is undecided.
@@ -19,10 +19,10 @@ pub(crate) enum Ending {
     WrongInput,
 }
 
-impl Ending {
+impl ExitStatus {
     /// What the frames of an analysis come to.
-    pub(crate) fn of(analysis: &Analysis) -> Ending {
-        Ending::from(analysis.verdict())
+    pub(crate) fn of(analysis: &Analysis) -> ExitStatus {
+        ExitStatus::from(analysis.verdict())
     }
 
     /// The process's exit code.
@@ -32,21 +32,21 @@ impl Ending {
 
     fn number(self) -> u8 {
         match self {
-            Ending::Done => 0,
-            Ending::Unstable => 1,
-            Ending::WrongInput => 2,
-            Ending::Undecided => 3,
-            Ending::NotWritten => 4,
+            ExitStatus::Done => 0,
+            ExitStatus::Unstable => 1,
+            ExitStatus::WrongInput => 2,
+            ExitStatus::Undecided => 3,
+            ExitStatus::NotWritten => 4,
         }
     }
 }
 
-impl From<Verdict> for Ending {
-    fn from(verdict: Verdict) -> Ending {
+impl From<Verdict> for ExitStatus {
+    fn from(verdict: Verdict) -> ExitStatus {
         match verdict {
-            Verdict::Stable => Ending::Done,
-            Verdict::Undecided => Ending::Undecided,
-            Verdict::Unstable => Ending::Unstable,
+            Verdict::Stable => ExitStatus::Done,
+            Verdict::Undecided => ExitStatus::Undecided,
+            Verdict::Unstable => ExitStatus::Unstable,
         }
     }
 }
@@ -58,13 +58,13 @@ mod tests {
     #[test]
     fn the_worst_is_told_in_the_order_2_4_1_3_0() {
         let mut all = [
-            Ending::Done,
-            Ending::Unstable,
-            Ending::WrongInput,
-            Ending::Undecided,
-            Ending::NotWritten,
+            ExitStatus::Done,
+            ExitStatus::Unstable,
+            ExitStatus::WrongInput,
+            ExitStatus::Undecided,
+            ExitStatus::NotWritten,
         ];
         all.sort();
-        assert_eq!(all.map(Ending::number), [0, 3, 1, 4, 2]);
+        assert_eq!(all.map(ExitStatus::number), [0, 3, 1, 4, 2]);
     }
 }

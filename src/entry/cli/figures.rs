@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 
-use crate::cli::complaint::Complaint;
+use crate::cli::complaint::CliError;
 use crate::cli::destination;
-use crate::cli::ending::Ending;
-use crate::cli::look::Look;
+use crate::cli::ending::ExitStatus;
+use crate::cli::look::StyleArgs;
 use crate::cli::picture::Format;
 use crate::cli::terminal::Terminal;
 use crate::figure::{self, Plate};
@@ -26,21 +26,21 @@ pub(crate) struct Figures {
     #[arg(long, value_enum, value_name = "FORMAT")]
     format: Option<Format>,
     #[command(flatten)]
-    look: Look,
+    look: StyleArgs,
 }
 
 /// Where files go, and what is in them.
 type Files = Vec<(PathBuf, Vec<u8>)>;
 
 impl Figures {
-    pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
         let theme = self.look.theme().map_err(|c| vec![c])?;
         let plates = figure::gallery(&theme);
         let formats: Vec<Format> = match self.format {
             Some(format) => vec![format],
             None => vec![Format::Svg, Format::Png, Format::Pdf],
         };
-        let drawn: Vec<Result<Files, Complaint>> = plates
+        let drawn: Vec<Result<Files, CliError>> = plates
             .par_iter()
             .map(|plate| files(plate, &formats, &self.output))
             .collect();
@@ -68,12 +68,12 @@ impl Figures {
             self.output.display(),
             plates.len()
         ));
-        Ok(Ending::Done)
+        Ok(ExitStatus::Done)
     }
 }
 
-fn files(plate: &Plate, formats: &[Format], folder: &Path) -> Result<Files, Complaint> {
-    let failed = |error: &dyn std::error::Error| Complaint::NotWritten {
+fn files(plate: &Plate, formats: &[Format], folder: &Path) -> Result<Files, CliError> {
+    let failed = |error: &dyn std::error::Error| CliError::NotWritten {
         what: plate.name.to_owned(),
         why: error.to_string(),
     };

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
-use crate::cli::complaint::Complaint;
+use crate::cli::complaint::CliError;
 use crate::cli::destination;
-use crate::cli::ending::Ending;
+use crate::cli::ending::ExitStatus;
 use crate::cli::page::Page;
 use crate::cli::source::FrameChoice;
 use crate::cli::terminal::Terminal;
@@ -84,16 +84,16 @@ enum WrittenIn {
 }
 
 impl Import {
-    pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
         let stdout = Path::new("-");
         let file = self.output.as_deref().filter(|path| *path != stdout);
         if self.json && file.is_none() {
             let why = "--json and the scene cannot both go to standard output; give the scene a file with -o";
-            return Err(vec![Complaint::CommandLine(why.into())]);
+            return Err(vec![CliError::CommandLine(why.into())]);
         }
         if let Some(file) = file.filter(|f| f.is_dir()) {
             let why = format!("{} is a folder; name the scene file in it", file.display());
-            return Err(vec![Complaint::CommandLine(why)]);
+            return Err(vec![CliError::CommandLine(why)]);
         }
         if let Some(file) = file {
             destination::apart(&[file.to_owned()], &[&self.drawing]).map_err(|c| vec![c])?;
@@ -133,10 +133,10 @@ impl Import {
             let json = import_json(&imported);
             terminal.print_bytes(json.as_bytes()).map_err(|c| vec![c])?;
         }
-        Ok(Ending::Done)
+        Ok(ExitStatus::Done)
     }
 
-    fn format(&self) -> Result<Format, Complaint> {
+    fn format(&self) -> Result<Format, CliError> {
         if let Some(format) = self.format {
             return Ok(match format {
                 WrittenIn::Svg => Format::Svg,
@@ -152,29 +152,29 @@ impl Import {
             Some("svg") => Ok(Format::Svg),
             Some("geojson" | "json") => Ok(Format::GeoJson),
             Some("wkt") => Ok(Format::Wkt),
-            Some("svgz") => Err(Complaint::CommandLine(format!(
+            Some("svgz") => Err(CliError::CommandLine(format!(
                 "{} is packed; unpack it first: gunzip -c drawing.svgz > drawing.svg",
                 self.drawing.display()
             ))),
-            _ => Err(Complaint::CommandLine(format!(
+            _ => Err(CliError::CommandLine(format!(
                 "the name {} does not tell what the drawing is written in; say --format svg, geojson or wkt",
                 self.drawing.display()
             ))),
         }
     }
 
-    fn text(&self, name: &str) -> Result<String, Complaint> {
+    fn text(&self, name: &str) -> Result<String, CliError> {
         let bytes = if self.drawing == Path::new("-") {
             let mut bytes = Vec::new();
             io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes)
         } else {
             fs::read(&self.drawing)
         };
-        let bytes = bytes.map_err(|error| Complaint::NotRead {
+        let bytes = bytes.map_err(|error| CliError::NotRead {
             what: name.into(),
             why: error.to_string(),
         })?;
-        String::from_utf8(bytes).map_err(|error| Complaint::NotRead {
+        String::from_utf8(bytes).map_err(|error| CliError::NotRead {
             what: name.into(),
             why: format!(
                 "it is no UTF-8 text, from byte {} on; save it as plain UTF-8",
@@ -247,8 +247,8 @@ impl Import {
     }
 }
 
-fn refused(name: &str, problems: &[Remark]) -> Vec<Complaint> {
-    let complaint = |remark: &Remark| Complaint::Drawing(remark_page("error", name, remark));
+fn refused(name: &str, problems: &[Remark]) -> Vec<CliError> {
+    let complaint = |remark: &Remark| CliError::Drawing(remark_page("error", name, remark));
     problems.iter().map(complaint).collect()
 }
 

@@ -1,4 +1,4 @@
-//! [`Level`]: what an analysis is asked, the part that `check` and `render` share.
+//! [`AnalysisArgs`]: what an analysis is asked, the part that `check` and `render` share.
 
 use std::time::{Duration, Instant};
 
@@ -8,7 +8,7 @@ use crate::analysis::{Accuracy, Ask, Options};
 
 /// How accurate, and whether by wedging.
 #[derive(Clone, Copy, Debug, Args)]
-pub(crate) struct Level {
+pub(crate) struct AnalysisArgs {
     /// draft: any balance, soon. standard: the unique forces. proved: no verdict without a hundred times better proof
     #[arg(long, value_enum, value_name = "LEVEL", default_value = "standard")]
     accuracy: Name,
@@ -31,7 +31,7 @@ enum Name {
     Proved,
 }
 
-impl Level {
+impl AnalysisArgs {
     /// What an analysis is asked; a limit of time counts from here.
     pub(crate) fn options(self) -> Options {
         let accuracy = match self.accuracy {

@@ -1,4 +1,4 @@
-//! [`Look`]: colours, widths and sizes, the part that `render` and `shapes` share.
+//! [`StyleArgs`]: colours, widths and sizes, the part that `render` and `shapes` share.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -6,13 +6,13 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 
-use crate::cli::complaint::Complaint;
+use crate::cli::complaint::CliError;
 use crate::drawing::Theme;
 use crate::drawing::style::format::Notation;
 
 /// The theme and what is to differ from it.
 #[derive(Clone, Debug, Args)]
-pub(crate) struct Look {
+pub(crate) struct StyleArgs {
     /// Colours: the source's, for print also in grey, for all sorts of colour vision, or on a dark page [default: thesis]
     #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(Theme::NAMES))]
     theme: Option<String>,
@@ -21,7 +21,7 @@ pub(crate) struct Look {
     style: Option<PathBuf>,
 }
 
-impl Look {
+impl StyleArgs {
     /// The style file, where there is one.
     pub(crate) fn file(&self) -> Option<&Path> {
         self.style.as_deref()
@@ -38,7 +38,7 @@ impl Look {
     }
 
     /// The theme asked for.
-    pub(crate) fn theme(&self) -> Result<Theme, Complaint> {
+    pub(crate) fn theme(&self) -> Result<Theme, CliError> {
         let base = self.theme.as_deref().and_then(Theme::named);
         match &self.style {
             None => Ok(base.unwrap_or_default()),
@@ -47,7 +47,7 @@ impl Look {
     }
 }
 
-fn read(path: &Path, base: Option<&Theme>) -> Result<Theme, Complaint> {
+fn read(path: &Path, base: Option<&Theme>) -> Result<Theme, CliError> {
     let name = path.display().to_string();
     let ending = path
         .extension()
@@ -56,15 +56,15 @@ fn read(path: &Path, base: Option<&Theme>) -> Result<Theme, Complaint> {
         Some("json") => Notation::Json,
         Some("toml") => Notation::Toml,
         _ => {
-            return Err(Complaint::CommandLine(format!(
+            return Err(CliError::CommandLine(format!(
                 "--style {name}: a style file ends in .json or .toml; whether normal and friction force are drawn apart \
                  is said by --arrows"
             )));
         }
     };
-    let text = fs::read_to_string(path).map_err(|error| Complaint::NotRead {
+    let text = fs::read_to_string(path).map_err(|error| CliError::NotRead {
         what: name.clone(),
         why: error.to_string(),
     })?;
-    Theme::read(&text, notation, base).map_err(|problems| Complaint::Style { name, problems })
+    Theme::read(&text, notation, base).map_err(|problems| CliError::Style { name, problems })
 }

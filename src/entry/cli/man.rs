@@ -6,9 +6,9 @@ use clap::{Args, Command, CommandFactory};
 use clap_mangen::Man;
 
 use crate::cli::CommandLine;
-use crate::cli::complaint::Complaint;
+use crate::cli::complaint::CliError;
 use crate::cli::destination;
-use crate::cli::ending::Ending;
+use crate::cli::ending::ExitStatus;
 use crate::cli::terminal::Terminal;
 use crate::output::file::Existing;
 
@@ -23,13 +23,13 @@ pub(crate) struct Manual {
 }
 
 impl Manual {
-    pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
         let mut pages = Vec::new();
         let mut command = CommandLine::command();
         command.build();
         collect(&command, &mut pages).map_err(|error| {
             let what = self.folder.display().to_string();
-            vec![Complaint::NotWritten {
+            vec![CliError::NotWritten {
                 what,
                 why: error.to_string(),
             }]
@@ -44,7 +44,7 @@ impl Manual {
             files.len(),
             self.folder.display()
         ));
-        Ok(Ending::Done)
+        Ok(ExitStatus::Done)
     }
 }
 

@@ -4,8 +4,8 @@ use std::io::{self, Read};
 
 use clap::{Args, Subcommand};
 
-use crate::cli::complaint::Complaint;
-use crate::cli::ending::Ending;
+use crate::cli::complaint::CliError;
+use crate::cli::ending::ExitStatus;
 use crate::cli::terminal::Terminal;
 use crate::report::book;
 
@@ -30,12 +30,12 @@ enum Question {
 }
 
 impl MdBook {
-    pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
         if let Some(Question::Supports { renderer }) = &self.question {
             return Ok(if renderer == "html" {
-                Ending::Done
+                ExitStatus::Done
             } else {
-                Ending::Unstable
+                ExitStatus::Unstable
             });
         }
         let mut input = String::new();
@@ -43,16 +43,16 @@ impl MdBook {
             .lock()
             .read_to_string(&mut input)
             .map_err(|error| {
-                vec![Complaint::NotRead {
+                vec![CliError::NotRead {
                     what: "standard input".into(),
                     why: error.to_string(),
                 }]
             })?;
         let drawn =
-            book::illustrate(&input).map_err(|problems| vec![Complaint::Book(problems.0)])?;
+            book::illustrate(&input).map_err(|problems| vec![CliError::Book(problems.0)])?;
         terminal
             .print_bytes(drawn.as_bytes())
             .map_err(|c| vec![c])?;
-        Ok(Ending::Done)
+        Ok(ExitStatus::Done)
     }
 }

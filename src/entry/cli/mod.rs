@@ -50,9 +50,9 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use crate::cli::complaint::Complaint;
-use crate::cli::ending::Ending;
-use crate::cli::terminal::{Terminal, Voice};
+use crate::cli::complaint::CliError;
+use crate::cli::ending::ExitStatus;
+use crate::cli::terminal::{Terminal, OutputArgs};
 
 const BEFORE_YOU_TRUST_IT: &str = "\
 A verdict of 'stands' says that a balance of forces exists: for rigid blocks, laid dry (no cohesion), at rest. A balance \
@@ -67,7 +67,7 @@ end with 0 once it is written, unless --strict.";
 #[command(name = "drystone", version, arg_required_else_help = true, max_term_width = 80, after_long_help = BEFORE_YOU_TRUST_IT)]
 struct CommandLine {
     #[command(flatten)]
-    voice: Voice,
+    voice: OutputArgs,
     #[command(subcommand)]
     command: Command,
 }
@@ -126,12 +126,12 @@ pub fn run() -> ExitCode {
 }
 
 /// How it ended when only help, the version or a complaint of the command line was to be printed.
-fn refused(error: &clap::Error, printed: io::Result<()>) -> Ending {
+fn refused(error: &clap::Error, printed: io::Result<()>) -> ExitStatus {
     if error.use_stderr() {
-        return Ending::WrongInput;
+        return ExitStatus::WrongInput;
     }
     match terminal::written(printed) {
-        Ok(()) => Ending::Done,
+        Ok(()) => ExitStatus::Done,
         Err(complaint) => {
             // Standard error may be as full as standard output; then the exit code alone tells.
             let page = complaint.page(terminal::error_width());
@@ -141,13 +141,13 @@ fn refused(error: &clap::Error, printed: io::Result<()>) -> Ending {
     }
 }
 
-fn complain(terminal: &Terminal, complaints: &[Complaint]) -> Ending {
+fn complain(terminal: &Terminal, complaints: &[CliError]) -> ExitStatus {
     for complaint in complaints {
         terminal.refuse(complaint);
     }
     complaints
         .iter()
-        .map(Complaint::ending)
+        .map(CliError::ending)
         .max()
-        .unwrap_or(Ending::Done)
+        .unwrap_or(ExitStatus::Done)
 }

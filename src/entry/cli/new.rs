@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use clap::builder::RangedU64ValueParser;
 use clap::{Args, Subcommand};
 
-use crate::cli::complaint::Complaint;
+use crate::cli::complaint::CliError;
 use crate::cli::destination;
-use crate::cli::ending::Ending;
+use crate::cli::ending::ExitStatus;
 use crate::cli::terminal::Terminal;
 use crate::output::file::Existing;
 use crate::starter::{Arch, Doorway, LatticePile, Tower, Wall};
@@ -206,7 +206,7 @@ impl Structure {
 }
 
 impl New {
-    pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
         let text = match &self.kind {
             Some(kind) => kind.text(),
             None => crate::scene::starter().to_owned(),
@@ -220,10 +220,10 @@ impl New {
             Some(path) => self.write(path, &text, terminal),
         }
         .map_err(|c| vec![c])?;
-        Ok(Ending::Done)
+        Ok(ExitStatus::Done)
     }
 
-    fn write(&self, path: &Path, text: &str, terminal: &Terminal) -> Result<(), Complaint> {
+    fn write(&self, path: &Path, text: &str, terminal: &Terminal) -> Result<(), CliError> {
         let shown = path.display();
         let existing = if self.force {
             Existing::Replace

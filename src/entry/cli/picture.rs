@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use crate::cli::complaint::Complaint;
+use crate::cli::complaint::CliError;
 use crate::drawing::{Colour, Drawing};
 use crate::output::fonts::Fonts;
 use crate::output::pdf::{self, PdfError};
@@ -130,7 +130,7 @@ impl Picture {
     }
 
     /// Refuses what a format does not have.
-    pub(crate) fn check(&self, format: Format) -> Result<(), Complaint> {
+    pub(crate) fn check(&self, format: Format) -> Result<(), CliError> {
         let mut wrong = Vec::new();
         if format != Format::Png && (self.width.is_some() || self.scale.is_some()) {
             wrong.push(
@@ -148,7 +148,7 @@ impl Picture {
         if wrong.is_empty() {
             Ok(())
         } else {
-            Err(Complaint::CommandLine(wrong.join("\n")))
+            Err(CliError::CommandLine(wrong.join("\n")))
         }
     }
 
@@ -170,7 +170,7 @@ impl Picture {
         drawing: Drawing,
         format: Format,
         fonts: &Fonts,
-    ) -> Result<Vec<u8>, Complaint> {
+    ) -> Result<Vec<u8>, CliError> {
         let drawing = self.on_page(drawing);
         match format {
             Format::Svg => svg::write_with(&drawing, &self.svg_options(fonts))
@@ -181,8 +181,8 @@ impl Picture {
             Format::Tikz => Ok(tikz::write(&drawing, self.width_mm).into_bytes()),
             Format::Pdf => {
                 pdf::write_in(&drawing, self.width_mm, fonts).map_err(|error| match error {
-                    PdfError::Size { .. } => Complaint::CommandLine(error.to_string()),
-                    PdfError::Unwritable(_) => unwritten(&error),
+                    PdfError::Size { .. } => CliError::CommandLine(error.to_string()),
+                    PdfError::ReportError(_) => unwritten(&error),
                 })
             }
         }
@@ -194,7 +194,7 @@ impl Picture {
         drawings: Vec<Drawing>,
         seconds: f64,
         fonts: &Fonts,
-    ) -> Result<Vec<u8>, Complaint> {
+    ) -> Result<Vec<u8>, CliError> {
         if let Some(drawing) = drawings.first() {
             png::check(drawing.width, drawing.height, self.size())
                 .map_err(|error| not_drawn(&error))?;
@@ -218,22 +218,22 @@ impl Picture {
     }
 
     /// Refuses a PNG of at least this width and height of its drawing.
-    pub(crate) fn check_png(&self, (width, height): (f64, f64)) -> Result<(), Complaint> {
+    pub(crate) fn check_png(&self, (width, height): (f64, f64)) -> Result<(), CliError> {
         png::check(width, height, self.size()).map_err(|error| not_drawn(&error))
     }
 
     /// Our fonts and those asked for.
-    pub(crate) fn fonts(&self) -> Result<Fonts, Complaint> {
+    pub(crate) fn fonts(&self) -> Result<Fonts, CliError> {
         let mut files = Vec::new();
         for path in &self.fonts {
-            files.push(fs::read(path).map_err(|error| Complaint::NotRead {
+            files.push(fs::read(path).map_err(|error| CliError::NotRead {
                 what: path.display().to_string(),
                 why: error.to_string(),
             })?);
         }
         Fonts::with(files).map_err(|number| {
             let name = self.fonts[number].display();
-            Complaint::CommandLine(format!(
+            CliError::CommandLine(format!(
                 "--font {name}: it is no font; give a .ttf, .otf or .ttc file"
             ))
         })
@@ -276,24 +276,24 @@ impl Picture {
 }
 
 /// A complaint about the size of a figure, with the way out that a figure of several steps has.
-pub(super) fn or_split(complaint: Complaint, steps: usize) -> Complaint {
+pub(super) fn or_split(complaint: CliError, steps: usize) -> CliError {
     match complaint {
-        Complaint::CommandLine(why) if steps > 1 => Complaint::CommandLine(format!(
+        CliError::CommandLine(why) if steps > 1 => CliError::CommandLine(format!(
             "{why}; or split its {steps} steps: --pages writes pages, --panels a file for each"
         )),
         other => other,
     }
 }
 
-fn not_drawn(error: &PngError) -> Complaint {
+fn not_drawn(error: &PngError) -> CliError {
     match error {
-        PngError::Size { .. } => Complaint::CommandLine(error.to_string()),
+        PngError::Size { .. } => CliError::CommandLine(error.to_string()),
         _ => unwritten(error),
     }
 }
 
-fn unwritten(error: &dyn std::error::Error) -> Complaint {
-    Complaint::NotWritten {
+fn unwritten(error: &dyn std::error::Error) -> CliError {
+    CliError::NotWritten {
         what: "the picture".into(),
         why: error.to_string(),
     }

@@ -14,11 +14,11 @@ use choice::{ArrowScale, Arrows, Fill, KindChoice, Margin, Normalise};
 use target::{part_path, paths};
 
 use crate::analysis::{self, Analysis, Verdict};
-use crate::cli::complaint::Complaint;
+use crate::cli::complaint::CliError;
 use crate::cli::destination::{self, Destination};
-use crate::cli::ending::Ending;
-use crate::cli::level::Level;
-use crate::cli::look::Look;
+use crate::cli::ending::ExitStatus;
+use crate::cli::level::AnalysisArgs;
+use crate::cli::look::StyleArgs;
 use crate::cli::picture::{Format, Picture, or_split};
 use crate::cli::progress::{Progress, Shown};
 use crate::cli::script;
@@ -45,7 +45,7 @@ pub(crate) struct Render {
     #[command(flatten)]
     picture: Picture,
     #[command(flatten)]
-    look: Look,
+    look: StyleArgs,
     /// One resulting arrow per interface and block, or its normal and friction apart
     #[arg(long, value_enum, default_value = "resultant")]
     arrows: Arrows,
@@ -119,7 +119,7 @@ pub(crate) struct Render {
     #[arg(long)]
     strict: bool,
     #[command(flatten)]
-    level: Level,
+    level: AnalysisArgs,
 }
 
 /// A strip of more frames than this may be too large for a PNG.
@@ -131,7 +131,7 @@ const TALL: f64 = 1.02;
 struct Rendered {
     /// One for each file; more than one where each panel has its own.
     bytes: Vec<Vec<u8>>,
-    ending: Ending,
+    ending: ExitStatus,
     summary: String,
 }
 
@@ -143,21 +143,21 @@ fn seconds(typed: &str) -> Result<f64, String> {
 }
 
 impl Render {
-    pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
         if !self.watch {
             return self.once(terminal);
         }
         let mut files = source::files(&self.scenes).map_err(|c| vec![c])?;
         if files.iter().any(|file| file == Path::new("-")) {
             let why = "--watch looks at files; standard input (-) cannot be saved again";
-            return Err(vec![Complaint::CommandLine(why.into())]);
+            return Err(vec![CliError::CommandLine(why.into())]);
         }
         files.extend(self.look.file().map(Path::to_path_buf));
         watch::repeat(&files, terminal, || self.once(terminal))
     }
 
     /// Draws everything once.
-    fn once(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
+    fn once(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
         let destination = Destination::of(&self.output);
         let format = destination
             .format(self.picture.asked())
@@ -165,27 +165,27 @@ impl Render {
         self.picture.check(format).map_err(|c| vec![c])?;
         if self.block.is_some() && !matches!(self.kind, KindChoice::Freebody) {
             let why = "--block names the block of a free-body diagram; add --kind freebody";
-            return Err(vec![Complaint::CommandLine(why.into())]);
+            return Err(vec![CliError::CommandLine(why.into())]);
         }
         if self.corners && !matches!(self.kind, KindChoice::Freebody) {
             let why = "--corners is about the forces of a free-body diagram; add --kind freebody";
-            return Err(vec![Complaint::CommandLine(why.into())]);
+            return Err(vec![CliError::CommandLine(why.into())]);
         }
         if self.animate.is_some() && (format != Format::Png || self.kind.panels().is_none()) {
             let why = "--animate makes a PNG of the frames of a figure; write a .png, of any kind but freebody";
-            return Err(vec![Complaint::CommandLine(why.into())]);
+            return Err(vec![CliError::CommandLine(why.into())]);
         }
         let scenes = source::files(&self.scenes).map_err(|c| vec![c])?;
         self.check_count(&scenes, &destination, format, terminal)
             .map_err(|c| vec![c])?;
         if self.margin.is_some() && !matches!(self.kind, KindChoice::Margin) {
             let why = "--margin is about the direction of a margin; add --kind margin";
-            return Err(vec![Complaint::CommandLine(why.into())]);
+            return Err(vec![CliError::CommandLine(why.into())]);
         }
         let parts = self.panels || self.pages;
         if parts && (self.kind.panels().is_none() || matches!(destination, Destination::Stdout)) {
             let why = "--panels and --pages write the parts of a figure to files; give a file or folder, and any kind but freebody";
-            return Err(vec![Complaint::CommandLine(why.into())]);
+            return Err(vec![CliError::CommandLine(why.into())]);
         }
         let fonts = self.picture.fonts().map_err(|c| vec![c])?;
         if self.broken {
@@ -217,7 +217,7 @@ impl Render {
         if matches!(self.kind, KindChoice::Margin) {
             asked.margins = analysis::Ask::Yes;
         }
-        let rendered: Vec<Result<Rendered, Complaint>> = match &sources[..] {
+        let rendered: Vec<Result<Rendered, CliError>> = match &sources[..] {
             [before, after] if self.joins(scenes.len(), &destination) => {
                 vec![self.compared([before, after], &asked, &options, format, &fonts)]
             }
@@ -233,7 +233,7 @@ impl Render {
             .iter()
             .map(|r| r.ending)
             .max()
-            .unwrap_or(Ending::Done);
+            .unwrap_or(ExitStatus::Done);
         let summaries: Vec<String> = rendered.iter().map(|r| r.summary.clone()).collect();
         let bytes = rendered.into_iter().map(|r| r.bytes);
         if self.picture.draws_words(format) {
@@ -267,7 +267,7 @@ impl Render {
                 terminal.note(&format!("{}: {summary}", path.display()));
             }
         }
-        Ok(if self.strict { ending } else { Ending::Done })
+        Ok(if self.strict { ending } else { ExitStatus::Done })
     }
 
     /// What can be refused before any scene is read.
@@ -277,11 +277,11 @@ impl Render {
         destination: &Destination,
         format: Format,
         terminal: &Terminal,
-    ) -> Result<(), Complaint> {
+    ) -> Result<(), CliError> {
         if self.joins(scenes.len(), destination) {
             return match (destination, format.unreadable()) {
                 (Destination::Stdout, Some(why)) if terminal.is_watched() => {
-                    Err(Complaint::CommandLine(why))
+                    Err(CliError::CommandLine(why))
                 }
                 _ => Ok(()),
             };
@@ -302,7 +302,7 @@ impl Render {
             },
             _ => return Ok(()),
         };
-        Err(Complaint::CommandLine(why))
+        Err(CliError::CommandLine(why))
     }
 
     fn render(
@@ -313,11 +313,11 @@ impl Render {
         format: Format,
         fonts: &Fonts,
         progress: &Progress,
-    ) -> Result<Rendered, Complaint> {
+    ) -> Result<Rendered, CliError> {
         progress.doing(&source.name());
         let mut options = options.clone();
         if let Some(name) = &self.zoom {
-            let wrong = |why| Complaint::CommandLine(format!("{}: {why}", source.name()));
+            let wrong = |why| CliError::CommandLine(format!("{}: {why}", source.name()));
             options.zoom = Some(self.found(&source.scene, name).map_err(wrong)?);
         }
         let options = &options;
@@ -371,7 +371,7 @@ impl Render {
         progress.step();
         Ok(Rendered {
             bytes,
-            ending: Ending::of(&analysis),
+            ending: ExitStatus::of(&analysis),
             summary,
         })
     }
@@ -381,13 +381,13 @@ impl Render {
         source: &Source,
         analysis: &Analysis,
         options: &figure::Options,
-    ) -> Result<Drawing, Complaint> {
+    ) -> Result<Drawing, CliError> {
         if let Some(kind) = self.kind.panels() {
             return Ok(figure::draw(analysis, kind, options));
         }
         let (frame, block) = self
             .cut_free(&source.scene)
-            .map_err(|why| Complaint::CommandLine(format!("{}: {why}", source.name())))?;
+            .map_err(|why| CliError::CommandLine(format!("{}: {why}", source.name())))?;
         let drawing = figure::freebody(analysis, frame, block, options);
         Ok(drawing.expect("the block was found in this frame"))
     }
@@ -454,7 +454,7 @@ impl Render {
 }
 
 /// Every result, or every complaint.
-fn all<T>(results: Vec<Result<T, Complaint>>) -> Result<Vec<T>, Vec<Complaint>> {
+fn all<T>(results: Vec<Result<T, CliError>>) -> Result<Vec<T>, Vec<CliError>> {
     let mut good = Vec::with_capacity(results.len());
     let mut complaints = Vec::new();
     for result in results {

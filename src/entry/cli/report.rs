@@ -7,18 +7,18 @@ use clap::Args;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 
 use crate::analysis::{self, Analysis, Ask};
-use crate::cli::complaint::Complaint;
+use crate::cli::complaint::CliError;
 use crate::cli::destination;
-use crate::cli::ending::Ending;
-use crate::cli::level::Level;
-use crate::cli::look::Look;
+use crate::cli::ending::ExitStatus;
+use crate::cli::level::AnalysisArgs;
+use crate::cli::look::StyleArgs;
 use crate::cli::progress::{Progress, Shown};
 use crate::cli::script;
 use crate::cli::source::{self, Source};
 use crate::cli::terminal::Terminal;
 use crate::output::file::Existing;
 use crate::output::fonts::Fonts;
-use crate::report::entry::{Entry, File, Side, Wanted, compared};
+use crate::report::entry::{Entry, File, Side, ReportOptions, compared};
 use crate::report::page::{Form, Piece, Refused, Report as Page};
 use crate::result::Timing;
 use crate::study::{TOLERANCES, study};
@@ -55,13 +55,13 @@ pub(crate) struct Report {
     #[arg(long)]
     strict: bool,
     #[command(flatten)]
-    look: Look,
+    look: StyleArgs,
     #[command(flatten)]
-    level: Level,
+    level: AnalysisArgs,
 }
 
 /// What became of a file or of two: its piece and how it ended, or the files that are no scenes.
-type Made = Result<(Piece, Ending), Vec<(Refused, Complaint)>>;
+type Made = Result<(Piece, ExitStatus), Vec<(Refused, CliError)>>;
 
 /// A scene of which a report tells, or two that it compares.
 enum Task {
@@ -70,7 +70,7 @@ enum Task {
 }
 
 impl Report {
-    pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
         let form = self.form().map_err(|c| vec![c])?;
         let theme = self.look.theme().map_err(|c| vec![c])?;
         let (tasks, mut notes) = self.tasks()?;
@@ -82,7 +82,7 @@ impl Report {
         let style: Vec<&Path> = self.look.file().into_iter().collect();
         let all: Vec<&Path> = inputs.iter().copied().chain(style).collect();
         destination::apart(&[main], &all).map_err(|c| vec![c])?;
-        let wanted = Wanted {
+        let wanted = ReportOptions {
             theme,
             theme_name: self.look.name().map(str::to_owned),
             timing: if self.timing {
@@ -108,7 +108,7 @@ impl Report {
             progress.step();
             made
         };
-        let made: Vec<Result<Made, Complaint>> = if self.accuracy_study {
+        let made: Vec<Result<Made, CliError>> = if self.accuracy_study {
             // Scenes beside each other would take each other's time.
             numbered.iter().map(one).collect()
         } else {
@@ -118,7 +118,7 @@ impl Report {
         let mut pieces = Vec::new();
         let mut refused = Vec::new();
         let mut complaints = Vec::new();
-        let mut ending = Ending::Done;
+        let mut ending = ExitStatus::Done;
         for made in made {
             match made.map_err(|c| vec![c])? {
                 Ok((piece, ended)) => {
@@ -158,13 +158,13 @@ impl Report {
         self.write(report, form).map_err(|c| vec![c])?;
         terminal.note(&format!("{}: {words}", self.output.display()));
         Ok(match (complaints.is_empty(), self.strict) {
-            (false, _) => Ending::WrongInput,
+            (false, _) => ExitStatus::WrongInput,
             (true, true) => ending,
-            (true, false) => Ending::Done,
+            (true, false) => ExitStatus::Done,
         })
     }
 
-    fn form(&self) -> Result<Form, Complaint> {
+    fn form(&self) -> Result<Form, CliError> {
         let shown = self.output.display();
         let ending = self
             .output
@@ -180,13 +180,13 @@ impl Report {
                 let why = format!(
                     "{shown}: a report is .html, .md, .pdf or .json, or a folder with --split"
                 );
-                return Err(Complaint::CommandLine(why));
+                return Err(CliError::CommandLine(why));
             }
         };
         if self.split {
             let why =
                 format!("{shown}: --split writes many pages; give a folder, without an ending");
-            return Err(Complaint::CommandLine(why));
+            return Err(CliError::CommandLine(why));
         }
         Ok(form)
     }
@@ -208,13 +208,13 @@ impl Report {
     }
 
     /// The scenes to tell of, and what is to be reported of files that have no counterpart.
-    fn tasks(&self) -> Result<(Vec<Task>, Vec<String>), Vec<Complaint>> {
+    fn tasks(&self) -> Result<(Vec<Task>, Vec<String>), Vec<CliError>> {
         if self.compare {
             return self.pairs();
         }
         if self.scenes.iter().filter(|p| *p == Path::new("-")).count() > 1 {
             let why = "standard input (-) can be read only once";
-            return Err(vec![Complaint::CommandLine(why.into())]);
+            return Err(vec![CliError::CommandLine(why.into())]);
         }
         let mut tasks = Vec::new();
         let mut complaints = Vec::new();
@@ -226,7 +226,7 @@ impl Report {
             match below(path) {
                 Ok(files) if files.is_empty() => {
                     let why = format!("{}: there is no .json file in this folder", path.display());
-                    complaints.push(Complaint::CommandLine(why));
+                    complaints.push(CliError::CommandLine(why));
                 }
                 Ok(files) => tasks.extend(files.into_iter().map(Task::One)),
                 Err(complaint) => complaints.push(complaint),
@@ -239,8 +239,8 @@ impl Report {
         }
     }
 
-    fn pairs(&self) -> Result<(Vec<Task>, Vec<String>), Vec<Complaint>> {
-        let refuse = |why: &str| vec![Complaint::CommandLine(why.into())];
+    fn pairs(&self) -> Result<(Vec<Task>, Vec<String>), Vec<CliError>> {
+        let refuse = |why: &str| vec![CliError::CommandLine(why.into())];
         let [a, b] = self.scenes.as_slice() else {
             return Err(refuse(
                 "--compare takes two scenes, or two folders of scenes",
@@ -287,9 +287,9 @@ impl Report {
         task: &Task,
         number: usize,
         form: Form,
-        wanted: &Wanted,
+        wanted: &ReportOptions,
         options: &analysis::Options,
-    ) -> Result<Made, Complaint> {
+    ) -> Result<Made, CliError> {
         let mut read = Vec::new();
         let mut wrong = Vec::new();
         for path in task.paths() {
@@ -311,7 +311,7 @@ impl Report {
             .iter()
             .map(|(source, _)| Analysis::with(&source.scene, options))
             .collect();
-        let ending = analyses.iter().map(Ending::of).max();
+        let ending = analyses.iter().map(ExitStatus::of).max();
         let names: Vec<String> = read.iter().map(|(s, _)| shown(s)).collect();
         let file = |i: usize| File {
             name: &names[i],
@@ -355,10 +355,10 @@ impl Report {
             entry.measured(&measured).map_err(|e| undone(&e))?;
         }
         let piece = Piece::of(&entry, number, form, &self.stem()).map_err(|e| undone(&e))?;
-        Ok(Ok((piece, ending.unwrap_or(Ending::Done))))
+        Ok(Ok((piece, ending.unwrap_or(ExitStatus::Done))))
     }
 
-    fn write(&self, report: Page, form: Form) -> Result<(), Complaint> {
+    fn write(&self, report: Page, form: Form) -> Result<(), CliError> {
         let folder = match form {
             Form::Split => self.output.clone(),
             _ => self.output.parent().unwrap_or(Path::new("")).to_owned(),
@@ -410,14 +410,14 @@ fn shown(source: &Source) -> String {
     source.path.display().to_string()
 }
 
-fn undone(error: &dyn std::error::Error) -> Complaint {
-    Complaint::NotWritten {
+fn undone(error: &dyn std::error::Error) -> CliError {
+    CliError::NotWritten {
         what: "the report".into(),
         why: error.to_string(),
     }
 }
 
-fn refused(path: &Path, complaint: &Complaint) -> Refused {
+fn refused(path: &Path, complaint: &CliError) -> Refused {
     Refused {
         name: path.display().to_string(),
         problems: complaint.problems(),
@@ -426,8 +426,8 @@ fn refused(path: &Path, complaint: &Complaint) -> Refused {
 
 /// Every .json file below a folder, in the order of their paths. Links to folders are not followed: they may lead in a
 /// circle.
-fn below(folder: &Path) -> Result<Vec<PathBuf>, Complaint> {
-    let unread = |path: &Path, error: &std::io::Error| Complaint::NotRead {
+fn below(folder: &Path) -> Result<Vec<PathBuf>, CliError> {
+    let unread = |path: &Path, error: &std::io::Error| CliError::NotRead {
         what: path.display().to_string(),
         why: error.to_string(),
     };

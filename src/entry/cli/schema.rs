@@ -2,8 +2,8 @@
 
 use clap::Args;
 
-use crate::cli::complaint::Complaint;
-use crate::cli::ending::Ending;
+use crate::cli::complaint::CliError;
+use crate::cli::ending::ExitStatus;
 use crate::cli::terminal::Terminal;
 use crate::result;
 
@@ -18,13 +18,13 @@ pub(crate) struct Schema {
 }
 
 impl Schema {
-    pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
         let text = if self.result {
             result::schema()
         } else {
             crate::scene::schema()
         };
         terminal.print_bytes(text.as_bytes()).map_err(|c| vec![c])?;
-        Ok(Ending::Done)
+        Ok(ExitStatus::Done)
     }
 }

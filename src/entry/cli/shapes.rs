@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::cli::complaint::Complaint;
+use crate::cli::complaint::CliError;
 use crate::cli::destination::{self, Destination};
-use crate::cli::ending::Ending;
-use crate::cli::look::Look;
+use crate::cli::ending::ExitStatus;
+use crate::cli::look::StyleArgs;
 use crate::cli::picture::Picture;
 use crate::cli::terminal::Terminal;
 use crate::drawing::Theme;
@@ -23,24 +23,24 @@ pub(crate) struct Shapes {
     #[command(flatten)]
     picture: Picture,
     #[command(flatten)]
-    look: Look,
+    look: StyleArgs,
 }
 
 impl Shapes {
-    pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
         let theme = self.look.theme().map_err(|c| vec![c])?;
         self.draw(&theme, terminal).map_err(|c| vec![c])?;
-        Ok(Ending::Done)
+        Ok(ExitStatus::Done)
     }
 
-    fn draw(&self, theme: &Theme, terminal: &Terminal) -> Result<(), Complaint> {
+    fn draw(&self, theme: &Theme, terminal: &Terminal) -> Result<(), CliError> {
         let destination = Destination::of(&self.output);
         let format = destination.format(self.picture.asked())?;
         self.picture.check(format)?;
         if let (Destination::Stdout, true, Some(why)) =
             (&destination, terminal.is_watched(), format.unreadable())
         {
-            return Err(Complaint::CommandLine(why));
+            return Err(CliError::CommandLine(why));
         }
         let fonts = self.picture.fonts()?;
         let bytes = self.picture.bytes(figure::shapes(theme), format, &fonts)?;

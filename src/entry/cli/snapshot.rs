@@ -6,16 +6,16 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::cli::complaint::Complaint;
+use crate::cli::complaint::CliError;
 use crate::cli::destination;
-use crate::cli::ending::Ending;
+use crate::cli::ending::ExitStatus;
 use crate::cli::page::Page;
 use crate::cli::progress::{Progress, Shown};
 use crate::cli::terminal::Terminal;
-use crate::output::file::{Existing, Unwritten};
+use crate::output::file::{Existing, WriteError};
 use crate::snapshot::check::{Acceptance, folders};
 use crate::snapshot::store::{self, Use};
-use crate::snapshot::{CheckOutcome, Fault, check, ci, discover, review};
+use crate::snapshot::{CheckOutcome, DiscoveryError, check, ci, discover, review};
 
 /// Check scenes and their pictures against the references beside them, in words
 ///
@@ -51,7 +51,7 @@ pub(crate) struct Snapshot {
 }
 
 impl Snapshot {
-    pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
         let asks = matches!(self.review, Some(None));
         let accepts = self.accept || self.accept_in_ci;
         self.sound(asks, accepts).map_err(|c| vec![c])?;
@@ -99,7 +99,7 @@ impl Snapshot {
         match unwritten {
             // What lies beside is for looking at; the answer stands without it.
             Err(failed) if !accepts => {
-                for Unwritten { path, why } in failed {
+                for WriteError { path, why } in failed {
                     terminal.note(&format!("could not write {}: {why}", path.display()));
                 }
             }
@@ -113,14 +113,14 @@ impl Snapshot {
     }
 
     /// Refuses what cannot be meant.
-    fn sound(&self, asks: bool, accepts: bool) -> Result<(), Complaint> {
-        let refuse = |why: &str| Err(Complaint::CommandLine(why.to_owned()));
+    fn sound(&self, asks: bool, accepts: bool) -> Result<(), CliError> {
+        let refuse = |why: &str| Err(CliError::CommandLine(why.to_owned()));
         if let Some(Some(page)) = &self.review {
             let html = page
                 .extension()
                 .is_some_and(|e| e.eq_ignore_ascii_case("html"));
             if !html {
-                return Err(Complaint::CommandLine(format!(
+                return Err(CliError::CommandLine(format!(
                     "--review {}: the page is an .html file; to be asked here, put --review behind the folders",
                     page.display()
                 )));
@@ -145,7 +145,7 @@ impl Snapshot {
         destination::apart(&outputs, &[])
     }
 
-    fn nothing(&self) -> Complaint {
+    fn nothing(&self) -> CliError {
         let places: Vec<String> = self
             .folders
             .iter()
@@ -157,7 +157,7 @@ impl Snapshot {
                 if f.contains('*') { "fits" } else { "contains" }
             )
         });
-        Complaint::CommandLine(format!(
+        CliError::CommandLine(format!(
             "there is no scene under {}{filter}: a scene is a .json file with the key \"drystone\"",
             places.join(", ")
         ))
@@ -170,7 +170,7 @@ impl Snapshot {
         described: &[String],
         accepts: bool,
         failing: &[String],
-    ) -> Result<(), Vec<Complaint>> {
+    ) -> Result<(), Vec<CliError>> {
         let mut page = Page::default();
         if self.github {
             for annotation in ci::annotations(report) {
@@ -205,36 +205,36 @@ impl Snapshot {
     }
 }
 
-fn ending(report: &CheckOutcome) -> Ending {
+fn ending(report: &CheckOutcome) -> ExitStatus {
     if report.holds() {
-        Ending::Done
+        ExitStatus::Done
     } else {
-        Ending::Unstable
+        ExitStatus::Unstable
     }
 }
 
-fn not_written(unwritten: Unwritten) -> Complaint {
-    Complaint::NotWritten {
+fn not_written(unwritten: WriteError) -> CliError {
+    CliError::NotWritten {
         what: unwritten.path.display().to_string(),
         why: unwritten.why.to_string(),
     }
 }
 
-fn complaints(faults: Vec<Fault>) -> Vec<Complaint> {
+fn complaints(faults: Vec<DiscoveryError>) -> Vec<CliError> {
     let name = |path: &Path| path.display().to_string();
     let complaint = |fault| match fault {
-        Fault::Scene { path, problems } => Complaint::Scene {
+        DiscoveryError::Scene { path, problems } => CliError::Scene {
             name: name(&path),
             problems,
         },
-        Fault::Unread { path, why } => Complaint::NotRead {
+        DiscoveryError::Unread { path, why } => CliError::NotRead {
             what: name(&path),
             why,
         },
-        Fault::Settings { path, problem } => {
-            Complaint::CommandLine(format!("{}:{problem}", path.display()))
+        DiscoveryError::Settings { path, problem } => {
+            CliError::CommandLine(format!("{}:{problem}", path.display()))
         }
-        Fault::Clash(words) => Complaint::CommandLine(words),
+        DiscoveryError::Clash(words) => CliError::CommandLine(words),
     };
     faults.into_iter().map(complaint).collect()
 }

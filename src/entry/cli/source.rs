@@ -6,7 +6,7 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use crate::cli::complaint::Complaint;
+use crate::cli::complaint::CliError;
 use crate::scene::Scene;
 
 /// A scene and where it came from.
@@ -30,7 +30,7 @@ impl Source {
     }
 
     /// The scene cut down to one of its frames.
-    fn only_frame(&mut self, choice: FrameChoice) -> Result<(), Complaint> {
+    fn only_frame(&mut self, choice: FrameChoice) -> Result<(), CliError> {
         let count = self.scene.frames.len();
         let number = match choice {
             FrameChoice::Number(number) => number,
@@ -47,7 +47,7 @@ impl Source {
                 number + 1,
                 self.name()
             );
-            return Err(Complaint::NoSuchFrame(why));
+            return Err(CliError::NoSuchFrame(why));
         }
         self.scene.frames = vec![self.scene.frames[number].clone()];
         Ok(())
@@ -108,7 +108,7 @@ pub(crate) fn read(
     paths: &[PathBuf],
     frame: Option<FrameChoice>,
     tolerance: Option<f64>,
-) -> Result<Vec<Source>, Vec<Complaint>> {
+) -> Result<Vec<Source>, Vec<CliError>> {
     let mut sources = Vec::new();
     let mut complaints = Vec::new();
     for (_, source) in read_each(paths, frame, tolerance).map_err(|c| vec![c])? {
@@ -125,17 +125,17 @@ pub(crate) fn read(
 }
 
 /// A path as given, with the scene that was read from it or what is wrong with it.
-pub(crate) type Outcome = (PathBuf, Result<Source, Complaint>);
+pub(crate) type Outcome = (PathBuf, Result<Source, CliError>);
 
 /// Every scene, or what is wrong with it, in the order given; of a folder its `.json` files in the order of their names.
 pub(crate) fn read_each(
     paths: &[PathBuf],
     frame: Option<FrameChoice>,
     tolerance: Option<f64>,
-) -> Result<Vec<Outcome>, Complaint> {
+) -> Result<Vec<Outcome>, CliError> {
     let paths = files(paths)?;
     if paths.iter().filter(|p| *p == Path::new("-")).count() > 1 {
-        return Err(Complaint::CommandLine(
+        return Err(CliError::CommandLine(
             "standard input (-) can be read only once".into(),
         ));
     }
@@ -150,7 +150,7 @@ pub(crate) fn read_each(
 }
 
 /// The paths with the `.json` files of every folder in its place, sorted by name; a folder's own folders are left alone.
-pub(crate) fn files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Complaint> {
+pub(crate) fn files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, CliError> {
     let mut all = Vec::new();
     for path in paths {
         if !path.is_dir() {
@@ -160,7 +160,7 @@ pub(crate) fn files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Complaint> {
         let listed = fs::read_dir(path).and_then(|entries| {
             (entries.map(|entry| entry.map(|e| e.path()))).collect::<io::Result<Vec<PathBuf>>>()
         });
-        let listed = listed.map_err(|error| Complaint::NotRead {
+        let listed = listed.map_err(|error| CliError::NotRead {
             what: name(path),
             why: error.to_string(),
         })?;
@@ -169,7 +169,7 @@ pub(crate) fn files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Complaint> {
             .filter(|file| is_scene(file) && file.is_file())
             .collect();
         if scenes.is_empty() {
-            return Err(Complaint::NotRead {
+            return Err(CliError::NotRead {
                 what: name(path),
                 why: "the folder holds no .json files".into(),
             });
@@ -180,7 +180,7 @@ pub(crate) fn files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Complaint> {
     Ok(all)
 }
 
-fn read_one(path: &Path, tolerance: Option<f64>) -> Result<Source, Complaint> {
+fn read_one(path: &Path, tolerance: Option<f64>) -> Result<Source, CliError> {
     Ok(with_text(path, tolerance)?.0)
 }
 
@@ -188,19 +188,19 @@ fn read_one(path: &Path, tolerance: Option<f64>) -> Result<Source, Complaint> {
 pub(crate) fn with_text(
     path: &Path,
     tolerance: Option<f64>,
-) -> Result<(Source, String), Complaint> {
+) -> Result<(Source, String), CliError> {
     let bytes = if path == Path::new("-") {
         let mut bytes = Vec::new();
         io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes)
     } else {
         fs::read(path)
     };
-    let bytes = bytes.map_err(|error| Complaint::NotRead {
+    let bytes = bytes.map_err(|error| CliError::NotRead {
         what: name(path),
         why: error.to_string(),
     })?;
     let scene =
-        Scene::from_slice_within(&bytes, tolerance).map_err(|problems| Complaint::Scene {
+        Scene::from_slice_within(&bytes, tolerance).map_err(|problems| CliError::Scene {
             name: name(path),
             problems,
         })?;

@@ -3,8 +3,8 @@
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 
-use crate::cli::complaint::Complaint;
-use crate::cli::ending::Ending;
+use crate::cli::complaint::CliError;
+use crate::cli::ending::ExitStatus;
 use crate::cli::terminal::Terminal;
 use crate::drawing::Theme;
 
@@ -19,10 +19,10 @@ pub(crate) struct Style {
 }
 
 impl Style {
-    pub(crate) fn run(&self, terminal: &Terminal) -> Result<Ending, Vec<Complaint>> {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
         let theme = Theme::named(&self.theme).unwrap_or_default();
         let json = theme.to_json();
         terminal.print_bytes(json.as_bytes()).map_err(|c| vec![c])?;
-        Ok(Ending::Done)
+        Ok(ExitStatus::Done)
     }
 }

@@ -10,12 +10,12 @@ use anstream::ColorChoice;
 use clap::{Args, ValueEnum};
 use terminal_size::{Height, Width};
 
-use crate::cli::complaint::Complaint;
+use crate::cli::complaint::CliError;
 use crate::cli::page::Page;
 
 /// How loud and how colourful the program is.
 #[derive(Clone, Copy, Debug, Args)]
-pub(crate) struct Voice {
+pub(crate) struct OutputArgs {
     /// Say nothing but errors; check then answers by its exit code alone
     #[arg(long, short, global = true)]
     quiet: bool,
@@ -39,7 +39,7 @@ pub(crate) struct Terminal {
 
 impl Terminal {
     /// The process's streams, set to a voice.
-    pub(crate) fn new(voice: Voice) -> Terminal {
+    pub(crate) fn new(voice: OutputArgs) -> Terminal {
         let choice = match voice.color {
             Colour::Auto => ColorChoice::Auto,
             Colour::Always => ColorChoice::Always,
@@ -70,7 +70,7 @@ impl Terminal {
     }
 
     /// Writes a result for a person, no wider than the terminal.
-    pub(crate) fn print(&self, page: &Page) -> Result<(), Complaint> {
+    pub(crate) fn print(&self, page: &Page) -> Result<(), CliError> {
         let page = fitted(page, self.width());
         let mut stream = anstream::stdout().lock();
         written(
@@ -81,7 +81,7 @@ impl Terminal {
     }
 
     /// Writes a result as it is: a picture or JSON, in which no text of others can do anything.
-    pub(crate) fn print_bytes(&self, bytes: &[u8]) -> Result<(), Complaint> {
+    pub(crate) fn print_bytes(&self, bytes: &[u8]) -> Result<(), CliError> {
         let mut stream = io::stdout().lock();
         written(stream.write_all(bytes).and_then(|()| stream.flush()))
     }
@@ -99,7 +99,7 @@ impl Terminal {
     }
 
     /// Says what is wrong with what a command was given.
-    pub(crate) fn refuse(&self, complaint: &Complaint) {
+    pub(crate) fn refuse(&self, complaint: &CliError) {
         self.complain(&complaint.page(error_width()));
     }
 
@@ -130,9 +130,9 @@ fn fitted(page: &Page, width: Option<usize>) -> Cow<'_, Page> {
 }
 
 /// A reader that closes the pipe has read enough: that is no failure of ours.
-pub(crate) fn written(written: io::Result<()>) -> Result<(), Complaint> {
+pub(crate) fn written(written: io::Result<()>) -> Result<(), CliError> {
     match written {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Complaint::NotWritten {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(CliError::NotWritten {
             what: "standard output".into(),
             why: error.to_string(),
         }),

@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use std::thread;
 use std::time::{Duration, SystemTime};
 
-use crate::cli::complaint::Complaint;
-use crate::cli::ending::Ending;
+use crate::cli::complaint::CliError;
+use crate::cli::ending::ExitStatus;
 use crate::cli::terminal::Terminal;
 
 /// How long to wait between two looks.
@@ -23,8 +23,8 @@ type Mark = Option<(SystemTime, u64)>;
 pub(crate) fn repeat(
     files: &[PathBuf],
     terminal: &Terminal,
-    mut run: impl FnMut() -> Result<Ending, Vec<Complaint>>,
-) -> Result<Ending, Vec<Complaint>> {
+    mut run: impl FnMut() -> Result<ExitStatus, Vec<CliError>>,
+) -> Result<ExitStatus, Vec<CliError>> {
     loop {
         let before = marks(files);
         if let Err(complaints) = run() {

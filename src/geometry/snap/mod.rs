@@ -12,7 +12,7 @@ mod node;
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::{Around, Edge, Flaw, Nearby, Pieces, Point, Polygon, cross, overlap};
+use super::{Aabb, Edge, Flaw, BoxIndex, Pieces, Point, Polygon, cross, overlap};
 use line::Lines;
 use node::Nodes;
 
@@ -188,9 +188,9 @@ fn attempt<'b>(bodies: &'b [Rings], gaps: &[f64], kept: &[bool]) -> Outcome<'b> 
 /// The nodes that lie beside sides of other bodies. Nodes are looked for about sides, and not the other way round: boxes
 /// around the sides of thin stones overlap by the hundred, and points do not.
 fn beside<'s>(nodes: &Nodes, sides: &'s [Side], gaps: &[f64], kept: &[bool]) -> Vec<Beside<'s>> {
-    let nearby = Nearby::of((0..nodes.all.len()).collect(), |n: &usize| {
+    let nearby = BoxIndex::of((0..nodes.all.len()).collect(), |n: &usize| {
         let at = nodes.all[*n].at.into();
-        Around { min: at, max: at }
+        Aabb { min: at, max: at }
     });
     let mut found = Vec::new();
     for side in sides {
@@ -321,8 +321,8 @@ fn spoilt(before: &[Rings], after: &[Rings], gaps: &[f64], noise: f64) -> BTreeS
     let entries = polygons
         .iter()
         .enumerate()
-        .filter_map(|(i, p)| p.as_ref().map(|p| (Around::leaning(p.outline()), i)));
-    let nearby = Nearby::of(entries.collect(), |entry| entry.0);
+        .filter_map(|(i, p)| p.as_ref().map(|p| (Aabb::leaning(p.outline()), i)));
+    let nearby = BoxIndex::of(entries.collect(), |entry| entry.0);
     for (own, (_, a)) in nearby.all() {
         for (_, b) in nearby.near(*own) {
             if b <= a {

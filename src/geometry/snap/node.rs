@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::Rings;
-use crate::geometry::{Around, Nearby, Point};
+use crate::geometry::{Aabb, BoxIndex, Point};
 
 /// A place and the corners there.
 pub(super) struct Node {
@@ -160,15 +160,15 @@ fn joined(corners: &[Loose], gaps: &[f64], kept: &[bool]) -> Clusters {
 
 /// Pairs of corners of different bodies within their gaps of each other, the nearest first.
 fn near(corners: &[Loose], gaps: &[f64]) -> Vec<(f64, usize, usize)> {
-    let nearby = Nearby::of((0..corners.len()).collect(), |i: &usize| {
+    let nearby = BoxIndex::of((0..corners.len()).collect(), |i: &usize| {
         let at = corners[*i].at.into();
-        Around { min: at, max: at }
+        Aabb { min: at, max: at }
     });
     let mut pairs = Vec::new();
     for (i, corner) in corners.iter().enumerate() {
         let (x, y) = (corner.at.x, corner.at.y);
         let gap = gaps[corner.body];
-        let around = Around {
+        let around = Aabb {
             min: [x - gap, y - gap],
             max: [x + gap, y + gap],
         };

@@ -1,4 +1,4 @@
-//! [`Doubt`]: why a frame is undecided.
+//! [`UndecidedReason`]: why a frame is undecided.
 
 use std::fmt;
 
@@ -8,7 +8,7 @@ use crate::proof::Proof;
 /// One reason why a frame is undecided; its `Display` is the sentence for people.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-pub enum Doubt {
+pub enum UndecidedReason {
     /// [`Options::deadline`](super::Options::deadline) came before it was decided.
     Late,
     /// For some of its blocks neither forces nor a motion are proved.
@@ -40,11 +40,11 @@ pub enum Doubt {
     },
 }
 
-impl fmt::Display for Doubt {
+impl fmt::Display for UndecidedReason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Doubt::Late => f.write_str("the time limit was reached before it was decided"),
-            Doubt::Unproved { forces, motion } => {
+            UndecidedReason::Late => f.write_str("the time limit was reached before it was decided"),
+            UndecidedReason::Unproved { forces, motion } => {
                 if let Proof::Forces {
                     worst_imbalance, ..
                 } = forces
@@ -65,7 +65,7 @@ impl fmt::Display for Doubt {
                     _ => f.write_str("; no motion was found"),
                 }
             }
-            Doubt::Gaps { words, .. } | Doubt::Slivers { words, .. } => f.write_str(words),
+            UndecidedReason::Gaps { words, .. } | UndecidedReason::Slivers { words, .. } => f.write_str(words),
         }
     }
 }
@@ -73,10 +73,10 @@ impl fmt::Display for Doubt {
 impl FrameAnalysis {
     /// Why it is undecided, in a sentence with the numbers of both proofs; empty otherwise.
     pub fn doubt(&self) -> String {
-        let reasons: Vec<String> = self.doubts.iter().map(Doubt::to_string).collect();
+        let reasons: Vec<String> = self.doubts.iter().map(UndecidedReason::to_string).collect();
         match self.doubts.as_slice() {
             // What was found until then belongs to it.
-            [Doubt::Late, _, ..] => format!("{}: {}", reasons[0], reasons[1..].join("; ")),
+            [UndecidedReason::Late, _, ..] => format!("{}: {}", reasons[0], reasons[1..].join("; ")),
             _ => reasons.join("; "),
         }
     }
@@ -94,7 +94,7 @@ mod tests {
         let scene = Scene::from_json(text).expect("sound");
         let mut frame = Analysis::of(&scene).frames.remove(0);
         assert_eq!(frame.doubt(), "");
-        let unproved = |power: Option<f64>| Doubt::Unproved {
+        let unproved = |power: Option<f64>| UndecidedReason::Unproved {
             forces: Proof::Forces {
                 worst_imbalance: 1e-3,
                 worst_share: 0.0,
@@ -106,7 +106,7 @@ mod tests {
                 worst_violation: 1e-4,
             }),
         };
-        frame.doubts = vec![Doubt::Late];
+        frame.doubts = vec![UndecidedReason::Late];
         let late = "the time limit was reached before it was decided";
         assert_eq!(frame.doubt(), late);
         frame.doubts.extend([unproved(None), unproved(Some(0.5))]);

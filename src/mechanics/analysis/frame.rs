@@ -3,7 +3,7 @@
 use super::{Ask, FrameAnalysis, Verdict};
 use crate::effect::sticking::Sought;
 use crate::effect::{
-    Situation, contact, corner_contact, friction, mechanism, robot, robot_torque, sticking,
+    FrameContext, contact, corner_contact, friction, mechanism, robot, robot_torque, sticking,
 };
 use crate::program::Count;
 use crate::proof::Proof;
@@ -51,7 +51,7 @@ pub(super) fn worst(a: Proof, b: Proof) -> Proof {
 /// Writes what only the outcome tells: the unknowns posed, and the effects that it called for.
 pub(super) fn settle(
     analysis: &mut FrameAnalysis,
-    situation: &Situation,
+    situation: &FrameContext,
     count: Count,
     verdict_only: Ask,
 ) {

@@ -4,13 +4,13 @@ use super::component::{Findings, Method};
 use super::frame::worst;
 use super::{Contact, FrameAnalysis, Proof, RobotForce, SolveReport, Stages, Verdict};
 use crate::assembly::Assembly;
-use crate::effect::{EffectReport, Situation};
+use crate::effect::{EffectReport, FrameContext};
 use crate::geometry::Vector;
 use crate::resultant::{friction_used, of as resultant_of};
 
 /// The frame before any component is added: every contact and grip without force.
 pub(super) fn gathered(
-    situation: &Situation,
+    situation: &FrameContext,
     assembly: &Assembly,
     effects: Vec<EffectReport>,
 ) -> FrameAnalysis {

@@ -1,6 +1,6 @@
 //! Verdicts alone, each from what is known already where that has a proof.
 //!
-//! The nearest balance ([`Nearest`]) of a frame is its forces, or the motion by which it falls. Its used columns are a
+//! The nearest balance ([`BoundedNnls`]) of a frame is its forces, or the motion by which it falls. Its used columns are a
 //! first guess for the next frame: where little changed they require little more, and where nothing changed that matters,
 //! nothing. What it finds is believed for its proof, as anything else; where there is none, the frame is examined as
 //! [`Analysis`](super::Analysis) does, so that a guess can save work and decide nothing.
@@ -8,11 +8,11 @@
 use super::component::Candidate;
 use super::{Analysis, Ask, Known, Options, Verdict, examined};
 use crate::assembly::Assembly;
-use crate::effect::{self, Situation};
+use crate::effect::{self, FrameContext};
 use crate::interface::{Interface, Interfaces};
 use crate::program::{Column, Force, Program, Scale};
 use crate::scene::{BlockId, BodyId, Frame, RobotId, Scene, ToleranceSource};
-use crate::solve::{Amounts, Nearest, generators};
+use crate::solve::{Amounts, BoundedNnls, generators};
 
 /// From so many bodies on, the work of an active set grows beyond that of a solver: at its start, and when it goes on.
 const MANY_AT_ONCE: usize = 40;
@@ -31,7 +31,7 @@ const OFF_SCALE: f64 = 100.0;
 ///                { "id": "b", "polygon": [[3, 2], [8, 2], [8, 3], [3, 3]] }],
 ///     "steps": [{ "place": ["a"] }, { "place": ["b"] }] }"#)?;
 /// assert_eq!(verdicts(&scene, &Options::default()), [Verdict::Stable, Verdict::Unstable]);
-/// # Ok::<(), drystone::scene::Problems>(())
+/// # Ok::<(), drystone::scene::SceneError>(())
 /// ```
 pub fn verdicts(scene: &Scene, options: &Options) -> Vec<Verdict> {
     let options = &options.verdict_only(Ask::Yes);
@@ -40,7 +40,7 @@ pub fn verdicts(scene: &Scene, options: &Options) -> Vec<Verdict> {
         let frames = Analysis::with(scene, options).frames;
         return frames.iter().map(|frame| frame.verdict).collect();
     }
-    let mut guess = Guess::default();
+    let mut guess = WarmStart::default();
     let frames = scene.frames.iter();
     frames
         .map(|frame| {
@@ -61,15 +61,15 @@ pub(crate) fn hinges_on_gaps(scene: &Scene, found: &Interfaces) -> bool {
 #[non_exhaustive]
 pub enum Source {
     /// The forces or the motion that were known, with what the change called for.
-    Guess,
+    WarmStart,
     /// An analysis from scratch.
     Examined,
 }
 
 /// What is known from one frame to the next.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Guess {
-    nearest: Nearest,
+pub(crate) struct WarmStart {
+    nearest: BoundedNnls,
     /// The columns that the used set counts, and where each contact's and each grip's own begin.
     columns: Vec<Column>,
     begins: Vec<(usize, Origin)>,
@@ -83,7 +83,7 @@ enum Origin {
     Grip(RobotId, BlockId, [u64; 2]),
 }
 
-impl Guess {
+impl WarmStart {
     /// The verdict of a frame, and what it came from.
     pub(crate) fn verdict(
         &mut self,
@@ -92,7 +92,7 @@ impl Guess {
         interfaces: &[&Interface],
         options: &Options,
     ) -> (Verdict, Source) {
-        let situation = Situation {
+        let situation = FrameContext {
             scene,
             frame,
             interfaces,
@@ -100,7 +100,7 @@ impl Guess {
         if !options.is_late() {
             let (assembly, _) = effect::assemble(&situation);
             if let Some(verdict) = self.judged(&assembly, *options) {
-                return (verdict, Source::Guess);
+                return (verdict, Source::WarmStart);
             }
         }
         let alone = options.verdict_only(Ask::Yes);
@@ -115,7 +115,7 @@ impl Guess {
             false => MANY,
         };
         if assembly.bodies.len() > most {
-            *self = Guess::default();
+            *self = WarmStart::default();
             return None;
         }
         let scale = self.scale(assembly);
@@ -123,7 +123,7 @@ impl Guess {
         let columns = generators(&program);
         self.move_to(assembly, columns);
         let Some(rest) = self.nearest.find(&program.loads, &self.columns) else {
-            *self = Guess::default();
+            *self = WarmStart::default();
             return None;
         };
         let amounts: Amounts = self.nearest.gathered(&program, &self.columns);
@@ -137,9 +137,9 @@ impl Guess {
         match self.scale {
             Some(scale) if near(scale.length, own.length) && near(scale.force, own.force) => scale,
             _ => {
-                *self = Guess {
+                *self = WarmStart {
                     scale: Some(own),
-                    ..Guess::default()
+                    ..WarmStart::default()
                 };
                 own
             }

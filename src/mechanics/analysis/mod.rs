@@ -28,7 +28,7 @@ use rayon::prelude::*;
 
 use crate::assembly::Assembly;
 use crate::effect::wedging::{self, Wedging};
-use crate::effect::{self, Situation};
+use crate::effect::{self, FrameContext};
 #[doc(inline)]
 pub use crate::effect::{EffectName, EffectReport};
 use crate::geometry::{Point, Vector};
@@ -42,14 +42,14 @@ pub use crate::proof::{Demand, Motion, Proof};
 pub use crate::resultant::Resultant;
 use crate::scene::{BlockId, BodyId, Note, RobotId, Scene};
 pub use crate::solve::Slide;
-use crate::solve::{Effort, Until};
+use crate::solve::{Effort, DeadlineGuard};
 pub use component::Method;
 use component::{Findings, solved};
 pub use cost::{SolveReport, Stages};
-pub use doubt::Doubt;
+pub use doubt::UndecidedReason;
 use frame::settle;
 use gather::{add, gathered};
-pub(crate) use judgement::{Guess, hinges_on_gaps};
+pub(crate) use judgement::{WarmStart, hinges_on_gaps};
 pub use judgement::{Source, verdicts};
 use margin::Part;
 pub use margin::{Margin, MarginKind, MarginKinds, Margins, RobotMargins, Sides, trials};
@@ -106,7 +106,7 @@ pub struct FrameAnalysis {
     /// Whether it stands.
     pub verdict: Verdict,
     /// Why it is undecided; empty otherwise. [`FrameAnalysis::doubt`] says it in a sentence.
-    pub doubts: Vec<Doubt>,
+    pub doubts: Vec<UndecidedReason>,
     /// L in metres, by which torques are weighed against forces: the median length of the frame's edge interfaces, or the
     /// median block's square root of area where nothing touches.
     pub length: f64,
@@ -255,7 +255,7 @@ impl Analysis {
     /// assert_eq!(frame.contacts[0].resultant.force.y, 6.0);
     /// // The push at half height moves the resultant a third of a metre towards the far edge.
     /// assert!((frame.contacts[0].resultant.at.x - (2.5 + 1.0 / 3.0)).abs() < 1e-9);
-    /// # Ok::<(), drystone::scene::Problems>(())
+    /// # Ok::<(), drystone::scene::SceneError>(())
     /// ```
     pub fn of(scene: impl Into<Arc<Scene>>) -> Analysis {
         Analysis::with(scene, &Options::default())
@@ -311,7 +311,7 @@ fn examine_found(scene: &Scene, found: &Interfaces, options: &Options) -> Vec<Fr
     frames
         .map(|frame| {
             let interfaces = found.in_frame(scene, frame);
-            let situation = Situation {
+            let situation = FrameContext {
                 scene,
                 frame,
                 interfaces: &interfaces,
@@ -324,7 +324,7 @@ fn examine_found(scene: &Scene, found: &Interfaces, options: &Options) -> Vec<Fr
 }
 
 /// Examines one frame.
-fn examined(situation: &Situation, options: Options, known: &mut Known) -> FrameAnalysis {
+fn examined(situation: &FrameContext, options: Options, known: &mut Known) -> FrameAnalysis {
     let start = Instant::now();
     let (assembly, reports) = effect::assemble(situation);
     let components = assembly.split();
@@ -337,7 +337,7 @@ fn examined(situation: &Situation, options: Options, known: &mut Known) -> Frame
         .filter(|k| !known.findings.contains_key(&keys[*k]))
         .collect();
     let one = |k: &usize| {
-        let _until = Until::set(options.deadline);
+        let _until = DeadlineGuard::set(options.deadline);
         solved(&components[*k], options)
     };
     // Many small components are worth the threads; the order of the results is that of the components either way.
@@ -369,10 +369,10 @@ fn examined(situation: &Situation, options: Options, known: &mut Known) -> Frame
         .fold(Count::default(), |sum, f| sum.and(f.1.count));
     settle(&mut analysis, situation, count, options.verdict_only);
     if analysis.verdict == Verdict::Undecided && options.is_late() {
-        analysis.doubts.insert(0, Doubt::Late);
+        analysis.doubts.insert(0, UndecidedReason::Late);
     }
     stages.solution = start.elapsed().as_secs_f64() - stages.assembly;
-    let _until = Until::set(options.deadline);
+    let _until = DeadlineGuard::set(options.deadline);
     let methods = found.iter().map(|f| f.1.method);
     analysis.solve = SolveReport {
         method: methods.max().unwrap_or(Method::ClosedForm),

@@ -7,7 +7,7 @@
 //! differ nobody can say which structure was meant: the frame is undecided, with the places and the tolerance that settles
 //! it. If they agree an overlap is reported beside the verdict. A tolerance that somebody gave settles it already.
 
-use super::{Ask, Doubt, FrameAnalysis, Options, Verdict, examine, examine_found};
+use super::{Ask, UndecidedReason, FrameAnalysis, Options, Verdict, examine, examine_found};
 use crate::geometry::Point;
 use crate::interface::{Interface, Interfaces, Near, Touching, held_open};
 use crate::scene::{BodyId, Note, NoteCode, Penetration, Scene, ToleranceSource, size};
@@ -171,7 +171,7 @@ fn judge_slivers(
     }
 }
 
-fn slivers_of(scene: &Scene, slivers: &[&Interface]) -> Doubt {
+fn slivers_of(scene: &Scene, slivers: &[&Interface]) -> UndecidedReason {
     let mut slivers = slivers.to_vec();
     slivers.sort_by(|a, b| b.length().total_cmp(&a.length()));
     let named = slivers.iter().take(NAMED).map(|sliver| {
@@ -197,7 +197,7 @@ fn slivers_of(scene: &Scene, slivers: &[&Interface]) -> Doubt {
          contact_tolerance of {counting:.2e} m counts them, one of {ignoring:.2e} m does not",
         named.join(", "),
     );
-    Doubt::Slivers {
+    UndecidedReason::Slivers {
         counting,
         ignoring,
         words,
@@ -248,8 +248,8 @@ pub(super) fn notes(scene: &Scene, found: &Interfaces) -> Vec<Note> {
     notes
 }
 
-fn gaps(scene: &Scene, verdicts: [Verdict; 2], places: &[Place], closing: f64) -> Doubt {
-    Doubt::Gaps {
+fn gaps(scene: &Scene, verdicts: [Verdict; 2], places: &[Place], closing: f64) -> UndecidedReason {
+    UndecidedReason::Gaps {
         open: verdicts[0],
         closed: verdicts[1],
         closing,

@@ -1,19 +1,19 @@
 //! Many scenes, one after the other: records in, one line of JSON out for each, in the order in which they came.
 //!
 //! [`Records`] reads lines and files one at a time; [`in_order`] has several threads answer them, holds no more than
-//! its [`Room`] has place for, and hands the answers on in order. Invariant: as many answers as records, in their order,
+//! its [`Capacity`] has place for, and hands the answers on in order. Invariant: as many answers as records, in their order,
 //! whatever is wrong with one of them. What an answer says is made by [`result`](crate::result); nothing
 //! here knows of scenes.
 //!
 //! ```
 //! use std::io::Cursor;
 //! use std::ops::ControlFlow;
-//! use drystone::batch::{Input, Records, Room, in_order};
+//! use drystone::batch::{Input, Records, Capacity, in_order};
 //!
 //! let text = Cursor::new("a\nbb\n\nccc");
 //! let records = Records::of(vec![Input::lines(None, Box::new(text))]);
 //! let mut described = Vec::new();
-//! in_order(records, Room::of(2), |record| (record.line, record.bytes.map(|b| b.len())), |answer| {
+//! in_order(records, Capacity::of(2), |record| (record.line, record.bytes.map(|b| b.len())), |answer| {
 //!     described.extend(answer);
 //!     ControlFlow::Continue(())
 //! });
@@ -23,5 +23,5 @@
 mod queue;
 mod record;
 
-pub use queue::{Room, Weigh, in_order};
+pub use queue::{Capacity, ByteSize, in_order};
 pub use record::{Input, LONGEST, Record, Records};

@@ -11,7 +11,7 @@ use std::thread;
 
 /// How much is under way at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Room {
+pub struct Capacity {
     /// Threads that work.
     pub threads: usize,
     /// Items read whose answers were not taken yet, at most.
@@ -20,11 +20,11 @@ pub struct Room {
     pub bytes: usize,
 }
 
-impl Room {
+impl Capacity {
     /// For so many threads.
-    pub fn of(threads: usize) -> Room {
+    pub fn of(threads: usize) -> Capacity {
         let threads = threads.max(1);
-        Room {
+        Capacity {
             threads,
             items: 64 * threads,
             bytes: 64 << 20,
@@ -33,7 +33,7 @@ impl Room {
 }
 
 /// How many bytes an item holds.
-pub trait Weigh {
+pub trait ByteSize {
     /// In bytes, about.
     fn weight(&self) -> usize;
 }
@@ -68,11 +68,11 @@ impl<T> Shared<T> {
 /// `work` must not panic: its answer would be waited for in vain.
 pub fn in_order<T, R>(
     input: impl Iterator<Item = T> + Send + 'static,
-    room: Room,
+    room: Capacity,
     work: impl Fn(T) -> R + Send + Sync + 'static,
     mut taken: impl FnMut(Option<R>) -> ControlFlow<()>,
 ) where
-    T: Weigh + Send + 'static,
+    T: ByteSize + Send + 'static,
     R: Send + 'static,
 {
     let shared = Arc::new(Shared {
@@ -104,7 +104,7 @@ pub fn in_order<T, R>(
     shared.room.notify_all();
 }
 
-fn read_all<T: Weigh>(shared: &Shared<T>, input: impl Iterator<Item = T>, room: Room) {
+fn read_all<T: ByteSize>(shared: &Shared<T>, input: impl Iterator<Item = T>, room: Capacity) {
     for (number, item) in (0..).zip(input) {
         let weight = item.weight();
         let mut state = shared.lock();
@@ -129,7 +129,7 @@ fn read_all<T: Weigh>(shared: &Shared<T>, input: impl Iterator<Item = T>, room: 
     shared.work.notify_all();
 }
 
-fn answer_all<T: Weigh, R>(
+fn answer_all<T: ByteSize, R>(
     shared: &Shared<T>,
     work: &impl Fn(T) -> R,
     answers: &Sender<(u64, usize, R)>,
@@ -211,13 +211,13 @@ mod tests {
 
     use super::*;
 
-    impl Weigh for usize {
+    impl ByteSize for usize {
         fn weight(&self) -> usize {
             100
         }
     }
 
-    const ROOM: Room = Room {
+    const ROOM: Capacity = Capacity {
         threads: 4,
         items: 16,
         bytes: 1_000_000,
@@ -239,7 +239,7 @@ mod tests {
 
     #[test]
     fn no_more_is_read_than_there_is_room_for() {
-        for (room, most) in [(ROOM, 16), (Room { bytes: 500, ..ROOM }, 5)] {
+        for (room, most) in [(ROOM, 16), (Capacity { bytes: 500, ..ROOM }, 5)] {
             let read = Arc::new(AtomicUsize::new(0));
             let counted = Arc::clone(&read);
             let input = (0..200).inspect(move |_| {
@@ -267,7 +267,7 @@ mod tests {
     #[test]
     fn one_item_larger_than_the_room_goes_through() {
         let mut described = 0;
-        let room = Room { bytes: 10, ..ROOM };
+        let room = Capacity { bytes: 10, ..ROOM };
         in_order(
             0..20,
             room,

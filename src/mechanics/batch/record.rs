@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::Weigh;
+use super::ByteSize;
 
 /// The longest record that is read, bytes: a line that never ends must not fill the memory.
 pub const LONGEST: usize = 1 << 28;
@@ -23,7 +23,7 @@ pub struct Record {
     pub bytes: Result<Vec<u8>, String>,
 }
 
-impl Weigh for Record {
+impl ByteSize for Record {
     fn weight(&self) -> usize {
         self.bytes.as_ref().map_or(0, Vec::len)
     }

@@ -9,7 +9,7 @@ use super::frame::Frame;
 use super::path::Trail;
 use super::problem;
 use super::{BlockId, Body, BodyId, size};
-use crate::geometry::{Around, Cell, Lattice, Nearby, Pieces, Point, Polygon, Vector, overlap};
+use crate::geometry::{Aabb, Cell, Lattice, BoxIndex, Pieces, Point, Polygon, Vector, overlap};
 
 /// So many overlaps are listed; a scene with more has one cause for them all.
 const MOST: usize = 1000;
@@ -215,15 +215,15 @@ fn on_lattice(bodies: &[Numbered<'_>], lattice: Lattice, presence: &Presence) ->
 }
 
 fn off_lattice(bodies: &[Numbered<'_>], presence: &Presence) -> Vec<Found> {
-    let boxes: Vec<Around<4>> = bodies
+    let boxes: Vec<Aabb<4>> = bodies
         .iter()
-        .map(|(_, body)| Around::leaning(body.polygon.outline()))
+        .map(|(_, body)| Aabb::leaning(body.polygon.outline()))
         .collect();
     let pieces: Vec<Pieces> = bodies
         .iter()
         .map(|(_, body)| Pieces::of(&body.polygon))
         .collect();
-    let nearby = Nearby::of((0..bodies.len()).collect(), |i: &usize| boxes[*i]);
+    let nearby = BoxIndex::of((0..bodies.len()).collect(), |i: &usize| boxes[*i]);
     let mut found = Vec::new();
     let mut near: Vec<usize> = Vec::new();
     for (i, (id, _)) in bodies.iter().enumerate() {

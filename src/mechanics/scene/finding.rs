@@ -27,12 +27,12 @@ pub(super) struct Findings {
     /// In the order of finding.
     pub(super) list: Vec<Finding>,
     /// Parts of the file that could not be read.
-    pub(super) doubt: Doubt,
+    pub(super) doubt: UnreadParts,
 }
 
 impl Findings {
     /// Findings of a file some parts of which could not be read.
-    pub(super) fn doubting(doubt: Doubt) -> Findings {
+    pub(super) fn doubting(doubt: UnreadParts) -> Findings {
         Findings {
             list: Vec::new(),
             doubt,
@@ -95,12 +95,12 @@ impl Findings {
 
 /// Parts of a file that could not be read.
 #[derive(Default)]
-pub(super) struct Doubt {
+pub(super) struct UnreadParts {
     /// Where reading failed.
     pub(super) paths: Vec<Path>,
 }
 
-impl Doubt {
+impl UnreadParts {
     /// Whether the entry (of `blocks`, `materials`, …) that a path lies in, or the path itself, could not all be read.
     pub(super) fn touches(&self, path: &Path) -> bool {
         let entry = &path.0[..path.0.len().min(2)];

@@ -67,7 +67,7 @@ pub struct Healed {
 
 /// How close is close, and how far corners may move.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Reach {
+pub(super) struct HealingReach {
     pub(super) source: ToleranceSource,
     /// A millionth of the scene's reach, metres: within this edges touch however their coordinates are written.
     pub(super) usual: f64,
@@ -75,9 +75,9 @@ pub(super) struct Reach {
     pub(super) healing: f64,
 }
 
-impl Reach {
+impl HealingReach {
     /// Of a lattice.
-    pub(super) const EXACT: Reach = Reach {
+    pub(super) const EXACT: HealingReach = HealingReach {
         source: ToleranceSource::Lattice,
         usual: 0.0,
         healing: 0.0,
@@ -122,7 +122,7 @@ pub(crate) fn size(polygon: &Polygon) -> f64 {
 pub(super) fn heal(
     ground: &mut [Option<Ground>],
     blocks: &mut [Option<Block>],
-    mut reach: Reach,
+    mut reach: HealingReach,
 ) -> Healed {
     let parts = ground.len();
     let (mut numbers, mut sizes) = (Vec::new(), Vec::new());
@@ -139,7 +139,7 @@ pub(super) fn heal(
     for (_, size) in numbers.iter().zip(&mut sizes).filter(|(n, _)| **n < parts) {
         *size = largest;
     }
-    let gaps = |reach: Reach| -> Vec<f64> { sizes.iter().map(|s| reach.healing_of(*s)).collect() };
+    let gaps = |reach: HealingReach| -> Vec<f64> { sizes.iter().map(|s| reach.healing_of(*s)).collect() };
     let mut kept = 0;
     let mut outlines = Cow::Borrowed(&drawn[..]);
     if reach.healing > 0.0 {
@@ -147,7 +147,7 @@ pub(super) fn heal(
         (outlines, kept) = (outcome.bodies, outcome.kept.len());
     }
     if reach.usual > reach.healing {
-        let noisy = Reach {
+        let noisy = HealingReach {
             source: ToleranceSource::Noise,
             usual: reach.usual,
             healing: reach.usual,
@@ -232,7 +232,7 @@ impl Scene {
     /// The scene with everything within `gap` metres brought together, and a contact where that cannot be done.
     pub(crate) fn closed(&self, gap: f64) -> Scene {
         let mut scene = self.clone();
-        let reach = Reach {
+        let reach = HealingReach {
             source: ToleranceSource::Given,
             usual: 0.0,
             healing: gap,

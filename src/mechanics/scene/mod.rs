@@ -36,7 +36,7 @@ pub use frame::{Frame, Hold, Plan};
 pub(crate) use heal::size;
 pub use heal::{Healed, ToleranceSource};
 pub use note::{Note, NoteCode};
-pub use problem::{Code, Place, Problem, Problems};
+pub use problem::{Code, Place, Problem, SceneError};
 pub use sketch::{Sketch, SketchedBody, Spot};
 pub use starter::starter;
 

@@ -20,7 +20,7 @@ use crate::geometry::Point;
 const MOST: usize = 8_000_000;
 
 /// What playing needs to know of the scene.
-pub(super) struct Cast<'s> {
+pub(super) struct StepContext<'s> {
     /// Block numbers by name.
     pub(super) blocks: &'s Names<'s>,
     /// Robot numbers by name.
@@ -31,7 +31,7 @@ pub(super) struct Cast<'s> {
     pub(super) grips: &'s [Option<(BlockId, Point)>],
 }
 
-impl Cast<'_> {
+impl StepContext<'_> {
     fn grip(&self, robot: RobotId, block: BlockId, at: Option<Pair>) -> Point {
         match (at, self.grips[robot.0]) {
             (Some(at), _) => Point::new(at[0], at[1]),
@@ -52,7 +52,7 @@ pub(super) fn whole(blocks: usize, holds: Vec<Hold>) -> Frame {
 }
 
 /// One frame per step.
-pub(super) fn frames(findings: &mut Findings, steps: &[StepEntry], cast: &Cast<'_>) -> Vec<Frame> {
+pub(super) fn frames(findings: &mut Findings, steps: &[StepEntry], cast: &StepContext<'_>) -> Vec<Frame> {
     let top = Trail::Top;
     let list = top.key("steps");
     let mut standing = Standing {
@@ -93,7 +93,7 @@ impl Standing {
         at: &Trail<'_>,
         number: usize,
         step: &StepEntry,
-        cast: &Cast<'_>,
+        cast: &StepContext<'_>,
     ) -> Frame {
         let list = at.key("release");
         for (i, name) in step.release.iter().enumerate() {
@@ -149,7 +149,7 @@ impl Standing {
         at: &Trail<'_>,
         name: &str,
         block: BlockId,
-        cast: &Cast<'_>,
+        cast: &StepContext<'_>,
     ) {
         let Some((_, place)) = self.since.remove(&block) else {
             findings.add(at, problem::step::removed_unplaced(name));
@@ -179,7 +179,7 @@ impl Standing {
         at: &Trail<'_>,
         robot_name: &str,
         hold: &HoldEntry,
-        cast: &Cast<'_>,
+        cast: &StepContext<'_>,
     ) {
         let inner = at.key("block");
         let (name, point, name_at) = match hold {
@@ -214,7 +214,7 @@ impl Standing {
         findings: &mut Findings,
         at: &Trail<'_>,
         step: &StepEntry,
-        cast: &Cast<'_>,
+        cast: &StepContext<'_>,
     ) -> Vec<Plan> {
         let mut plans = Vec::new();
         name::once(findings, at, &step.plan);

@@ -58,16 +58,16 @@ pub enum Place {
 /// All that is wrong with a scene, in the order of the text.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
-pub struct Problems {
+pub struct SceneError {
     /// The text that was read, from which all spans count; absent for a scene made in code.
     pub text: Option<String>,
     /// The problems, at least one.
     pub list: Vec<Problem>,
 }
 
-impl Problems {
+impl SceneError {
     /// Findings with their places in a text, sorted by place.
-    pub(super) fn place(findings: Vec<Finding>, source: Option<&Source<'_>>) -> Problems {
+    pub(super) fn place(findings: Vec<Finding>, source: Option<&Source<'_>>) -> SceneError {
         let mut list: Vec<Problem> = findings
             .into_iter()
             .map(|finding| {
@@ -76,16 +76,16 @@ impl Problems {
             })
             .collect();
         list.sort_by_key(|p| p.span.as_ref().map(|s| s.start));
-        Problems {
+        SceneError {
             text: source.map(|s| s.text.to_string()),
             list,
         }
     }
 
     /// A single problem of the text itself.
-    pub(super) fn of_text(source: &Source<'_>, span: Range<usize>, wording: Wording) -> Problems {
+    pub(super) fn of_text(source: &Source<'_>, span: Range<usize>, wording: Wording) -> SceneError {
         let problem = Problem::new(String::new(), Some(span), Some(source), wording);
-        Problems {
+        SceneError {
             text: Some(source.text.to_string()),
             list: vec![problem],
         }
@@ -133,7 +133,7 @@ impl fmt::Display for Problem {
     }
 }
 
-impl fmt::Display for Problems {
+impl fmt::Display for SceneError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (i, problem) in self.list.iter().enumerate() {
             if i > 0 {
@@ -146,7 +146,7 @@ impl fmt::Display for Problems {
 }
 
 impl std::error::Error for Problem {}
-impl std::error::Error for Problems {}
+impl std::error::Error for SceneError {}
 
 /// What to say of a problem.
 #[derive(Clone, Debug)]

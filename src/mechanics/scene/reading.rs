@@ -10,10 +10,10 @@ mod value;
 pub(super) use self::object::KEYS;
 use self::value::Reader;
 use super::Scene;
-use super::finding::{Doubt, Finding};
+use super::finding::{UnreadParts, Finding};
 use super::format::SceneFile;
 use super::note::{self, Lines};
-use super::problem::Problems;
+use super::problem::SceneError;
 use super::resolution::resolve;
 use super::source::Source;
 use super::syntax;
@@ -34,9 +34,9 @@ impl Scene {
     ///
     /// let problems = Scene::from_json(r#"{ "drystone": 1, "blokcs": [] }"#).unwrap_err();
     /// assert!(problems.to_string().contains("the nearest known key is `blocks`"));
-    /// # Ok::<(), drystone::scene::Problems>(())
+    /// # Ok::<(), drystone::scene::SceneError>(())
     /// ```
-    pub fn from_json(text: &str) -> Result<Scene, Problems> {
+    pub fn from_json(text: &str) -> Result<Scene, SceneError> {
         Scene::from_json_within(text, None)
     }
 
@@ -44,7 +44,7 @@ impl Scene {
     ///
     /// # Errors
     /// As [`Scene::from_json`].
-    pub fn from_json_within(text: &str, tolerance: Option<f64>) -> Result<Scene, Problems> {
+    pub fn from_json_within(text: &str, tolerance: Option<f64>) -> Result<Scene, SceneError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let source = Source::parse(text).map_err(|fault| syntax::problem(text, fault))?;
         let (mut file, findings, doubt) = read(&source);
@@ -58,14 +58,14 @@ impl Scene {
             Ok(_) => findings,
             Err(more) => findings.into_iter().chain(more).collect(),
         };
-        Err(Problems::place(all, Some(&source)))
+        Err(SceneError::place(all, Some(&source)))
     }
 
     /// Reads and checks a scene file as it lies on a disk.
     ///
     /// # Errors
     /// As [`Scene::from_json`], and bytes that are no UTF-8.
-    pub fn from_slice(bytes: &[u8]) -> Result<Scene, Problems> {
+    pub fn from_slice(bytes: &[u8]) -> Result<Scene, SceneError> {
         Scene::from_slice_within(bytes, None)
     }
 
@@ -74,7 +74,7 @@ impl Scene {
     ///
     /// # Errors
     /// As [`Scene::from_slice`].
-    pub fn from_slice_within(bytes: &[u8], tolerance: Option<f64>) -> Result<Scene, Problems> {
+    pub fn from_slice_within(bytes: &[u8], tolerance: Option<f64>) -> Result<Scene, SceneError> {
         let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
         match std::str::from_utf8(bytes) {
             Ok(text) => Scene::from_json_within(text, tolerance),
@@ -107,7 +107,7 @@ impl Scene {
     ///
     /// let flat = Scene::builder().block(BlockEntry::new("a").polygon([[0.0, 0.0], [1.0, 0.0]]));
     /// assert_eq!(flat.build().unwrap_err().list[0].path, "blocks[0].polygon");
-    /// # Ok::<(), drystone::scene::Problems>(())
+    /// # Ok::<(), drystone::scene::SceneError>(())
     /// ```
     pub fn builder() -> SceneFile {
         SceneFile::default()
@@ -123,18 +123,18 @@ impl Scene {
     /// use drystone::Scene;
     /// let scene = Scene::new(Scene::builder().density(2.0).block([[0.0, 0.0], [3.0, 0.0], [0.0, 1.0]]))?;
     /// assert_eq!(scene.blocks()[0].id, "1");
-    /// # Ok::<(), drystone::scene::Problems>(())
+    /// # Ok::<(), drystone::scene::SceneError>(())
     /// ```
-    pub fn new(file: SceneFile) -> Result<Scene, Problems> {
+    pub fn new(file: SceneFile) -> Result<Scene, SceneError> {
         let mut scene =
-            resolve(&file, Doubt::default()).map_err(|findings| Problems::place(findings, None))?;
+            resolve(&file, UnreadParts::default()).map_err(|findings| SceneError::place(findings, None))?;
         scene.notes = note::of(&file, &scene, None);
         Ok(scene)
     }
 }
 
 /// The scene file that a syntax tree holds, all that does not fit, and where that is.
-pub(super) fn read(source: &Source<'_>) -> (SceneFile, Vec<Finding>, Doubt) {
+pub(super) fn read(source: &Source<'_>) -> (SceneFile, Vec<Finding>, UnreadParts) {
     let mut reader = Reader::new(source);
     let file = match &source.tree {
         Some(tree) => object::scene(&mut reader, &tree.root),

@@ -8,16 +8,16 @@ pub(super) mod sketch;
 
 use self::body::colour;
 use super::collision::{self, Comparison};
-use super::finding::{Doubt, Finding, Findings};
+use super::finding::{UnreadParts, Finding, Findings};
 use super::format::{self, Pair, SceneFile};
 use super::frame::Hold;
-use super::heal::{self, Healed, Reach, ToleranceSource};
+use super::heal::{self, Healed, HealingReach, ToleranceSource};
 use super::name::{self, Names};
 use super::note::{Lines, NoteCode};
 use super::number::{SMALLEST_EXTENT, at_least_zero, is_amount, is_sane};
 use super::outline::Outline;
 use super::path::Trail;
-use super::play::{self, Cast};
+use super::play::{self, StepContext};
 use super::problem;
 use super::rounding::{self, Rounding};
 use super::shape;
@@ -32,7 +32,7 @@ const GRAVITY: Pair = [0.0, -9.81];
 /// The scene a file describes, or all that is wrong with it.
 ///
 /// With parts of the file in doubt the answer is wrong in any case, perhaps without a finding.
-pub(super) fn resolve(file: &SceneFile, doubt: Doubt) -> Result<Scene, Vec<Finding>> {
+pub(super) fn resolve(file: &SceneFile, doubt: UnreadParts) -> Result<Scene, Vec<Finding>> {
     let mut findings = Findings::doubting(doubt);
     let scene = Resolution::new(&mut findings, file).scene(&mut findings);
     match scene {
@@ -151,7 +151,7 @@ impl<'f> Resolution<'f> {
             self.file.contact_tolerance,
         );
         let reach = if exact {
-            Reach::EXACT
+            HealingReach::EXACT
         } else {
             self.reach(given, &blocks)
         };
@@ -217,7 +217,7 @@ impl<'f> Resolution<'f> {
                 .first_entry("steps")
                 .unwrap_or(usize::MAX)
                 .min(self.file.steps.len());
-            let cast = Cast {
+            let cast = StepContext {
                 blocks: &block_names,
                 robots: &robot_names,
                 centroids: &centroids,
@@ -280,9 +280,9 @@ impl<'f> Resolution<'f> {
     }
 
     /// How close is close: as given, else from how the coordinates are written and how large the scene is.
-    fn reach(&self, given: Option<f64>, blocks: &[Option<Block>]) -> Reach {
+    fn reach(&self, given: Option<f64>, blocks: &[Option<Block>]) -> HealingReach {
         if let Some(gap) = given {
-            return Reach {
+            return HealingReach {
                 source: ToleranceSource::Given,
                 usual: 0.0,
                 healing: gap,
@@ -300,12 +300,12 @@ impl<'f> Resolution<'f> {
         // Both ends of an edge and a corner beside it, each off in both coordinates.
         let misfit = |r: &Rounding| 3.0 * r.error;
         match rounding::of(self.file).filter(|r| misfit(r) <= heal::FINE * small) {
-            Some(rounding) => Reach {
+            Some(rounding) => HealingReach {
                 source: rounding.source,
                 usual,
                 healing: misfit(&rounding),
             },
-            None => Reach {
+            None => HealingReach {
                 source: ToleranceSource::Size,
                 usual,
                 healing: 0.0,

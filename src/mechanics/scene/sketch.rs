@@ -2,7 +2,7 @@
 //!
 //! Nothing here may be examined: outlines may cross, and bodies may lie in each other.
 
-use super::problem::{Place, Problems};
+use super::problem::{Place, SceneError};
 use super::resolution::sketch;
 use super::source::Source;
 use super::{BlockId, BodyId, Scene, reading};
@@ -17,7 +17,7 @@ pub struct Sketch {
     /// Every body whose corners can be drawn, the ground first.
     pub bodies: Vec<SketchedBody>,
     /// What is wrong, in the order of the text; nothing where the scene is sound.
-    pub problems: Problems,
+    pub problems: SceneError,
     /// For each problem where it lies, where that can be drawn.
     pub places: Vec<Option<Spot>>,
     /// The scene, where each of its bodies is sound by itself. They may overlap.

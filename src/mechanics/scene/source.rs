@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::path::{Path, Segment};
-use super::tree::{Entry, Fault, NodeKind, Tree, parse};
+use super::tree::{Entry, SyntaxError, NodeKind, Tree, parse};
 
 /// A text and its JSON values.
 pub(super) struct Source<'t> {
@@ -26,7 +26,7 @@ pub(super) enum Mark {
 
 impl<'t> Source<'t> {
     /// A text with its values' places, or where it is no JSON.
-    pub(super) fn parse(text: &'t str) -> Result<Source<'t>, Fault> {
+    pub(super) fn parse(text: &'t str) -> Result<Source<'t>, SyntaxError> {
         let tree = Some(parse(text)?);
         Ok(Source {
             tree,

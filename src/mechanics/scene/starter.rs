@@ -5,7 +5,7 @@
 /// ```
 /// let scene = drystone::scene::Scene::from_json(drystone::scene::starter())?;
 /// assert!(scene.frames().len() > 1);
-/// # Ok::<(), drystone::scene::Problems>(())
+/// # Ok::<(), drystone::scene::SceneError>(())
 /// ```
 pub fn starter() -> &'static str {
     include_str!("../../../assets/starter.json")

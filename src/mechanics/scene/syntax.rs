@@ -2,25 +2,25 @@
 
 use std::ops::Range;
 
-use super::problem::{self, Problems, Wording};
+use super::problem::{self, SceneError, Wording};
 use super::source::Source;
-use super::tree::{Fault, Why};
+use super::tree::{SyntaxError, Why};
 
 /// The one problem of a text that is no JSON.
-pub(super) fn problem(text: &str, fault: Fault) -> Problems {
+pub(super) fn problem(text: &str, fault: SyntaxError) -> SceneError {
     let source = Source::plain(text);
     let (span, wording) = explain(&source, fault);
-    Problems::of_text(&source, span, wording)
+    SceneError::of_text(&source, span, wording)
 }
 
 /// The one problem of bytes that are no text.
-pub(super) fn not_utf8(bytes: &[u8], valid: usize) -> Problems {
+pub(super) fn not_utf8(bytes: &[u8], valid: usize) -> SceneError {
     let text = String::from_utf8_lossy(bytes);
     let source = Source::plain(&text);
     let utf16 = bytes.starts_with(&[0xFF, 0xFE]) || bytes.starts_with(&[0xFE, 0xFF]);
     let byte = bytes.get(valid).copied().unwrap_or(0);
     // The replacement character stands where the text breaks off; up to there text and bytes agree.
-    Problems::of_text(
+    SceneError::of_text(
         &source,
         one(&text, valid),
         problem::text::not_utf8(byte, utf16),
@@ -33,7 +33,7 @@ fn one(text: &str, byte: usize) -> Range<usize> {
     byte..byte + length
 }
 
-fn explain(source: &Source<'_>, fault: Fault) -> (Range<usize>, Wording) {
+fn explain(source: &Source<'_>, fault: SyntaxError) -> (Range<usize>, Wording) {
     let text = source.text;
     if text.trim().is_empty() {
         return (0..0, problem::text::empty_text());
@@ -66,7 +66,7 @@ fn explain(source: &Source<'_>, fault: Fault) -> (Range<usize>, Wording) {
 }
 
 /// What to say where something else stands than JSON has there.
-fn unexpected(text: &str, fault: Fault, here: Range<usize>) -> (Range<usize>, Wording) {
+fn unexpected(text: &str, fault: SyntaxError, here: Range<usize>) -> (Range<usize>, Wording) {
     let token = token(text, fault.at);
     if let Some(wording) = known_token(&text[token.clone()]) {
         return (token, wording);

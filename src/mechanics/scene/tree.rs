@@ -4,7 +4,7 @@
 //! allocations.
 //!
 //! Strict JSON (RFC 8259) and no more: what this file takes, serde_json takes, and the other way round; a test holds the
-//! two against each other. Reading ends at the first fault, of which [`Fault`] says what was expected there.
+//! two against each other. Reading ends at the first fault, of which [`SyntaxError`] says what was expected there.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -88,7 +88,7 @@ pub(super) struct Entry<'t> {
 
 /// Where and why a text is no JSON.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Fault {
+pub(super) struct SyntaxError {
     /// The byte at which reading stopped.
     pub(super) at: usize,
     /// Why.
@@ -123,7 +123,7 @@ pub(super) enum Why {
 }
 
 /// Reads a text as one JSON value.
-pub(super) fn parse(text: &str) -> Result<Tree<'_>, Fault> {
+pub(super) fn parse(text: &str) -> Result<Tree<'_>, SyntaxError> {
     let mut reader = Parser {
         text,
         bytes: text.as_bytes(),
@@ -175,15 +175,15 @@ impl<'t> Parser<'t> {
     }
 
     /// A fault here, or that the text ends here.
-    fn fault(&self, why: Why) -> Fault {
+    fn fault(&self, why: Why) -> SyntaxError {
         let why = match self.peek() {
             None => Why::End(self.open.last().copied()),
             Some(_) => why,
         };
-        Fault { at: self.at, why }
+        SyntaxError { at: self.at, why }
     }
 
-    fn value(&mut self) -> Result<Node<'t>, Fault> {
+    fn value(&mut self) -> Result<Node<'t>, SyntaxError> {
         let start = self.at;
         let kind = match self.peek() {
             Some(b'{') => NodeKind::Object(self.object()?),
@@ -198,7 +198,7 @@ impl<'t> Parser<'t> {
         })
     }
 
-    fn word(&mut self) -> Result<NodeKind<'t>, Fault> {
+    fn word(&mut self) -> Result<NodeKind<'t>, SyntaxError> {
         let words = [
             ("null", NodeKind::Null),
             ("true", NodeKind::Flag(true)),
@@ -213,9 +213,9 @@ impl<'t> Parser<'t> {
         Err(self.fault(Why::Value))
     }
 
-    fn number(&mut self) -> Result<f64, Fault> {
+    fn number(&mut self) -> Result<f64, SyntaxError> {
         let start = self.at;
-        let broken = Fault {
+        let broken = SyntaxError {
             at: start,
             why: Why::Value,
         };
@@ -249,7 +249,7 @@ impl<'t> Parser<'t> {
         self.at - start
     }
 
-    fn enter(&mut self, bracket: char) -> Result<(), Fault> {
+    fn enter(&mut self, bracket: char) -> Result<(), SyntaxError> {
         if self.open.len() == DEEPEST {
             return Err(self.fault(Why::TooDeep));
         }
@@ -265,7 +265,7 @@ impl<'t> Parser<'t> {
     }
 
     /// What follows a value in a list or object: whether another comes, after a comma.
-    fn another(&mut self, close: char) -> Result<bool, Fault> {
+    fn another(&mut self, close: char) -> Result<bool, SyntaxError> {
         self.blanks();
         let comma = self.at;
         match self.peek() {
@@ -280,7 +280,7 @@ impl<'t> Parser<'t> {
         Ok(true)
     }
 
-    fn list(&mut self) -> Result<List, Fault> {
+    fn list(&mut self) -> Result<List, SyntaxError> {
         self.enter('[')?;
         let outer = self.loose_items.len();
         let mut more = self.peek() != Some(b']');
@@ -295,7 +295,7 @@ impl<'t> Parser<'t> {
         Ok(List(first..self.items.len()))
     }
 
-    fn object(&mut self) -> Result<Object, Fault> {
+    fn object(&mut self) -> Result<Object, SyntaxError> {
         self.enter('{')?;
         let outer = self.loose_entries.len();
         let mut more = self.peek() != Some(b'}');
@@ -326,7 +326,7 @@ impl<'t> Parser<'t> {
         Ok(Object(first..self.entries.len()))
     }
 
-    fn string(&mut self) -> Result<Cow<'t, str>, Fault> {
+    fn string(&mut self) -> Result<Cow<'t, str>, SyntaxError> {
         let quote = self.at;
         self.at += 1;
         let mut start = self.at;
@@ -356,16 +356,16 @@ impl<'t> Parser<'t> {
     }
 
     /// The text ends within a string.
-    fn cut(&self, quote: usize) -> Fault {
-        Fault {
+    fn cut(&self, quote: usize) -> SyntaxError {
+        SyntaxError {
             at: self.at,
             why: Why::End(Some(('"', quote))),
         }
     }
 
-    fn escape(&mut self, quote: usize) -> Result<char, Fault> {
+    fn escape(&mut self, quote: usize) -> Result<char, SyntaxError> {
         let start = self.at;
-        let wrong = |why| Fault { at: start, why };
+        let wrong = |why| SyntaxError { at: start, why };
         self.at += 1;
         let c = match self.peek() {
             Some(b'"') => '"',
@@ -399,7 +399,7 @@ impl<'t> Parser<'t> {
     }
 
     /// Four hexadecimal digits.
-    fn hex(&mut self, quote: usize, start: usize) -> Result<u32, Fault> {
+    fn hex(&mut self, quote: usize, start: usize) -> Result<u32, SyntaxError> {
         let mut code = 0;
         for _ in 0..4 {
             let digit = match self.peek() {
@@ -407,7 +407,7 @@ impl<'t> Parser<'t> {
                 Some(c) => char::from(c).to_digit(16),
             };
             code = 16 * code
-                + digit.ok_or(Fault {
+                + digit.ok_or(SyntaxError {
                     at: start,
                     why: Why::Escape,
                 })?;

@@ -9,13 +9,13 @@ mod refusal;
 
 use std::collections::BTreeMap;
 
-pub use refusal::Refusal;
+pub use refusal::SessionError;
 
-use crate::analysis::{Analysis, Guess, Options, Source, Verdict, hinges_on_gaps};
+use crate::analysis::{Analysis, WarmStart, Options, Source, Verdict, hinges_on_gaps};
 use crate::geometry::{Cell, Point};
 use crate::interface::{Edges, Interfaces};
 use crate::scene::format::{BlockEntry, SceneFile};
-use crate::scene::{BlockId, BodyId, Hold, Problems, RobotId, Scene};
+use crate::scene::{BlockId, BodyId, Hold, SceneError, RobotId, Scene};
 
 /// A structure under construction.
 ///
@@ -35,7 +35,7 @@ use crate::scene::{BlockId, BodyId, Hold, Problems, RobotId, Scene};
 /// assert_eq!(session.release("crane")?, Verdict::Unstable);
 /// assert_eq!(session.remove("b")?, Verdict::Stable);
 /// assert!(session.remove("b").unwrap_err().to_string().contains("no block b"));
-/// # Ok::<(), drystone::session::Refusal>(())
+/// # Ok::<(), drystone::session::SessionError>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct Session {
@@ -49,7 +49,7 @@ pub struct Session {
     scene: Scene,
     found: Interfaces,
     lookup: Lookup,
-    guess: Guess,
+    guess: WarmStart,
     options: Options,
     verdict: Verdict,
     source: Source,
@@ -69,7 +69,7 @@ impl Session {
     ///
     /// # Errors
     /// What is wrong with the scene; and steps, which are the session's own.
-    pub fn of(file: SceneFile) -> Result<Session, Refusal> {
+    pub fn of(file: SceneFile) -> Result<Session, SessionError> {
         Session::with(file, Options::default())
     }
 
@@ -78,9 +78,9 @@ impl Session {
     ///
     /// # Errors
     /// As [`Session::of`].
-    pub fn with(file: SceneFile, options: Options) -> Result<Session, Refusal> {
+    pub fn with(file: SceneFile, options: Options) -> Result<Session, SessionError> {
         if !file.steps.is_empty() {
-            return Err(Refusal::Steps);
+            return Err(SessionError::Steps);
         }
         let scene = Scene::new(file.clone())?;
         let grips = scene.frames[0].holds.iter().map(|hold| {
@@ -101,7 +101,7 @@ impl Session {
             found: Interfaces::of(&scene),
             scene,
             file,
-            guess: Guess::default(),
+            guess: WarmStart::default(),
             options,
             verdict: Verdict::Stable,
             source: Source::Examined,
@@ -121,10 +121,10 @@ impl Session {
     ///
     /// # Errors
     /// Everything that is wrong with it, such as an overlap with what stands; nothing is placed then.
-    pub fn place(&mut self, mut block: BlockEntry) -> Result<Verdict, Refusal> {
+    pub fn place(&mut self, mut block: BlockEntry) -> Result<Verdict, SessionError> {
         let id = block.id.get_or_insert_with(|| self.free_number()).clone();
         if self.lookup.numbers.contains_key(&id) {
-            return Err(Refusal::Twice(id));
+            return Err(SessionError::Twice(id));
         }
         let grown = self.grows() && self.grow(&block)?;
         self.file.blocks.push(block);
@@ -139,7 +139,7 @@ impl Session {
     ///
     /// # Errors
     /// No such block stands, or a robot holds it; nothing is taken away then.
-    pub fn remove(&mut self, block: &str) -> Result<Verdict, Refusal> {
+    pub fn remove(&mut self, block: &str) -> Result<Verdict, SessionError> {
         let number = self.block(block)?;
         if let Some(hold) = self.scene.frames[0]
             .holds
@@ -147,7 +147,7 @@ impl Session {
             .find(|h| h.block == number)
         {
             let robot = self.scene.robots[hold.robot.0].id.clone();
-            return Err(Refusal::Held(block.into(), robot));
+            return Err(SessionError::Held(block.into(), robot));
         }
         self.file.loads.retain(|load| load.block != block);
         let named = |entry: &BlockEntry| entry.id.as_deref() == Some(block);
@@ -161,7 +161,7 @@ impl Session {
             self.scene.frames[0].placed.retain(|b| *b != number);
         } else {
             // Numbers and the tolerance are others now.
-            self.guess = Guess::default();
+            self.guess = WarmStart::default();
             self.read_anew()?;
         }
         Ok(self.judge())
@@ -176,17 +176,17 @@ impl Session {
         robot: &str,
         block: &str,
         at: Option<Point>,
-    ) -> Result<Verdict, Refusal> {
+    ) -> Result<Verdict, SessionError> {
         let (robot_id, number) = (self.robot(robot)?, self.block(block)?);
         let point = at.unwrap_or(self.scene.blocks[number.0].centroid);
         if !(point.x.abs() <= 1e12 && point.y.abs() <= 1e12) {
-            return Err(Refusal::NoPlace(point.x, point.y));
+            return Err(SessionError::NoPlace(point.x, point.y));
         }
         let holds = &mut self.scene.frames[0].holds;
         if let Some(other) = holds.iter().find(|hold| hold.robot == robot_id) {
             if other.block != number {
                 let other = self.scene.blocks[other.block.0].id.clone();
-                return Err(Refusal::HoldsAnother(robot.into(), other));
+                return Err(SessionError::HoldsAnother(robot.into(), other));
             }
             holds.retain(|hold| hold.robot != robot_id);
         }
@@ -204,13 +204,13 @@ impl Session {
     ///
     /// # Errors
     /// No such robot, or it holds nothing.
-    pub fn release(&mut self, robot: &str) -> Result<Verdict, Refusal> {
+    pub fn release(&mut self, robot: &str) -> Result<Verdict, SessionError> {
         let id = self.robot(robot)?;
         let holds = &mut self.scene.frames[0].holds;
         let before = holds.len();
         holds.retain(|hold| hold.robot != id);
         if holds.len() == before {
-            return Err(Refusal::HoldsNothing(robot.into()));
+            return Err(SessionError::HoldsNothing(robot.into()));
         }
         self.grips.remove(&id);
         Ok(self.judge())
@@ -261,7 +261,7 @@ impl Session {
 
     /// Adds a block of cells to what stands; false where that takes a closer look, at a block that is none or that is in
     /// the way of another.
-    fn grow(&mut self, block: &BlockEntry) -> Result<bool, Problems> {
+    fn grow(&mut self, block: &BlockEntry) -> Result<bool, SceneError> {
         let alone = Scene::new(SceneFile {
             blocks: vec![block.clone()],
             ..self.bare.clone()
@@ -287,7 +287,7 @@ impl Session {
     }
 
     /// Reads all blocks that stand as one scene; where something is wrong with it, all stays as it is.
-    fn read_anew(&mut self) -> Result<(), Problems> {
+    fn read_anew(&mut self) -> Result<(), SceneError> {
         let mut scene = Scene::new(self.file.clone())?;
         self.lookup = Lookup::of(&scene);
         let grips = self.grips.iter();
@@ -305,16 +305,16 @@ impl Session {
         Ok(())
     }
 
-    fn block(&self, name: &str) -> Result<BlockId, Refusal> {
+    fn block(&self, name: &str) -> Result<BlockId, SessionError> {
         let number = self.lookup.numbers.get(name).copied();
-        number.ok_or_else(|| Refusal::NoBlock(name.into()))
+        number.ok_or_else(|| SessionError::NoBlock(name.into()))
     }
 
-    fn robot(&self, name: &str) -> Result<RobotId, Refusal> {
+    fn robot(&self, name: &str) -> Result<RobotId, SessionError> {
         let number = self.scene.robots.iter().position(|r| r.id == name);
         number
             .map(RobotId)
-            .ok_or_else(|| Refusal::NoRobot(name.into()))
+            .ok_or_else(|| SessionError::NoRobot(name.into()))
     }
 
     fn free_number(&self) -> String {

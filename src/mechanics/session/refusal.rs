@@ -1,15 +1,15 @@
-//! [`Refusal`]: why a step was not taken, in words.
+//! [`SessionError`]: why a step was not taken, in words.
 
-use crate::scene::Problems;
+use crate::scene::SceneError;
 use crate::text::line;
 
 /// Why a session did not take a step; everything is as it was before.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum Refusal {
+pub enum SessionError {
     /// The scene, or the block, is wrong.
     #[error("{0}")]
-    Problems(#[from] Problems),
+    SceneError(#[from] SceneError),
     /// The scene has steps.
     #[error("the scene has steps; a session takes its own, so leave them out")]
     Steps,

@@ -25,20 +25,20 @@ thread_local! {
 ///
 /// A deadline belongs to a run, not to a program: so it is not handed down through everything that poses one.
 #[derive(Debug)]
-pub(crate) struct Until {
+pub(crate) struct DeadlineGuard {
     before: Option<Instant>,
 }
 
-impl Until {
+impl DeadlineGuard {
     /// From now on; `None` is no deadline.
-    pub(crate) fn set(deadline: Option<Instant>) -> Until {
-        Until {
+    pub(crate) fn set(deadline: Option<Instant>) -> DeadlineGuard {
+        DeadlineGuard {
             before: DEADLINE.replace(deadline),
         }
     }
 }
 
-impl Drop for Until {
+impl Drop for DeadlineGuard {
     fn drop(&mut self) {
         DEADLINE.set(self.before);
     }
@@ -106,7 +106,7 @@ pub struct SolverSettings {
     /// The tolerance of feasibility and gap the solver is asked for.
     pub tolerance: f64,
     /// Where the normal equations end; `None`, and with clarabel, at the tolerance.
-    pub finer: Option<Finer>,
+    pub finer: Option<CrossoverTolerance>,
     /// How its linear systems are conditioned.
     pub conditioning: Conditioning,
     /// Which of several balances is wanted.
@@ -118,7 +118,7 @@ pub struct SolverSettings {
 /// Where these columns stand out, two to eleven iterations beyond the tolerance leave them next to no slack. Where they do not, as in
 /// walls near their edge, no number of iterations does, and the last ten are saved.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Finer {
+pub struct CrossoverTolerance {
     /// They end at this part of the tolerance, where they can.
     pub by: f64,
     /// The columns stand out where all that are in use have no more slack than this together, in parts of the cost.

@@ -33,7 +33,7 @@ const CHANGES: usize = 4;
 
 /// The used columns of a program and what was found with them.
 #[derive(Clone, Debug, Default)]
-pub struct Nearest {
+pub struct BoundedNnls {
     /// The numbers of the used columns, in the order of the factor's rows, and their amounts.
     used: Vec<usize>,
     amounts: Vec<f64>,
@@ -56,7 +56,7 @@ pub fn generators(program: &Program) -> Vec<Column> {
     list
 }
 
-impl Nearest {
+impl BoundedNnls {
     /// The same set where columns have other numbers now; those that are gone, of which `number` is `None`, go.
     pub fn renumber(&mut self, number: impl Fn(usize) -> Option<usize>) {
         for place in (0..self.used.len()).rev() {
@@ -371,7 +371,7 @@ mod tests {
 
     fn found(program: &Program) -> (Vec<f64>, Amounts) {
         let columns = generators(program);
-        let mut nearest = Nearest::default();
+        let mut nearest = BoundedNnls::default();
         let rest = nearest.find(&program.loads, &columns).expect("an end");
         (rest, nearest.gathered(program, &columns))
     }
@@ -418,7 +418,7 @@ mod tests {
     fn a_set_that_lost_a_column_is_made_whole() {
         let program = block(0.25, 1.0, vec![]);
         let columns = generators(&program);
-        let mut nearest = Nearest::default();
+        let mut nearest = BoundedNnls::default();
         nearest.find(&program.loads, &columns).expect("an end");
         let first = nearest.numbers().next().expect("used");
         nearest.renumber(|k| (k != first).then_some(k));

@@ -12,7 +12,7 @@
 use super::limit::columns_in;
 use super::slanted::Slanted;
 use super::{
-    Amounts, Conditioning, Dual, Effort, Face, Finer, SolverSettings, Status, determinate, dual,
+    Amounts, Conditioning, Dual, Effort, Face, CrossoverTolerance, SolverSettings, Status, determinate, dual,
     in_forces, largest, least_squares_amounts, of_velocities, once, refined,
 };
 use crate::program::{Column, Program, kinematic, sticking_columns};
@@ -66,7 +66,7 @@ const SLACK_IN_USE: f64 = 0.5;
 
 /// Of many blocks the first stage is solved more sharply. In a wall of 2 000 bricks turned by 40° the second stage had
 /// no balance on the columns found without.
-const FINER: Finer = Finer {
+const FINER: CrossoverTolerance = CrossoverTolerance {
     by: 1e-2,
     slack: 1.2 * SLACK_IN_USE * SAME_OF_MANY,
     before: 3.0,
@@ -189,14 +189,14 @@ fn least_sticking(
 }
 
 /// How sharply the first stage is solved. What a light block lacks comes last: there it is not ended before.
-fn finer(loads: &[f64]) -> Finer {
+fn finer(loads: &[f64]) -> CrossoverTolerance {
     let bodies = loads
         .chunks_exact(3)
         .map(|load| libm::hypot(load[0], load[1]));
     let lightest = bodies
         .filter(|load| *load > 0.0)
         .fold(f64::INFINITY, f64::min);
-    Finer {
+    CrossoverTolerance {
         before: if lightest < LIGHT * largest(loads) {
             0.0
         } else {

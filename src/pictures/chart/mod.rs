@@ -62,11 +62,11 @@ pub struct Scatter {
 /// A picture that plotters could not draw.
 #[derive(Debug, thiserror::Error)]
 #[error("the chart could not be drawn: {0}")]
-pub struct Undrawn(String);
+pub struct ChartError(String);
 
-impl Undrawn {
-    fn of(error: impl fmt::Display) -> Undrawn {
-        Undrawn(error.to_string())
+impl ChartError {
+    fn of(error: impl fmt::Display) -> ChartError {
+        ChartError(error.to_string())
     }
 }
 
@@ -101,9 +101,9 @@ pub fn power_of_ten(exponent: i32) -> String {
 ///     front: (String::new(), Vec::new()),
 /// })?;
 /// assert!(svg.starts_with("<svg") && svg.contains("10⁻⁹") && svg.contains("ours"));
-/// # Ok::<(), drystone::internals::chart::Undrawn>(())
+/// # Ok::<(), drystone::internals::chart::ChartError>(())
 /// ```
-pub fn scatter(chart: &Scatter) -> Result<String, Undrawn> {
+pub fn scatter(chart: &Scatter) -> Result<String, ChartError> {
     plot::document(SIZE, &chart.title, |svg| plot::scatter(chart, svg))
 }
 
@@ -139,9 +139,9 @@ pub struct Growing {
 ///
 /// # Errors
 /// Where plotters refuses, which no finite and positive points make it do; and for no points.
-pub fn growth(chart: &Growth) -> Result<String, Undrawn> {
+pub fn growth(chart: &Growth) -> Result<String, ChartError> {
     if chart.lines.iter().any(|line| line.points.is_empty()) || chart.lines.is_empty() {
-        return Err(Undrawn::of("there is nothing to draw"));
+        return Err(ChartError::of("there is nothing to draw"));
     }
     plot::document(SIZE, &chart.title, |svg| plot::growth(chart, svg))
 }
@@ -201,9 +201,9 @@ impl Bars {
 ///
 /// # Errors
 /// Where plotters refuses, or there are no bars.
-pub fn bars(chart: &Bars) -> Result<String, Undrawn> {
+pub fn bars(chart: &Bars) -> Result<String, ChartError> {
     if chart.counts.is_empty() || chart.edges.len() != chart.counts.len() + 1 {
-        return Err(Undrawn::of("there is nothing to count"));
+        return Err(ChartError::of("there is nothing to count"));
     }
     plot::document(SMALL, &chart.title, |svg| plot::bars(chart, svg))
 }
@@ -225,10 +225,10 @@ pub struct Course {
 ///
 /// # Errors
 /// Where plotters refuses, or there is nothing to draw.
-pub fn course(chart: &Course) -> Result<String, Undrawn> {
+pub fn course(chart: &Course) -> Result<String, ChartError> {
     let values = chart.lines.iter().flat_map(|l| l.2.iter().flatten());
     if chart.steps.is_empty() || !values.clone().all(|v| v.is_finite()) || values.count() == 0 {
-        return Err(Undrawn::of("there is nothing to draw"));
+        return Err(ChartError::of("there is nothing to draw"));
     }
     plot::document(SMALL, &chart.title, |svg| plot::course(chart, svg))
 }

@@ -8,7 +8,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{FontStyle, RGBColor, register_font};
 
 use super::{
-    Bars, Course, Growing, Growth, Point, SIZE, SMALL, Scatter, Undrawn, power_of_ten, round_step,
+    Bars, Course, Growing, Growth, Point, SIZE, SMALL, Scatter, ChartError, power_of_ten, round_step,
 };
 use crate::drawing::Face;
 use crate::text::xml;
@@ -26,7 +26,7 @@ pub(super) fn document(
     (width, height): (i32, i32),
     title: &str,
     draw: impl FnOnce(&mut String) -> Drawn,
-) -> Result<String, Undrawn> {
+) -> Result<String, ChartError> {
     static FONTS: Once = Once::new();
     FONTS.call_once(|| {
         // It fails only for a font file that cannot be read, and then drawing says so.
@@ -34,11 +34,11 @@ pub(super) fn document(
         let _ = register_font(FONT, FontStyle::Bold, Face::SansBold.data());
     });
     let mut svg = String::new();
-    draw(&mut svg).map_err(Undrawn::of)?;
+    draw(&mut svg).map_err(ChartError::of)?;
     let (w, h) = (width * FINE, height * FINE);
     let head = format!("width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\"");
     if !svg.contains(&head) {
-        return Err(Undrawn::of("the head of the SVG is not where it was"));
+        return Err(ChartError::of("the head of the SVG is not where it was"));
     }
     let page = format!(
         "width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {w} {h}\" role=\"img\" aria-label=\"{}\"",

@@ -35,7 +35,7 @@ const DISLIKED: f64 = 110.0;
 
 /// A label that wants a place.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Wish {
+pub struct LabelRequest {
     /// What it names: where its leader would begin.
     pub anchor: PagePoint,
     /// How far from the anchor the nearest ring begins, pixels.
@@ -62,7 +62,7 @@ pub struct Placed {
 }
 
 /// A place for each wish on the page, in the order of the wishes; `None` where there is none. Placed labels become ink.
-pub fn place(ink: &mut Ink, page: PageRect, wishes: &[Wish]) -> Vec<Option<Placed>> {
+pub fn place(ink: &mut Ink, page: PageRect, wishes: &[LabelRequest]) -> Vec<Option<Placed>> {
     place_where(ink, page, wishes, &|_, _| false)
 }
 
@@ -71,7 +71,7 @@ pub fn place(ink: &mut Ink, page: PageRect, wishes: &[Wish]) -> Vec<Option<Place
 pub fn place_where(
     ink: &mut Ink,
     page: PageRect,
-    wishes: &[Wish],
+    wishes: &[LabelRequest],
     disliked: &dyn Fn(usize, PageRect) -> bool,
 ) -> Vec<Option<Placed>> {
     ink.index();
@@ -94,7 +94,7 @@ pub fn place_where(
 fn one(
     ink: &Ink,
     page: PageRect,
-    wish: &Wish,
+    wish: &LabelRequest,
     disliked: &dyn Fn(PageRect) -> bool,
 ) -> Option<Placed> {
     let with_room = |middle: PagePoint, room: f64| {
@@ -199,8 +199,8 @@ mod tests {
         height: 100.0,
     };
 
-    fn wish(x: f64, y: f64) -> Wish {
-        Wish {
+    fn wish(x: f64, y: f64) -> LabelRequest {
+        LabelRequest {
             anchor: PagePoint::new(x, y),
             from: 4.0,
             size: (30.0, 10.0),
@@ -244,7 +244,7 @@ mod tests {
         let mut ink = Ink::default();
         ink.rect(PAGE);
         assert_eq!(place(&mut ink, PAGE, &[wish(50.0, 50.0)]), [None]);
-        let fixed = Wish {
+        let fixed = LabelRequest {
             roams: None,
             preferred: Vec::new(),
             ..wish(50.0, 50.0)

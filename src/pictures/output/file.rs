@@ -26,7 +26,7 @@ pub enum Existing {
 /// A file that could not be written.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot write {}: {why}", path.display())]
-pub struct Unwritten {
+pub struct WriteError {
     /// Which.
     pub path: PathBuf,
     /// The system's reason.
@@ -55,17 +55,17 @@ static BESIDE: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 /// assert!(refused.to_string().contains("a.svg"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn write_whole(files: &[(PathBuf, Vec<u8>)], existing: Existing) -> Result<(), Unwritten> {
+pub fn write_whole(files: &[(PathBuf, Vec<u8>)], existing: Existing) -> Result<(), WriteError> {
     let mut ready = Vec::with_capacity(files.len());
     for (path, bytes) in files {
-        let prepared = prepare(path, bytes, existing).map_err(|why| Unwritten {
+        let prepared = prepare(path, bytes, existing).map_err(|why| WriteError {
             path: path.clone(),
             why,
         })?;
         ready.push(prepared);
     }
     for (prepared, (path, bytes)) in ready.into_iter().zip(files) {
-        prepared.put(bytes, existing).map_err(|why| Unwritten {
+        prepared.put(bytes, existing).map_err(|why| WriteError {
             path: path.clone(),
             why,
         })?;

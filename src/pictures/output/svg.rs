@@ -28,7 +28,7 @@ use crate::text::xml;
 /// Words that could not be laid out, or a font that could not be cut.
 #[derive(Debug, thiserror::Error)]
 #[error("the words of the drawing cannot be written so: {0}")]
-pub struct WordsError(String);
+pub struct OutlineError(String);
 
 /// A drawing as an SVG document, its words as words.
 ///
@@ -71,7 +71,7 @@ pub(super) fn numbered(drawing: &Drawing) -> String {
 /// A drawing as an SVG document of a size in print, or with words that do not depend on a reader's fonts.
 ///
 /// # Errors
-/// [`WordsError`] where resvg cannot lay out the drawing's words.
+/// [`OutlineError`] where resvg cannot lay out the drawing's words.
 ///
 /// # Panics
 /// As [`write()`].
@@ -86,9 +86,9 @@ pub(super) fn numbered(drawing: &Drawing) -> String {
 /// let svg = write_with(&drawing, &Options::default().width_mm(84.0).words(Words::Outlines))?;
 /// assert!(svg.contains("width=\"84mm\" height=\"21mm\" viewBox=\"0 0 120 30\""));
 /// assert!(!svg.contains("<text"));
-/// # Ok::<(), drystone::output::svg::WordsError>(())
+/// # Ok::<(), drystone::output::svg::OutlineError>(())
 /// ```
-pub fn write_with(drawing: &Drawing, options: &Options) -> Result<String, WordsError> {
+pub fn write_with(drawing: &Drawing, options: &Options) -> Result<String, OutlineError> {
     let mark = mark_of(drawing, options);
     match options.words {
         Words::Names => Ok(document(drawing, options.width_mm, &mark, Form::Names)),
@@ -98,7 +98,7 @@ pub fn write_with(drawing: &Drawing, options: &Options) -> Result<String, WordsE
             let texts = tree::texts(tree.root());
             let spans = texts.iter().flat_map(|text| text.layouted());
             let runs: Vec<tree::Run> = spans.flat_map(tree::runs).collect();
-            let sheet = font::embedded(&runs, &mark).map_err(WordsError)?;
+            let sheet = font::embedded(&runs, &mark).map_err(OutlineError)?;
             let form = Form::Embedded(&sheet);
             Ok(document(drawing, options.width_mm, &mark, form))
         }
@@ -115,8 +115,8 @@ pub fn write_with(drawing: &Drawing, options: &Options) -> Result<String, WordsE
 
 /// The drawing with each line of words laid out, its number as its name.
 #[cfg(feature = "png")]
-fn laid_out(drawing: &Drawing, options: &Options) -> Result<resvg::usvg::Tree, WordsError> {
-    tree::read(&numbered(drawing), &options.fonts).map_err(WordsError)
+fn laid_out(drawing: &Drawing, options: &Options) -> Result<resvg::usvg::Tree, OutlineError> {
+    tree::read(&numbered(drawing), &options.fonts).map_err(OutlineError)
 }
 
 /// A name that other drawings, and other forms of this one, do not have as a rule.

@@ -14,7 +14,7 @@ use crate::wording::verdict::lacks;
 ///     "blocks": [{ "id": "plank", "polygon": [[1, 0], [5, 0], [5, 1], [1, 1]], "weight": 8 }] }"#)?;
 /// let words = figure::caption(&Analysis::of(&scene));
 /// assert_eq!(words, "An overhang. It falls: block plank would have to stick to the ground with 8 N.");
-/// # Ok::<(), drystone::scene::Problems>(())
+/// # Ok::<(), drystone::scene::SceneError>(())
 /// ```
 pub fn caption(analysis: &Analysis) -> String {
     let scene = &analysis.scene;

@@ -12,7 +12,7 @@ use super::legend::{self, Entry};
 use super::mark;
 use super::panel::composed;
 use super::pen::Pen;
-use super::stage::Stage;
+use super::stage::FigureContext;
 use super::words::{counted, listed, quantity};
 use crate::analysis::{Analysis, Contact, Verdict};
 use crate::drawing::arrow::straight;
@@ -105,7 +105,7 @@ pub(crate) fn reach(analysis: &Analysis, frame: usize) -> Option<Bounds> {
 }
 
 /// What the camera sees of a frame and of what changed.
-pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Camera) -> Group {
+pub(crate) fn picture(stage: &FigureContext<'_>, frame: usize, view: Bounds, camera: &Camera) -> Group {
     let pen = Pen::of(stage, frame, camera);
     let (scene, theme) = (&stage.analysis.scene, &stage.options.theme);
     let mut ink = label::ink(&pen);
@@ -177,7 +177,7 @@ fn aside(marks: &Marks, true_lines: &Marks, on: BodyId, from: BodyId, force: Vec
 }
 
 /// What the signs mean, those that occur.
-pub(crate) fn entries(stage: &Stage<'_>, unit: f64) -> Vec<Entry> {
+pub(crate) fn entries(stage: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
     let mut entries = legend::entries(stage, unit);
     entries.retain(|entry| !matches!(entry, Entry::Amplitudes(..)));
     let (mut came, mut went, mut changed) = (false, false, false);

@@ -1,14 +1,14 @@
 //! What a hovering mouse and a screen reader are given of blocks and arrows: their numbers, with units.
 
 use super::arrow::{ArrowKind, ForceArrow, TurnArrow, TurnKind};
-use super::stage::Stage;
+use super::stage::FigureContext;
 use super::words::{force, quantity};
 use crate::analysis::Motion;
 use crate::scene::{Block, BodyId, Scene};
 pub(crate) use crate::wording::failure::{named, pair};
 
 /// A block's numbers in words.
-pub(crate) fn block(stage: &Stage<'_>, frame: usize, place: usize, block: &Block) -> String {
+pub(crate) fn block(stage: &FigureContext<'_>, frame: usize, place: usize, block: &Block) -> String {
     let weight = quantity(block.weight, "N");
     if !stage.tells_amplitudes {
         return format!("weight {weight}");
@@ -31,7 +31,7 @@ pub(crate) fn dotted(arrow: &ForceArrow, seen: bool) -> bool {
 }
 
 /// An arrow's numbers in words.
-pub(crate) fn arrow(stage: &Stage<'_>, arrow: &ForceArrow) -> String {
+pub(crate) fn arrow(stage: &FigureContext<'_>, arrow: &ForceArrow) -> String {
     let scene = &stage.analysis.scene;
     let named = |id: BodyId| named(scene, id);
     let robot = |id: crate::scene::RobotId| format!("robot {}", scene.robots[id.0].id);
@@ -65,7 +65,7 @@ pub(crate) fn arrow(stage: &Stage<'_>, arrow: &ForceArrow) -> String {
 }
 
 /// A turning arrow's numbers in words.
-pub(crate) fn turn(stage: &Stage<'_>, turn: &TurnArrow) -> String {
+pub(crate) fn turn(stage: &FigureContext<'_>, turn: &TurnArrow) -> String {
     let scene = &stage.analysis.scene;
     let direction = if turn.torque > 0.0 {
         "anticlockwise"

@@ -1,7 +1,7 @@
 //! Dimension lines: how wide and how high the blocks of a frame are, at the edges of its picture; of a neighbourhood, the
 //! block in its middle.
 
-use super::stage::Stage;
+use super::stage::FigureContext;
 use super::words::quantity;
 use crate::drawing::{Anchor, Camera, Face, Group, Outline, PagePoint, Path, Stroke, Text, text};
 use crate::geometry::Bounds;
@@ -15,7 +15,7 @@ pub(crate) const ASIDE: f64 = 58.0;
 const TICK: f64 = 4.0;
 
 /// The lines of a frame's picture, of what lies in `view`; nothing for a frame without blocks.
-pub(crate) fn lines(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Camera) -> Group {
+pub(crate) fn lines(stage: &FigureContext<'_>, frame: usize, view: Bounds, camera: &Camera) -> Group {
     let group = Group::of_class("dimensions");
     let scene = &stage.analysis.scene;
     // Of a neighbourhood it is the block in its middle that is measured.

@@ -7,7 +7,7 @@ use super::label;
 use super::legend::{self, Entry};
 use super::panel::composed;
 use super::pen::Pen;
-use super::stage::Stage;
+use super::stage::FigureContext;
 use super::verdict;
 use super::words::{ALL, percent, quantity};
 use crate::analysis::{Contact, FrameAnalysis, Verdict};
@@ -21,7 +21,7 @@ const BEYOND: f64 = 1.0 + 1e-6;
 const BOLD: (f64, f64, f64) = (0.085, 1.6, 4.6);
 
 /// What the camera sees of a frame, its safe stretches and where resultants sit.
-pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Camera) -> Group {
+pub(crate) fn picture(stage: &FigureContext<'_>, frame: usize, view: Bounds, camera: &Camera) -> Group {
     let pen = Pen::of(stage, frame, camera);
     let found = &stage.analysis.frames[frame];
     let bold = bold(pen.unit());
@@ -84,7 +84,7 @@ pub(crate) fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
 }
 
 /// What the signs mean, those that occur.
-pub(crate) fn entries(stage: &Stage<'_>) -> Vec<Entry> {
+pub(crate) fn entries(stage: &FigureContext<'_>) -> Vec<Entry> {
     let scene = &stage.analysis.scene;
     let frames = &stage.analysis.frames;
     let mut entries = Vec::new();

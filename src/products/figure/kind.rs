@@ -12,7 +12,7 @@ use super::mechanism;
 use super::option::{ArrowScale, Options};
 use super::panel;
 use super::polygon;
-use super::stage::{Content, Stage};
+use super::stage::{Content, FigureContext};
 use super::thrust;
 use super::utilisation;
 use super::verdict;
@@ -91,7 +91,7 @@ impl Kind {
     }
 
     /// What all panels of a figure of this kind share.
-    pub(crate) fn stage<'a>(self, analysis: &'a Analysis, options: &'a Options) -> Stage<'a> {
+    pub(crate) fn stage<'a>(self, analysis: &'a Analysis, options: &'a Options) -> FigureContext<'a> {
         let content = Content {
             tells_amplitudes: self.tells_amplitudes(),
             draws_forces: self.draws_forces(),
@@ -101,7 +101,7 @@ impl Kind {
             reach: &|frame, unit, marks| self.reach(analysis, frame, unit, marks, options),
             displaced: &|frame, unit| self.displacements(analysis, frame, unit, options.way),
         };
-        let mut stage = Stage::of(analysis, options, &content);
+        let mut stage = FigureContext::of(analysis, options, &content);
         let frames = 0..analysis.frames.len();
         stage.statements = frames.map(|frame| self.reason(&stage, frame)).collect();
         stage
@@ -202,7 +202,7 @@ impl Kind {
     /// What the camera sees of a frame; ground is cut at the edge of `view`.
     pub(crate) fn picture(
         self,
-        stage: &Stage<'_>,
+        stage: &FigureContext<'_>,
         frame: usize,
         view: Bounds,
         camera: &Camera,
@@ -220,7 +220,7 @@ impl Kind {
     }
 
     /// Everything that occurs in the figure, `unit` pixels being one unit edge.
-    pub(crate) fn entries(self, stage: &Stage<'_>, unit: f64) -> Vec<Entry> {
+    pub(crate) fn entries(self, stage: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
         match self {
             Kind::Forces | Kind::Build => legend::entries(stage, unit),
             Kind::Mechanism => mechanism::entries(stage),
@@ -234,7 +234,7 @@ impl Kind {
     }
 
     /// What is written below a frame's verdict.
-    fn reason(self, stage: &Stage<'_>, frame: usize) -> String {
+    fn reason(self, stage: &FigureContext<'_>, frame: usize) -> String {
         let (scene, found) = (&stage.analysis.scene, &stage.analysis.frames[frame]);
         match self {
             Kind::Forces | Kind::Build => verdict::reason(scene, found),

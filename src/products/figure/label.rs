@@ -15,10 +15,10 @@ use spoken::names;
 
 use super::arrow::{ArrowKind, ForceArrow, TurnKind};
 use super::pen::{DOT, Pen};
-use super::stage::Stage;
+use super::stage::FigureContext;
 use super::view;
 use super::words::{counted, listed, quantity};
-use crate::drawing::placement::{Ink, Placed, Wish, nearest, place_where};
+use crate::drawing::placement::{Ink, Placed, LabelRequest, nearest, place_where};
 use crate::drawing::{
     Anchor, Colour, Face, Group, Outline, PagePoint, PageRect, Path, Stroke, Text, text,
 };
@@ -59,7 +59,7 @@ struct Label {
     face: Face,
     size: f64,
     class: &'static str,
-    wish: Wish,
+    wish: LabelRequest,
     /// The colour of what it tells of; `None` for plain letters.
     colour: Option<Colour>,
     /// Whether the words below the frame name it: then it is there in any case.
@@ -80,7 +80,7 @@ pub(crate) fn labels(pen: &Pen<'_>, view: Bounds, ink: impl FnOnce() -> Ink) -> 
     }
     let mut ink = ink();
     let page = pen.camera.rect(view);
-    let wishes: Vec<Wish> = labels.iter().map(|l| l.wish.clone()).collect();
+    let wishes: Vec<LabelRequest> = labels.iter().map(|l| l.wish.clone()).collect();
     let solids = Solids::of(pen);
     let abroad = |number: usize, rect: PageRect| {
         let own: Option<BlockId> = labels[number].of;
@@ -144,7 +144,7 @@ fn doubtful(pen: &Pen<'_>, label: &Label, rect: PageRect) -> bool {
 }
 
 /// What a figure says of the labels that its frames are too full for; `None` where there are none.
-pub(crate) fn left_out(stage: &Stage<'_>) -> Option<String> {
+pub(crate) fn left_out(stage: &FigureContext<'_>) -> Option<String> {
     let options = stage.options;
     let frames = &stage.analysis.scene.frames;
     let most = frames.iter().map(|f| f.placed.len()).max().unwrap_or(0);
@@ -198,7 +198,7 @@ fn wanted(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
 }
 
 /// The blocks that the words below a frame name, in placing order.
-fn mentioned(stage: &Stage<'_>, frame: usize) -> Vec<BlockId> {
+fn mentioned(stage: &FigureContext<'_>, frame: usize) -> Vec<BlockId> {
     let scene = &stage.analysis.scene;
     let stated = &stage.statements[frame];
     let placed = scene.frames[frame].placed.iter().copied();
@@ -219,10 +219,10 @@ fn name_size(pen: &Pen<'_>, edge: f64) -> f64 {
         .min(pen.stage.options.theme.sizes.name)
 }
 
-fn label(words: String, face: Face, size: f64, class: &'static str, wish: Wish) -> Label {
+fn label(words: String, face: Face, size: f64, class: &'static str, wish: LabelRequest) -> Label {
     let size_of = (text::width(&words, face, size), HIGH * size);
     Label {
-        wish: Wish {
+        wish: LabelRequest {
             size: size_of,
             ..wish
         },
@@ -258,7 +258,7 @@ fn broken(label: Label, across: f64) -> Label {
         widths.fold(0.0, f64::max),
         label.size * (HIGH + PITCH * (lines.len() - 1) as f64),
     );
-    let wish = Wish { size, ..label.wish };
+    let wish = LabelRequest { size, ..label.wish };
     Label {
         lines,
         wish,
@@ -284,7 +284,7 @@ fn name(pen: &Pen<'_>, id: BlockId, view: Bounds) -> Option<Label> {
     };
     // Beside a pebble its name stands as near as the pebble is small.
     let extent = block.body.polygon.bounds().diagonal();
-    let wish = Wish {
+    let wish = LabelRequest {
         anchor: pen.camera.place(pen.moved(id, block.centroid)),
         from: (0.4 * pen.unit()).min(0.5 * pen.camera.length(extent) + 2.0),
         size: (0.0, 0.0),
@@ -309,7 +309,7 @@ fn robots(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
     // Above the smallest letters names of robots stand back a little.
     let size = (0.9 * size).max(size.min(SMALLEST));
     let named = |hold: &crate::scene::Hold| {
-        let wish = Wish {
+        let wish = LabelRequest {
             anchor: pen.camera.place(pen.moved(hold.block, hold.at)),
             from: pen.disc() + 2.0,
             size: (0.0, 0.0),
@@ -351,7 +351,7 @@ fn amounts(pen: &Pen<'_>) -> Vec<Label> {
         let words = quantity(arrow.force.norm(), "N");
         let (from, along) = (pen.camera.place(arrow.at), pen.camera.turn(arrow.reach()));
         let wide = text::width(&words, Face::Sans, size);
-        let wish = Wish {
+        let wish = LabelRequest {
             anchor: from.moved(0.5 * along.0, 0.5 * along.1),
             from: (0.5 * pen.width(arrow)).max(DOT) + 3.0,
             size: (0.0, 0.0),
@@ -367,7 +367,7 @@ fn amounts(pen: &Pen<'_>) -> Vec<Label> {
     let turns = marks.turns.iter().filter(|t| pen.turn_seen(t));
     let turns = turns.filter(|t| asked(t.kind == TurnKind::Load));
     let turning = turns.map(|turn| {
-        let wish = Wish {
+        let wish = LabelRequest {
             anchor: pen.camera.place(turn.at),
             from: pen.camera.length(0.7 * pen.stage.unit),
             size: (0.0, 0.0),

@@ -1,7 +1,7 @@
 //! [`Layout`]: how many panels stand beside each other, how wide they are and at what scale.
 
 use super::dimension;
-use super::stage::Stage;
+use super::stage::FigureContext;
 use crate::drawing::{Face, text};
 
 /// Most room around a figure, pixels.
@@ -55,12 +55,12 @@ pub(crate) struct Layout {
 
 impl Layout {
     /// For `count` panels, so that all fit on a page if they can.
-    pub fn of(stage: &Stage<'_>, count: usize) -> Layout {
+    pub fn of(stage: &FigureContext<'_>, count: usize) -> Layout {
         Layout::with(stage, count, Fit::Page)
     }
 
     /// For `count` panels whose rows go to as many pages as it takes.
-    pub fn roomy(stage: &Stage<'_>, count: usize) -> Layout {
+    pub fn roomy(stage: &FigureContext<'_>, count: usize) -> Layout {
         Layout::with(stage, count, Fit::Rows)
     }
 
@@ -77,14 +77,14 @@ impl Layout {
     }
 
     /// The page is at least so wide and so high, pixels.
-    pub fn least(&self, stage: &Stage<'_>) -> (f64, f64) {
+    pub fn least(&self, stage: &FigureContext<'_>) -> (f64, f64) {
         let frames: Vec<usize> = (0..stage.marks.len()).collect();
         let rows = frames.chunks(self.columns.max(1));
         let high: f64 = rows.map(|row| stage.row(row).height() * self.scale).sum();
         (self.content, high)
     }
 
-    fn with(stage: &Stage<'_>, count: usize, fit: Fit) -> Layout {
+    fn with(stage: &FigureContext<'_>, count: usize, fit: Fit) -> Layout {
         let margin = stage.options.width.map_or(MARGIN, margin);
         let across = stage
             .options
@@ -145,7 +145,7 @@ impl Layout {
         }
     }
 
-    fn scale(stage: &Stage<'_>, room: f64, columns: usize, count: usize) -> f64 {
+    fn scale(stage: &FigureContext<'_>, room: f64, columns: usize, count: usize) -> f64 {
         let rows = count.div_ceil(columns);
         let high = match (count, rows) {
             (1, _) => 640.0,
@@ -168,7 +168,7 @@ impl Layout {
 }
 
 /// Room that dimension lines take beside a picture, pixels.
-fn dimensions(stage: &Stage<'_>) -> f64 {
+fn dimensions(stage: &FigureContext<'_>) -> f64 {
     if stage.options.dimensions {
         2.0 * dimension::ASIDE
     } else {
@@ -177,7 +177,7 @@ fn dimensions(stage: &Stage<'_>) -> f64 {
 }
 
 /// How high the longest caption is in panels of this width, pixels.
-fn words(stage: &Stage<'_>, count: usize, panel: f64) -> f64 {
+fn words(stage: &FigureContext<'_>, count: usize, panel: f64) -> f64 {
     let (scene, size) = (&stage.analysis.scene, stage.options.theme.sizes.caption);
     if !stage.options.captions || count < 2 {
         return 0.0;

@@ -8,7 +8,7 @@ use super::arrow::{ArrowKind, ForceArrow, LEAST_SEEN, TurnKind};
 use super::description;
 use super::option::{ArrowScale, Options};
 use super::pen::{DOT, TEXTURE};
-use super::stage::Stage;
+use super::stage::FigureContext;
 use super::words::{counted, quantity, round_below};
 use crate::drawing::arrow::{HEAD_LENGTH, straight};
 use crate::drawing::{
@@ -300,7 +300,7 @@ pub(crate) fn scale(newtons: f64, unit: f64, options: &Options) -> Option<Entry>
 }
 
 /// Everything that occurs in the figure, `unit` pixels being one unit edge.
-pub(crate) fn entries(stage: &Stage<'_>, unit: f64) -> Vec<Entry> {
+pub(crate) fn entries(stage: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
     let (scene, theme) = (&stage.analysis.scene, &stage.options.theme);
     let mut entries = Vec::new();
     if stage.options.scale == ArrowScale::Strip {
@@ -380,7 +380,7 @@ pub(crate) fn metres(scale: f64, content: f64) -> Option<Entry> {
 }
 
 /// What a load looks like and how large loads are; none where no frame shows one.
-pub(crate) fn loads(stage: &Stage<'_>) -> Option<Entry> {
+pub(crate) fn loads(stage: &FigureContext<'_>) -> Option<Entry> {
     let scene = &stage.analysis.scene;
     let placed = |block| scene.frames.iter().any(|f| f.placed.contains(&block));
     let loads = scene.loads.iter().filter(|l| placed(l.block));
@@ -405,7 +405,7 @@ pub(crate) fn loads(stage: &Stage<'_>) -> Option<Entry> {
 }
 
 /// The robots that hold or plan in any frame, and what a plan looks like.
-pub(crate) fn robots(stage: &Stage<'_>) -> Vec<Entry> {
+pub(crate) fn robots(stage: &FigureContext<'_>) -> Vec<Entry> {
     let (scene, theme) = (&stage.analysis.scene, &stage.options.theme);
     let mut entries = Vec::new();
     let holds = |number: usize| {

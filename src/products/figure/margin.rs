@@ -11,7 +11,7 @@ use super::mechanism;
 use super::option::Options;
 use super::panel::composed;
 use super::pen::Pen;
-use super::stage::Stage;
+use super::stage::FigureContext;
 use super::thrust;
 use super::words::{degrees, percent};
 use crate::analysis::{Analysis, Margin, Motion, Toward, Verdict};
@@ -116,7 +116,7 @@ pub(crate) fn reach(
 }
 
 /// What the camera sees of a frame, its ghost and gravity.
-pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Camera) -> Group {
+pub(crate) fn picture(stage: &FigureContext<'_>, frame: usize, view: Bounds, camera: &Camera) -> Group {
     let pen = Pen::of(stage, frame, camera);
     let mut ink = label::ink(&pen);
     let (scene, theme) = (&stage.analysis.scene, &stage.options.theme);
@@ -178,7 +178,7 @@ fn percent_of(share: f64) -> String {
 }
 
 /// What the signs mean.
-pub(crate) fn entries(stage: &Stage<'_>) -> Vec<Entry> {
+pub(crate) fn entries(stage: &FigureContext<'_>) -> Vec<Entry> {
     let mut entries = Vec::new();
     let toward = stage.options.toward;
     let mut frames = 0..stage.analysis.frames.len();
@@ -205,7 +205,7 @@ pub(crate) fn entries(stage: &Stage<'_>) -> Vec<Entry> {
 }
 
 /// What is written below a frame's verdict.
-pub(crate) fn reason(stage: &Stage<'_>, frame: usize) -> String {
+pub(crate) fn reason(stage: &FigureContext<'_>, frame: usize) -> String {
     let (analysis, toward) = (stage.analysis, stage.options.toward);
     let found = &analysis.frames[frame];
     if found.verdict != Verdict::Stable {

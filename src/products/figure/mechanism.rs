@@ -15,7 +15,7 @@ use super::label;
 use super::legend::{self, Entry};
 use super::panel::composed;
 use super::pen::{MOVED, Pen, TEXTURE};
-use super::stage::Stage;
+use super::stage::FigureContext;
 use super::words::quantity;
 use crate::analysis::{Analysis, Contact, Motion, Verdict};
 use crate::drawing::placement::Ink;
@@ -41,7 +41,7 @@ pub(crate) fn reach(analysis: &Analysis, displaced: &[Option<Displacement>]) -> 
 }
 
 /// What the camera sees of a frame and its mechanism.
-pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Camera) -> Group {
+pub(crate) fn picture(stage: &FigureContext<'_>, frame: usize, view: Bounds, camera: &Camera) -> Group {
     let pen = Pen::of(stage, frame, camera);
     let mut ink = label::ink(&pen);
     let mut blocks = pen.blocks();
@@ -96,7 +96,7 @@ fn joined(marks: Group) -> Group {
 }
 
 /// What the signs of a mechanism mean, those that occur.
-pub(crate) fn entries(stage: &Stage<'_>) -> Vec<Entry> {
+pub(crate) fn entries(stage: &FigureContext<'_>) -> Vec<Entry> {
     let analysis = stage.analysis;
     let falling =
         (0..analysis.frames.len()).filter(|f| analysis.frames[*f].verdict == Verdict::Unstable);

@@ -2,13 +2,13 @@
 
 use super::label;
 use super::pen::{Pen, TEXTURE};
-use super::stage::Stage;
+use super::stage::FigureContext;
 use crate::drawing::placement::Ink;
 use crate::drawing::{Camera, Group, Item};
 use crate::geometry::Bounds;
 
 /// The forces of a frame: what the camera sees of frame `number`; ground is cut at the edge of `view`.
-pub(crate) fn picture(stage: &Stage<'_>, number: usize, view: Bounds, camera: &Camera) -> Group {
+pub(crate) fn picture(stage: &FigureContext<'_>, number: usize, view: Bounds, camera: &Camera) -> Group {
     let pen = Pen::of(stage, number, camera);
     let many = pen.many();
     let mut group = Group {

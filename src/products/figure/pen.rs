@@ -6,7 +6,7 @@ use super::arrow::ForceArrow;
 use super::by_colour::ByColour;
 use super::description;
 use super::displacement::Displacement;
-use super::stage::{MANY, Stage};
+use super::stage::{MANY, FigureContext};
 use crate::drawing::{Camera, Colour, Group, Outline, PagePoint, Path, Stroke};
 use crate::geometry::{Bounds, Lattice, Point};
 use crate::scene::{BlockId, Body, Rgb};
@@ -55,7 +55,7 @@ pub(crate) fn seams(body: &Body, lattice: Option<Lattice>, camera: &Camera) -> O
 
 /// What draws the parts of a frame's picture.
 pub(crate) struct Pen<'a> {
-    pub stage: &'a Stage<'a>,
+    pub stage: &'a FigureContext<'a>,
     /// The frame, from 0.
     pub number: usize,
     pub camera: &'a Camera,
@@ -72,7 +72,7 @@ pub(crate) struct Pen<'a> {
 }
 
 impl<'a> Pen<'a> {
-    pub(crate) fn of(stage: &'a Stage<'a>, number: usize, camera: &'a Camera) -> Pen<'a> {
+    pub(crate) fn of(stage: &'a FigureContext<'a>, number: usize, camera: &'a Camera) -> Pen<'a> {
         let unit = camera.length(stage.unit);
         let (scene, widths) = (&stage.analysis.scene, &stage.options.theme.widths);
         let mut places = vec![None; scene.blocks.len()];

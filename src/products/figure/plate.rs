@@ -3,7 +3,7 @@
 use super::kind::Kind;
 use super::layout::Layout;
 use super::option::Options;
-use super::stage::Stage;
+use super::stage::FigureContext;
 use super::strip::{Strip, page};
 use crate::analysis::Analysis;
 use crate::drawing::Drawing;
@@ -31,7 +31,7 @@ pub(crate) fn plate(
         columns: Some(columns),
         ..options.clone()
     };
-    let stages: Vec<Stage<'_>> = analyses
+    let stages: Vec<FigureContext<'_>> = analyses
         .iter()
         .map(|analysis| Kind::Forces.stage(analysis, &options))
         .collect();

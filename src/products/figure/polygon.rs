@@ -14,7 +14,7 @@ use super::mark;
 use super::option::Options;
 use super::panel::composed;
 use super::pen::Pen;
-use super::stage::Stage;
+use super::stage::FigureContext;
 use super::unit::unit;
 use super::verdict;
 use super::view;
@@ -183,7 +183,7 @@ pub(crate) fn reach(analysis: &Analysis, frame: usize, marks: &Marks) -> Option<
 }
 
 /// What the camera sees of a frame: the structure with the forces on it from outside, and their polygon.
-pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Camera) -> Group {
+pub(crate) fn picture(stage: &FigureContext<'_>, frame: usize, view: Bounds, camera: &Camera) -> Group {
     let pen = Pen::of(stage, frame, camera);
     let marks = &stage.marks[frame];
     let mut ink = label::ink(&pen);
@@ -271,7 +271,7 @@ fn missing_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
 }
 
 /// What the signs of a force polygon mean.
-pub(crate) fn entries(stage: &Stage<'_>, unit: f64) -> Vec<Entry> {
+pub(crate) fn entries(stage: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
     let mut entries = legend::entries(stage, unit);
     // Blocks are plain here: no colour tells an amplitude.
     entries.retain(|entry| !matches!(entry, Entry::Amplitudes(..)));
@@ -316,7 +316,7 @@ fn scales(times: &[(usize, f64)]) -> Option<String> {
 }
 
 /// What is written below a frame's verdict.
-pub(crate) fn reason(stage: &Stage<'_>, frame: usize) -> String {
+pub(crate) fn reason(stage: &FigureContext<'_>, frame: usize) -> String {
     let why = verdict::reason(&stage.analysis.scene, &stage.analysis.frames[frame]);
     let marks = &stage.marks[frame];
     let lacks = outer(marks).any(|a| a.kind.is_failure());

@@ -1,4 +1,4 @@
-//! [`Stage`]: what all panels of a figure share: the unit edge, the view, colours, and each frame's arrows.
+//! [`FigureContext`]: what all panels of a figure share: the unit edge, the view, colours, and each frame's arrows.
 
 use core::cell::Cell;
 
@@ -24,7 +24,7 @@ const CROWD: usize = 40;
 const FEW_SEEN: f64 = 0.2;
 
 /// What all panels of a figure share.
-pub(crate) struct Stage<'a> {
+pub(crate) struct FigureContext<'a> {
     pub analysis: &'a Analysis,
     /// Whether blocks tell amplitudes by their colour; otherwise they are plain.
     pub tells_amplitudes: bool,
@@ -66,8 +66,8 @@ pub(crate) struct Content<'c> {
     pub displaced: &'c dyn Fn(usize, f64) -> Vec<Option<Displacement>>,
 }
 
-impl<'a> Stage<'a> {
-    pub fn of(analysis: &'a Analysis, options: &'a Options, content: &Content<'_>) -> Stage<'a> {
+impl<'a> FigureContext<'a> {
+    pub fn of(analysis: &'a Analysis, options: &'a Options, content: &Content<'_>) -> FigureContext<'a> {
         let scene = &analysis.scene;
         let frames = 0..analysis.frames.len();
         let own: Vec<f64> = frames.clone().map(content.largest).collect();
@@ -111,7 +111,7 @@ impl<'a> Stage<'a> {
             .copied()
             .reduce(Bounds::union)
             .unwrap_or(nothing);
-        Stage {
+        FigureContext {
             analysis,
             tells_amplitudes: content.tells_amplitudes,
             strikes_names: content.strikes_names,
@@ -130,7 +130,7 @@ impl<'a> Stage<'a> {
     }
 
     /// With more room around what every frame shows, metres across and up.
-    pub fn with_room(mut self, across: f64, up: f64) -> Stage<'a> {
+    pub fn with_room(mut self, across: f64, up: f64) -> FigureContext<'a> {
         // Where ground is shown, it is the lower edge.
         let down = match view::ground_shown(&self.analysis.scene, self.unit) {
             Some(ground) if ground.min.y <= self.view.min.y + self.unit => 0.0,

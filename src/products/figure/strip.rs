@@ -8,7 +8,7 @@ use super::label;
 use super::layout::Layout;
 use super::legend;
 use super::option::{ArrowScale, Options};
-use super::stage::Stage;
+use super::stage::FigureContext;
 use super::title;
 use super::verdict;
 use super::words::{counted, letter, quantity};
@@ -33,7 +33,7 @@ const MOST_LISTED: usize = 30;
 pub(crate) fn strip(analysis: &Analysis, kind: Kind, options: &Options) -> Drawing {
     let stage = kind.stage(analysis, options);
     let count = analysis.frames.len();
-    let drawn = |stage: &Stage<'_>| {
+    let drawn = |stage: &FigureContext<'_>| {
         let layout = Layout::of(stage, count);
         let strip = Strip {
             kind,
@@ -122,7 +122,7 @@ pub(crate) fn split(analysis: &Analysis, kind: Kind, options: &Options, high: f6
 /// A strip of panels of one kind.
 pub(crate) struct Strip<'a> {
     pub kind: Kind,
-    pub stage: &'a Stage<'a>,
+    pub stage: &'a FigureContext<'a>,
     pub layout: Layout,
     /// What stands below each frame in place of its letter and title.
     pub captions: Option<&'a [String]>,

@@ -14,7 +14,7 @@ use super::mark;
 use super::option::{ArrowScale, Options};
 use super::panel::composed;
 use super::pen::Pen;
-use super::stage::Stage;
+use super::stage::FigureContext;
 use super::verdict;
 use super::words::{force, quantity};
 use crate::analysis::{Analysis, FrameAnalysis, Verdict};
@@ -32,7 +32,7 @@ const STEPS: f64 = 8.0;
 const FAINT: f64 = 0.35;
 
 /// What the camera sees of a frame and its line of thrust.
-pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Camera) -> Group {
+pub(crate) fn picture(stage: &FigureContext<'_>, frame: usize, view: Bounds, camera: &Camera) -> Group {
     let pen = Pen::of(stage, frame, camera);
     let scene = &stage.analysis.scene;
     let found = &stage.analysis.frames[frame];
@@ -104,7 +104,7 @@ pub(crate) fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
 }
 
 /// What the signs of a line of thrust mean, those that occur; `unit` pixels being one unit edge.
-pub(crate) fn entries(stage: &Stage<'_>, unit: f64) -> Vec<Entry> {
+pub(crate) fn entries(stage: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
     let (scene, theme) = (&stage.analysis.scene, &stage.options.theme);
     let frames = scene.frames.iter().zip(&stage.analysis.frames);
     let (mut through, mut stopped) = (false, false);
@@ -135,7 +135,7 @@ pub(crate) fn entries(stage: &Stage<'_>, unit: f64) -> Vec<Entry> {
 }
 
 /// The largest force of all panels, N.
-fn largest(stage: &Stage<'_>) -> f64 {
+fn largest(stage: &FigureContext<'_>) -> f64 {
     let frames = &stage.analysis.frames;
     let contacts = frames.iter().flat_map(|f| &f.contacts);
     let robots = frames.iter().flat_map(|f| &f.robots);

@@ -9,7 +9,7 @@ use super::label;
 use super::legend::{self, Entry};
 use super::panel::composed;
 use super::pen::Pen;
-use super::stage::Stage;
+use super::stage::FigureContext;
 use super::verdict;
 use super::words::{ALL, counted, percent, quantity};
 use crate::analysis::{Contact, FrameAnalysis, Verdict};
@@ -23,7 +23,7 @@ const BOLD: (f64, f64, f64) = (0.11, 1.8, 6.0);
 const BAR: f64 = 3.2;
 
 /// What the camera sees of a frame and how its friction is used.
-pub(crate) fn picture(stage: &Stage<'_>, frame: usize, view: Bounds, camera: &Camera) -> Group {
+pub(crate) fn picture(stage: &FigureContext<'_>, frame: usize, view: Bounds, camera: &Camera) -> Group {
     let pen = Pen::of(stage, frame, camera);
     let found = &stage.analysis.frames[frame];
     let bold = bold(pen.unit());
@@ -55,7 +55,7 @@ pub(crate) fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
 }
 
 /// What the signs mean, those that occur.
-pub(crate) fn entries(stage: &Stage<'_>) -> Vec<Entry> {
+pub(crate) fn entries(stage: &FigureContext<'_>) -> Vec<Entry> {
     let scene = &stage.analysis.scene;
     let frames = &stage.analysis.frames;
     let all: Vec<Option<Bearing>> = frames.iter().flat_map(|f| bearings(scene, f)).collect();

@@ -12,7 +12,7 @@ use std::fmt::Write as _;
 use maud::{DOCTYPE, PreEscaped, html};
 
 use crate::analysis::{Accuracy, Verdict};
-use crate::chart::{Point, Scatter, Series, Undrawn, scatter};
+use crate::chart::{Point, Scatter, Series, ChartError, scatter};
 use crate::result::word;
 use crate::study::{Case, Mark, Method, Run, Study, Summary, summary};
 use crate::text;
@@ -62,7 +62,7 @@ fn colour(method: Method) -> [u8; 3] {
 ///
 /// # Errors
 /// Where the picture cannot be drawn.
-pub fn svg(study: &Study) -> Result<String, Undrawn> {
+pub fn svg(study: &Study) -> Result<String, ChartError> {
     let lines = summary(study);
     let place = |line: &Summary| Point {
         x: line.time.max(1e-6),
@@ -181,7 +181,7 @@ pub fn markdown(study: &Study) -> String {
 ///
 /// # Errors
 /// Where the picture cannot be drawn.
-pub fn page(study: &Study) -> Result<String, Undrawn> {
+pub fn page(study: &Study) -> Result<String, ChartError> {
     let picture = svg(study)?;
     let page = html! {
         (DOCTYPE)

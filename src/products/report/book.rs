@@ -32,15 +32,15 @@ const WORD: &str = "drystone";
 /// Everything that keeps a book from being illustrated.
 #[derive(Debug, thiserror::Error)]
 #[error("{}", .0.join("\n\n"))]
-pub struct BookProblems(pub Vec<String>);
+pub struct BookError(pub Vec<String>);
 
 /// The book of a preprocessor's input, `[context, book]` as JSON text, with its scenes drawn, as JSON text.
 ///
 /// # Errors
 /// Text that is no such input; and of every block whose scene cannot be drawn the chapter, the line and why.
-pub fn illustrate(input: &str) -> Result<String, BookProblems> {
+pub fn illustrate(input: &str) -> Result<String, BookError> {
     let no_book = |why: &str| {
-        BookProblems(vec![format!(
+        BookError(vec![format!(
             "this is no input of an mdBook preprocessor ({why}); mdbook runs the command itself, from \
              [preprocessor.drystone] in book.toml"
         )])
@@ -68,7 +68,7 @@ pub fn illustrate(input: &str) -> Result<String, BookProblems> {
     if problems.is_empty() {
         Ok(book.to_string())
     } else {
-        Err(BookProblems(problems))
+        Err(BookError(problems))
     }
 }
 
@@ -135,7 +135,7 @@ fn margin(content: &str, start: usize) -> String {
 }
 
 /// What the words after ours ask for.
-struct Wanted {
+struct FigureRequest {
     file: Option<String>,
     kind: String,
     block: Option<String>,
@@ -143,9 +143,9 @@ struct Wanted {
     options: figure::Options,
 }
 
-impl Wanted {
-    fn read(words: &str) -> Result<Wanted, String> {
-        let mut wanted = Wanted {
+impl FigureRequest {
+    fn read(words: &str) -> Result<FigureRequest, String> {
+        let mut wanted = FigureRequest {
             file: None,
             kind: "forces".to_owned(),
             block: None,
@@ -183,7 +183,7 @@ impl Wanted {
 }
 
 fn figure(words: &str, body: &str, chapter: &Path) -> Result<String, String> {
-    let wanted = Wanted::read(words)?;
+    let wanted = FigureRequest::read(words)?;
     let text = match &wanted.file {
         Some(file) => {
             let path = chapter.parent().unwrap_or(Path::new("")).join(file);
@@ -220,7 +220,7 @@ fn figure(words: &str, body: &str, chapter: &Path) -> Result<String, String> {
     ))
 }
 
-fn drawing(analysis: &Analysis, wanted: &Wanted) -> Result<Drawing, String> {
+fn drawing(analysis: &Analysis, wanted: &FigureRequest) -> Result<Drawing, String> {
     let kind = match wanted.kind.as_str() {
         "freebody" => {
             let scene = &analysis.scene;

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::entry::{Chart, Entry, Grid, Step};
 use super::html::slug;
-use super::page::{Made, Report, Unwritable};
+use super::page::{OutputFile, Report, ReportError};
 use crate::output::svg::{self, Options, Words};
 use crate::text::{self, markdown, markdown_cell};
 use crate::wording::verdict::plain;
@@ -90,7 +90,7 @@ pub(super) fn section(
     entry: &Entry,
     number: usize,
     stem: &str,
-) -> Result<(String, Vec<Made>), Unwritable> {
+) -> Result<(String, Vec<OutputFile>), ReportError> {
     let mut out = String::new();
     let mut files = Vec::new();
     let row = &entry.row;
@@ -150,10 +150,10 @@ fn code(words: &str) -> String {
 
 fn step(
     out: &mut String,
-    files: &mut Vec<Made>,
+    files: &mut Vec<OutputFile>,
     step: &Step,
     place: &str,
-) -> Result<(), Unwritable> {
+) -> Result<(), ReportError> {
     if !step.letter.is_empty() {
         let (letter, title) = (&step.letter, markdown(&step.title));
         push(
@@ -205,7 +205,7 @@ fn dash(letter: &str) -> String {
     }
 }
 
-fn chart(out: &mut String, files: &mut Vec<Made>, chart: &Chart, name: &str) {
+fn chart(out: &mut String, files: &mut Vec<OutputFile>, chart: &Chart, name: &str) {
     let caption = markdown(&chart.caption);
     push(out, &format!("![{caption}](<{name}.svg>)\n\n*{caption}*\n"));
     // A file of its own says what it is.

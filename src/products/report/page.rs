@@ -38,7 +38,7 @@ pub struct Refused {
 }
 
 /// A file beside others: its name, with `/` between folders, and what is in it.
-pub type Made = (String, Vec<u8>);
+pub type OutputFile = (String, Vec<u8>);
 
 /// A scene's part of a report.
 #[derive(Debug)]
@@ -51,7 +51,7 @@ pub struct Piece {
 #[derive(Debug)]
 enum Body {
     Text(String),
-    Files(String, Vec<Made>),
+    Files(String, Vec<OutputFile>),
     Sheets(Vec<print::Page>),
 }
 
@@ -75,17 +75,17 @@ pub struct Report {
 /// A form that could not be written.
 #[derive(Debug, thiserror::Error)]
 #[error("the report could not be written: {0}")]
-pub struct Unwritable(String);
+pub struct ReportError(String);
 
-impl From<PdfError> for Unwritable {
-    fn from(error: PdfError) -> Unwritable {
-        Unwritable(error.to_string())
+impl From<PdfError> for ReportError {
+    fn from(error: PdfError) -> ReportError {
+        ReportError(error.to_string())
     }
 }
 
-impl From<crate::output::svg::WordsError> for Unwritable {
-    fn from(error: crate::output::svg::WordsError) -> Unwritable {
-        Unwritable(error.to_string())
+impl From<crate::output::svg::OutlineError> for ReportError {
+    fn from(error: crate::output::svg::OutlineError) -> ReportError {
+        ReportError(error.to_string())
     }
 }
 
@@ -94,7 +94,7 @@ impl Piece {
     ///
     /// # Errors
     /// Where a figure's words cannot be laid out.
-    pub fn of(entry: &Entry, number: usize, form: Form, stem: &str) -> Result<Piece, Unwritable> {
+    pub fn of(entry: &Entry, number: usize, form: Form, stem: &str) -> Result<Piece, ReportError> {
         let body = match form {
             Form::Html | Form::Split => Body::Text(html::section(entry, number)),
             Form::Markdown => {
@@ -183,7 +183,7 @@ impl Report {
     ///
     /// # Errors
     /// Where a PDF cannot be written.
-    pub fn files(self, form: Form, stem: &str) -> Result<Vec<Made>, Unwritable> {
+    pub fn files(self, form: Form, stem: &str) -> Result<Vec<OutputFile>, ReportError> {
         let summary = self.summary();
         match form {
             Form::Html => {

@@ -4,7 +4,7 @@
 //! with their heads; a figure is made smaller where it must be and never cut.
 
 use super::entry::{Chart, Entry, Grid, Step};
-use super::page::{Report, Unwritable};
+use super::page::{Report, ReportError};
 use crate::drawing::text::{width, wrap};
 use crate::drawing::{
     Anchor, Colour, Drawing, Face, Item, Outline, PagePoint, Path, Stroke, Text, Theme,
@@ -405,7 +405,7 @@ pub(super) fn written(
     pages: &mut [Page],
     title: &str,
     description: &str,
-) -> Result<Vec<u8>, Unwritable> {
+) -> Result<Vec<u8>, ReportError> {
     let count = pages.len();
     let theme = Theme::thesis();
     let title = line(title);
@@ -465,7 +465,7 @@ pub(super) fn written(
 mod tests {
     use super::*;
     use crate::analysis::Analysis;
-    use crate::report::entry::{File, Wanted};
+    use crate::report::entry::{File, ReportOptions};
     use crate::scene::Scene;
 
     #[test]
@@ -476,7 +476,7 @@ mod tests {
             name: "lintel.json",
             text,
         };
-        let entry = Entry::of(file, &Analysis::of(&scene), &Wanted::default());
+        let entry = Entry::of(file, &Analysis::of(&scene), &ReportOptions::default());
         let mut headings = 0;
         for page in section(&entry) {
             for item in &page.items {

@@ -117,7 +117,7 @@ pub enum PictureOutcome {
 /// let origin = Origin { line: Some(7), ..Origin::default() };
 /// let line = line_of(&origin, &Analysis::of(&scene), &PictureOutcome::NotAsked, &Fields::default());
 /// assert_eq!(line, "{\"line\":7,\"scene\":\"A dart\",\"verdict\":\"unstable\"}\n");
-/// # Ok::<(), drystone::scene::Problems>(())
+/// # Ok::<(), drystone::scene::SceneError>(())
 /// ```
 pub fn line_of(
     origin: &Origin,

@@ -84,7 +84,7 @@ pub enum Layout {
 /// let scene = Scene::from_json(r#"{ "drystone": 1, "blocks": [{ "id": "a", "polygon": [[0, 0], [3, 0], [0, 2]] }] }"#)?;
 /// let json = to_json(&Analysis::of(&scene), Timing::LeftOut, Layout::OneLine);
 /// assert!(json.contains(r#""verdict":"unstable""#), "nothing holds it");
-/// # Ok::<(), drystone::scene::Problems>(())
+/// # Ok::<(), drystone::scene::SceneError>(())
 /// ```
 pub fn to_json(analysis: &Analysis, timing: Timing, layout: Layout) -> String {
     written(&Result::of(analysis, timing), layout)

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::analysis::{
-    Doubt, EffectName, EffectReport, Proof, Resultant as Sum, SolveReport, Verdict,
+    UndecidedReason, EffectName, EffectReport, Proof, Resultant as Sum, SolveReport, Verdict,
 };
 use crate::geometry::{Polygon, Tolerance as Closeness};
 use crate::scene::{Block, Body, Frame as Step, Healed, Limits, Robot as Arm};
@@ -224,7 +224,7 @@ fn the_names_are_the_contract_and_stay() {
 fn what_is_worth_saying_is_said() {
     let scene = scene();
     let mut frame = frame();
-    frame.doubts = vec![Doubt::Late];
+    frame.doubts = vec![UndecidedReason::Late];
     frame.least_force = false;
     frame.unsupported = vec![BlockId(1)];
     frame.notices = vec!["a contact of 1e-9 m is left out".into()];

@@ -8,7 +8,7 @@
 use std::path::{Component, Path, PathBuf};
 
 use super::check::{self, Acceptance, CheckOutcome, Snapshot, check, folders};
-use super::discovery::{Fault, discover, parts};
+use super::discovery::{DiscoveryError, discover, parts};
 use super::setting::{self, Settings};
 use super::store::{self, Use};
 use crate::drawing::Drawing;
@@ -189,7 +189,7 @@ fn usage() -> Use {
 fn scenes_at(places: &[PathBuf], what: &str) {
     let found = match discover(places, None) {
         Ok(found) => found,
-        Err(faults) => fail(&faults.iter().map(Fault::to_string).collect::<Vec<_>>()),
+        Err(faults) => fail(&faults.iter().map(DiscoveryError::to_string).collect::<Vec<_>>()),
     };
     if found.jobs.is_empty() {
         fail(&[format!("there is no scene at {what}")]);

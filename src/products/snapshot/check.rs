@@ -16,7 +16,7 @@ use super::store;
 use crate::analysis::Analysis;
 use crate::drawing::{Drawing, Theme};
 use crate::figure::{self, Options};
-use crate::output::file::Unwritten;
+use crate::output::file::WriteError;
 use crate::output::png;
 use crate::output::svg;
 
@@ -81,7 +81,7 @@ pub enum State {
     /// It says something else.
     Changed,
     /// It cannot be read.
-    Unreadable,
+    PictureError,
     /// It agrees, and takes more bytes than it may.
     Large,
 }
@@ -208,7 +208,7 @@ fn reference(part: &Part) -> Result<Vec<u8>, (State, String)> {
     match store::read(&part.file) {
         Ok(Some(bytes)) => Ok(bytes),
         Ok(None) => Err((State::Missing, "there is no reference".into())),
-        Err(error) => Err((State::Unreadable, format!("it cannot be read: {error}"))),
+        Err(error) => Err((State::PictureError, format!("it cannot be read: {error}"))),
     }
 }
 
@@ -227,7 +227,7 @@ fn facts_finding(part: &Part, facts: &Facts) -> Option<Finding> {
         return None;
     }
     let (state, words) = match Facts::read(&String::from_utf8_lossy(&bytes)) {
-        Err(error) => (State::Unreadable, vec![error.to_string()]),
+        Err(error) => (State::PictureError, vec![error.to_string()]),
         // What is written is what is compared: both went through the same rounding.
         Ok(expected) => {
             let changes = expected.changes(facts);
@@ -272,7 +272,7 @@ fn svg_finding(part: &Part, text: &str) -> Option<Finding> {
     }
     let (state, words) = match element::changes(&String::from_utf8_lossy(&bytes), text) {
         Ok(words) => (State::Changed, words),
-        Err(error) => (State::Unreadable, vec![error.to_string()]),
+        Err(error) => (State::PictureError, vec![error.to_string()]),
     };
     (!words.is_empty()).then(|| Finding {
         fresh,
@@ -290,7 +290,7 @@ fn pixels_finding(
     let size = part.width.map_or(png::Size::Natural, png::Size::Width);
     let found = match png::rgba(text, size) {
         Ok(raster) => Picture::new(raster.width, raster.height, raster.rgba),
-        Err(error) => return Some(finding(part, State::Unreadable, vec![error.to_string()])),
+        Err(error) => return Some(finding(part, State::PictureError, vec![error.to_string()])),
     };
     // Made only where it is needed: packing a picture takes longer than comparing it.
     let fresh = || found.encode(Some(subject)).unwrap_or_default();
@@ -309,7 +309,7 @@ fn pixels_finding(
             return Some(Finding {
                 fresh: fresh(),
                 expected: Some(bytes),
-                ..finding(part, State::Unreadable, vec![error.to_string()])
+                ..finding(part, State::PictureError, vec![error.to_string()])
             });
         }
     };
@@ -359,7 +359,7 @@ impl Snapshot {
             let what = match finding.state {
                 State::Missing => "new",
                 State::Changed => "changed",
-                State::Unreadable => "unreadable",
+                State::PictureError => "unreadable",
                 State::Large => "large",
             };
             let head = format!("{} {what}, {}", finding.layer.name(), shown(&finding.file));
@@ -387,7 +387,7 @@ impl Snapshot {
     ///
     /// # Errors
     /// The file that could not be written. The references of this snapshot are then as they were.
-    pub fn settle(&mut self, acceptance: Acceptance) -> Result<(), Unwritten> {
+    pub fn settle(&mut self, acceptance: Acceptance) -> Result<(), WriteError> {
         if acceptance == Acceptance::Accept {
             store::write(&self.acceptable())?;
             self.findings.retain(|f| f.fresh.is_empty());
@@ -450,7 +450,7 @@ impl CheckOutcome {
                 .failing()
                 .filter(|s| s.findings.iter().all(|f| f.state == State::Missing));
             let new = new.count();
-            let broken = self.failing().filter(is(State::Unreadable)).count();
+            let broken = self.failing().filter(is(State::PictureError)).count();
             words.push_str(&format!(", {} changed, {new} new", failing - new));
             if broken > 0 {
                 words.push_str(&format!(", {broken} with unreadable references"));
@@ -467,9 +467,9 @@ impl CheckOutcome {
     ///
     /// # Errors
     /// Every file that could not be written.
-    pub fn settle(&mut self, acceptance: Acceptance) -> Result<(), Vec<Unwritten>> {
+    pub fn settle(&mut self, acceptance: Acceptance) -> Result<(), Vec<WriteError>> {
         let settled = self.snapshots.iter_mut().map(|s| s.settle(acceptance));
-        let failed: Vec<Unwritten> = settled.filter_map(Result::err).collect();
+        let failed: Vec<WriteError> = settled.filter_map(Result::err).collect();
         if failed.is_empty() {
             Ok(())
         } else {

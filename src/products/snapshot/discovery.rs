@@ -9,18 +9,18 @@ use super::check::Layer;
 use super::setting::{self, FILE, Settings, fits};
 use super::store;
 use crate::figure::Kind;
-use crate::scene::{Problems, Scene};
+use crate::scene::{SceneError, Scene};
 
 /// Input that is wrong.
 #[derive(Debug, thiserror::Error)]
-pub enum Fault {
+pub enum DiscoveryError {
     /// A scene.
     #[error("{}: {problems}", path.display())]
     Scene {
         /// Its file.
         path: PathBuf,
         /// What is wrong with it.
-        problems: Problems,
+        problems: SceneError,
     },
     /// A file or folder that cannot be read.
     #[error("cannot read {}: {why}", path.display())]
@@ -160,7 +160,7 @@ pub fn parts(base: &Path, settings: &Settings) -> Vec<Part> {
 ///
 /// # Errors
 /// Everything that is wrong with any of them.
-pub fn discover(places: &[PathBuf], only: Option<&str>) -> Result<Found, Vec<Fault>> {
+pub fn discover(places: &[PathBuf], only: Option<&str>) -> Result<Found, Vec<DiscoveryError>> {
     let mut search = Search::default();
     for place in places {
         match fs::metadata(place) {
@@ -214,7 +214,7 @@ pub fn discover(places: &[PathBuf], only: Option<&str>) -> Result<Found, Vec<Fau
                 settings,
                 parts,
             }),
-            Err(problems) => search.faults.push(Fault::Scene { path, problems }),
+            Err(problems) => search.faults.push(DiscoveryError::Scene { path, problems }),
         }
     }
     if !search.faults.is_empty() {
@@ -242,12 +242,12 @@ struct Search {
     others: Vec<PathBuf>,
     /// Settings by the file they come from, `None` for the default.
     known: BTreeMap<Option<PathBuf>, Option<Arc<Settings>>>,
-    faults: Vec<Fault>,
+    faults: Vec<DiscoveryError>,
 }
 
 impl Search {
     fn unread(&mut self, path: &Path, error: &std::io::Error) {
-        self.faults.push(Fault::Unread {
+        self.faults.push(DiscoveryError::Unread {
             path: path.to_owned(),
             why: error.to_string(),
         });
@@ -333,7 +333,7 @@ impl Search {
                 }
                 Ok(text) => Settings::read(&text)
                     .map_err(|problems| {
-                        let described = problems.into_iter().map(|problem| Fault::Settings {
+                        let described = problems.into_iter().map(|problem| DiscoveryError::Settings {
                             path: path.clone(),
                             problem,
                         });
@@ -353,7 +353,7 @@ impl Search {
         if let Some(other) = expected.insert(folded, scene.to_owned())
             && other != scene
         {
-            self.faults.push(Fault::Clash(format!(
+            self.faults.push(DiscoveryError::Clash(format!(
                 "{} and {} would both have the reference {} where capitals and small letters are one; rename one of them",
                 shown(&other),
                 shown(scene),

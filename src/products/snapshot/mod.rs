@@ -27,7 +27,7 @@ pub mod setting;
 pub mod store;
 
 pub use check::{CheckOutcome, Finding, Layer, Snapshot, State, check};
-pub use discovery::{Fault, Job, discover};
+pub use discovery::{DiscoveryError, Job, discover};
 pub use setting::Settings;
 
 // Macros live at the root of a crate, by a rule of the language; here they stand where they belong.

@@ -89,7 +89,7 @@ fn described(finding: &Finding) -> Markup {
     let state = match finding.state {
         State::Missing => "new",
         State::Changed => "changed",
-        State::Unreadable => "unreadable",
+        State::PictureError => "unreadable",
         State::Large => "large",
     };
     html! {

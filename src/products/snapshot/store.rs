@@ -9,7 +9,7 @@ use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::output::file::{Existing, Unwritten, write_whole};
+use crate::output::file::{Existing, WriteError, write_whole};
 
 /// Whether this run is one of continuous integration, where nobody looks before a reference is accepted: `CI` is set, and not to
 /// `false` or 0.
@@ -96,7 +96,7 @@ pub fn turn(folders: impl IntoIterator<Item = PathBuf>, usage: Use) -> Turn {
 ///
 /// # Errors
 /// The first that could not be written.
-pub fn write(files: &[(PathBuf, Vec<u8>)]) -> Result<(), Unwritten> {
+pub fn write(files: &[(PathBuf, Vec<u8>)]) -> Result<(), WriteError> {
     write_whole(files, Existing::Replace)
 }
 

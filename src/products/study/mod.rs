@@ -18,7 +18,7 @@ pub use reference::Reference;
 pub use summary::{Summary, summary};
 
 use crate::analysis::Verdict;
-use crate::effect::{self, Situation};
+use crate::effect::{self, FrameContext};
 use crate::interface::Interfaces;
 use crate::program::{Program, Scale};
 use crate::proof::Proof;
@@ -142,7 +142,7 @@ impl Task {
         scene.frames = vec![frame.clone()];
         let found = Interfaces::of(&scene);
         let interfaces = found.in_frame(&scene, frame);
-        let (assembly, _) = effect::assemble(&Situation {
+        let (assembly, _) = effect::assemble(&FrameContext {
             scene: &scene,
             frame,
             interfaces: &interfaces,

@@ -127,7 +127,7 @@ pub struct DrawingProblems {
 /// assert_eq!(imported.snapped[0].body, "post");
 /// let scene = Scene::from_json(&imported.scene.to_json())?;
 /// assert_eq!(scene.blocks()[0].body.polygon.bounds().min, drystone::scene::Point::new(0.02, 0.01));
-/// # Ok::<(), drystone::scene::Problems>(())
+/// # Ok::<(), drystone::scene::SceneError>(())
 /// ```
 pub fn import(text: &str, format: Format, options: &Options) -> Result<Imported, DrawingProblems> {
     let problems = wrong_options(options);

@@ -14,7 +14,7 @@ use crate::scene::format::{Pair, SceneFile};
 /// let arch = |thickness| Scene::new(Arch { thickness, ..Arch::default() }.scene());
 /// assert_eq!(Analysis::of(&arch(0.4)?).verdict(), Verdict::Stable);
 /// assert_eq!(Analysis::of(&arch(0.15)?).verdict(), Verdict::Unstable);
-/// # Ok::<(), drystone::scene::Problems>(())
+/// # Ok::<(), drystone::scene::SceneError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arch {

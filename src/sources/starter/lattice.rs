@@ -39,7 +39,7 @@ impl LatticePile {
     /// assert_eq!(pile(0.7)?.blocks().len(), 9);
     /// assert_eq!(Analysis::of(&pile(0.7)?).verdict(), Verdict::Stable);
     /// assert_eq!(Analysis::of(&pile(0.05)?).verdict(), Verdict::Unstable);
-    /// # Ok::<(), drystone::scene::Problems>(())
+    /// # Ok::<(), drystone::scene::SceneError>(())
     /// ```
     pub fn scene(&self) -> SceneFile {
         let up = |x: usize, y: f64| CellEntry::Triangle(x as f64, y, CellHalf::Up);

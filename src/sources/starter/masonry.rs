@@ -40,7 +40,7 @@ impl Wall {
     /// let wall = Scene::new(Wall::default().scene())?;
     /// assert_eq!(wall.blocks().len(), 3 * 5 + 3 * 6);
     /// assert_eq!(Analysis::of(&wall).verdict(), Verdict::Stable);
-    /// # Ok::<(), drystone::scene::Problems>(())
+    /// # Ok::<(), drystone::scene::SceneError>(())
     /// ```
     pub fn scene(&self) -> SceneFile {
         let least = self.height.min(0.5 * self.length);
@@ -113,7 +113,7 @@ impl Tower {
     /// let tower = |lean| Scene::new(Tower { lean, ..Tower::default() }.scene());
     /// assert_eq!(Analysis::of(&tower(0.12)?).verdict(), Verdict::Stable);
     /// assert_eq!(Analysis::of(&tower(0.13)?).verdict(), Verdict::Unstable);
-    /// # Ok::<(), drystone::scene::Problems>(())
+    /// # Ok::<(), drystone::scene::SceneError>(())
     /// ```
     pub fn scene(&self) -> SceneFile {
         let least = self.height.min(self.width);
@@ -185,7 +185,7 @@ impl Doorway {
     /// let analysis = Analysis::of(&doorway);
     /// assert_eq!(analysis.frames.len(), 3);
     /// assert_eq!(analysis.verdict(), Verdict::Stable);
-    /// # Ok::<(), drystone::scene::Problems>(())
+    /// # Ok::<(), drystone::scene::SceneError>(())
     /// ```
     pub fn scene(&self) -> SceneFile {
         let least = [

@@ -1,7 +1,7 @@
 //! Files of every sort in the place of references: compared, or refused in words of their own; never a panic.
 
 use drystone::output::png as ours;
-use drystone::snapshot::picture::{Difference, Picture, PixelTolerance, Subject, Unreadable};
+use drystone::snapshot::picture::{Difference, Picture, PixelTolerance, Subject, PictureError};
 
 /// A picture with a few colours and a ramp.
 fn sample() -> Picture {
@@ -176,7 +176,7 @@ fn what_is_no_whole_png_has_words_of_its_own() {
     huge[29..33].copy_from_slice(&crc.to_be_bytes());
     assert_eq!(
         Picture::decode(&huge),
-        Err(Unreadable::Large {
+        Err(PictureError::Large {
             width: 65_535,
             height: 65_535
         })
@@ -193,7 +193,7 @@ fn what_is_no_whole_png_has_words_of_its_own() {
         &ours_fonts(),
     )
     .expect("an animation");
-    assert_eq!(Picture::decode(&moving), Err(Unreadable::Animation(2)));
+    assert_eq!(Picture::decode(&moving), Err(PictureError::Animation(2)));
 }
 
 fn ours_fonts() -> drystone::output::fonts::Fonts {

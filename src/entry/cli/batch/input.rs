@@ -6,7 +6,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::batch::{Input, Record};
-use crate::cli::complaint::Complaint;
+use crate::cli::complaint::CliError;
 
 /// Everything a batch reads.
 #[derive(Debug)]
@@ -19,11 +19,11 @@ pub(super) struct Inputs {
 }
 
 /// The inputs behind some paths. Where pictures are drawn no two of them may have pictures of one name.
-pub(super) fn of(paths: &[PathBuf], drawn: bool) -> Result<Inputs, Vec<Complaint>> {
+pub(super) fn of(paths: &[PathBuf], drawn: bool) -> Result<Inputs, Vec<CliError>> {
     let stdin = Path::new("-");
     let mut complaints = Vec::new();
     if paths.iter().filter(|p| *p == stdin).count() > 1 {
-        complaints.push(Complaint::CommandLine(
+        complaints.push(CliError::CommandLine(
             "standard input (-) can be read only once".into(),
         ));
     }
@@ -96,8 +96,8 @@ fn is_scenes(path: &Path) -> bool {
 }
 
 /// A path itself, or the scenes in its folder in the order of their names.
-fn scenes_of(path: &Path) -> Result<Vec<PathBuf>, Complaint> {
-    let not_read = |why: String| Complaint::NotRead {
+fn scenes_of(path: &Path) -> Result<Vec<PathBuf>, CliError> {
+    let not_read = |why: String| CliError::NotRead {
         what: path.display().to_string(),
         why,
     };
@@ -126,12 +126,12 @@ fn scenes_of(path: &Path) -> Result<Vec<PathBuf>, Complaint> {
 }
 
 /// Complains of files whose pictures would have one name.
-fn one_name(files: &[PathBuf]) -> Vec<Complaint> {
+fn one_name(files: &[PathBuf]) -> Vec<CliError> {
     let mut first: BTreeMap<(String, bool), &Path> = BTreeMap::new();
     let mut complaints = Vec::new();
     for file in files {
         if let Some(other) = first.insert((stem(file), is_whole(file)), file) {
-            complaints.push(Complaint::CommandLine(format!(
+            complaints.push(CliError::CommandLine(format!(
                 "the pictures of {} and {} would have the same names; rename one, or draw them into folders of their own",
                 other.display(),
                 file.display()

@@ -5,7 +5,7 @@ use std::io::{self, BufRead, BufReader, BufWriter, Seek, SeekFrom, Write};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-use crate::cli::complaint::Complaint;
+use crate::cli::complaint::CliError;
 use crate::cli::destination;
 
 /// The lines' way out.
@@ -23,7 +23,7 @@ impl Output {
         path: Option<&Path>,
         resume: bool,
         inputs: &[PathBuf],
-    ) -> Result<Output, Complaint> {
+    ) -> Result<Output, CliError> {
         let Some(path) = path else {
             return Ok(Output {
                 stream: BufWriter::new(Box::new(io::stdout())),
@@ -34,7 +34,7 @@ impl Output {
         };
         let inputs: Vec<&Path> = inputs.iter().map(PathBuf::as_path).collect();
         destination::apart(&[path.to_owned()], &inputs)?;
-        let not_written = |error: io::Error| Complaint::NotWritten {
+        let not_written = |error: io::Error| CliError::NotWritten {
             what: path.display().to_string(),
             why: error.to_string(),
         };
@@ -57,8 +57,8 @@ impl Output {
     }
 
     /// What is said where the output has more lines than the input has scenes.
-    pub fn belongs_elsewhere(&self, scenes: usize) -> Complaint {
-        Complaint::CommandLine(format!(
+    pub fn belongs_elsewhere(&self, scenes: usize) -> CliError {
+        CliError::CommandLine(format!(
             "{} has {} lines already, but the input has only {scenes} scenes: it was made from another input. Give another \
              output, or leave out --resume",
             self.name, self.done
@@ -66,25 +66,25 @@ impl Output {
     }
 
     /// Writes a line, or says that nobody reads on.
-    pub fn write(&mut self, line: &[u8]) -> Result<ControlFlow<()>, Complaint> {
+    pub fn write(&mut self, line: &[u8]) -> Result<ControlFlow<()>, CliError> {
         let written = self.stream.write_all(line);
         self.reported(written)
     }
 
     /// Sees to it that what was written can be read.
-    pub fn flush(&mut self) -> Result<ControlFlow<()>, Complaint> {
+    pub fn flush(&mut self) -> Result<ControlFlow<()>, CliError> {
         let flushed = self.stream.flush();
         self.reported(flushed)
     }
 
-    fn reported(&self, written: io::Result<()>) -> Result<ControlFlow<()>, Complaint> {
+    fn reported(&self, written: io::Result<()>) -> Result<ControlFlow<()>, CliError> {
         match written {
             Ok(()) => Ok(ControlFlow::Continue(())),
             // A reader that closes the pipe has read enough: that is no failure of ours.
             Err(error) if self.is_stdout && error.kind() == io::ErrorKind::BrokenPipe => {
                 Ok(ControlFlow::Break(()))
             }
-            Err(error) => Err(Complaint::NotWritten {
+            Err(error) => Err(CliError::NotWritten {
                 what: self.name.clone(),
                 why: error.to_string(),
             }),

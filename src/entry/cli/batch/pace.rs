@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use crate::analysis::Verdict;
-use crate::cli::ending::Ending;
+use crate::cli::ending::ExitStatus;
 use crate::cli::terminal::Terminal;
 use crate::wording::verdict::counted;
 
@@ -65,12 +65,12 @@ impl<'t> Pace<'t> {
     }
 
     /// One more scene is answered.
-    pub fn step(&mut self, ending: Ending) {
+    pub fn step(&mut self, ending: ExitStatus) {
         let kind = match ending {
-            Ending::Done => 0,
-            Ending::Unstable => 1,
-            Ending::Undecided => 2,
-            Ending::WrongInput | Ending::NotWritten => 3,
+            ExitStatus::Done => 0,
+            ExitStatus::Unstable => 1,
+            ExitStatus::Undecided => 2,
+            ExitStatus::WrongInput | ExitStatus::NotWritten => 3,
         };
         self.counts[kind] += 1;
         let now = Instant::now();

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 
 use super::Render;
 use super::target::paths;
-use crate::cli::complaint::Complaint;
+use crate::cli::complaint::CliError;
 use crate::cli::destination::{self, Destination};
-use crate::cli::ending::Ending;
+use crate::cli::ending::ExitStatus;
 use crate::cli::picture::Format;
 use crate::cli::source::name;
 use crate::cli::terminal::Terminal;
@@ -26,7 +26,7 @@ impl Render {
         format: Format,
         fonts: &Fonts,
         terminal: &Terminal,
-    ) -> Result<Ending, Vec<Complaint>> {
+    ) -> Result<ExitStatus, Vec<CliError>> {
         let one = |complaint| vec![complaint];
         let options = self.options(self.look.theme().map_err(one)?);
         let targets: Vec<&Path> = scenes.iter().map(PathBuf::as_path).collect();
@@ -38,7 +38,7 @@ impl Render {
         let mut complaints = Vec::new();
         for path in scenes {
             let bytes = read(path).map_err(|error| {
-                one(Complaint::NotRead {
+                one(CliError::NotRead {
                     what: name(path),
                     why: error.to_string(),
                 })
@@ -48,7 +48,7 @@ impl Render {
             let picture = self.picture.bytes(drawing, format, fonts).map_err(one)?;
             pictures.push(picture);
             if !sketch.problems.list.is_empty() {
-                complaints.push(Complaint::Scene {
+                complaints.push(CliError::Scene {
                     name: name(path),
                     problems: sketch.problems,
                 });
@@ -69,7 +69,7 @@ impl Render {
             }
         }
         if complaints.is_empty() {
-            Ok(Ending::Done)
+            Ok(ExitStatus::Done)
         } else {
             Err(complaints)
         }

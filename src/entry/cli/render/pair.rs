@@ -3,9 +3,9 @@
 use super::choice::KindChoice;
 use super::{Render, Rendered, summary};
 use crate::analysis::{self, Analysis};
-use crate::cli::complaint::Complaint;
+use crate::cli::complaint::CliError;
 use crate::cli::destination::Destination;
-use crate::cli::ending::Ending;
+use crate::cli::ending::ExitStatus;
 use crate::cli::picture::Format;
 use crate::cli::script;
 use crate::cli::source::Source;
@@ -29,10 +29,10 @@ impl Render {
         options: &figure::Options,
         format: Format,
         fonts: &Fonts,
-    ) -> Result<Rendered, Complaint> {
+    ) -> Result<Rendered, CliError> {
         if self.zoom.is_some() || self.panels || self.pages || self.animate.is_some() {
             let why = "a comparison of two scenes is one picture; leave out --zoom, --panels, --pages and --animate";
-            return Err(Complaint::CommandLine(why.into()));
+            return Err(CliError::CommandLine(why.into()));
         }
         let scenes = sources.map(|source| {
             if self.picture.draws_words(format) {
@@ -52,7 +52,7 @@ impl Render {
         let (a, b) = ((&before, last(&before)), (&after, last(&after)));
         let (scene, frames) = analysis::pair(a, b, [title(0), title(1)]).map_err(|why| {
             let names = sources.map(Source::name);
-            Complaint::CommandLine(format!("{} and {}: {why}", names[0], names[1]))
+            CliError::CommandLine(format!("{} and {}: {why}", names[0], names[1]))
         })?;
         let joined = Analysis {
             scene: Arc::new(scene),
@@ -62,7 +62,7 @@ impl Render {
         let drawing = figure::draw(&joined, figure::Kind::Compare, options);
         Ok(Rendered {
             bytes: vec![self.picture.bytes(drawing, format, fonts)?],
-            ending: Ending::of(&joined),
+            ending: ExitStatus::of(&joined),
             summary: summary(&joined),
         })
     }

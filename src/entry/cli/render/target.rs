@@ -3,7 +3,7 @@
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
-use crate::cli::complaint::Complaint;
+use crate::cli::complaint::CliError;
 use crate::cli::destination::Destination;
 use crate::cli::picture::Format;
 use crate::cli::source::{name, stem};
@@ -21,7 +21,7 @@ pub(super) fn paths(
     destination: &Destination,
     scenes: &[&Path],
     format: Format,
-) -> Result<Vec<PathBuf>, Complaint> {
+) -> Result<Vec<PathBuf>, CliError> {
     match destination {
         Destination::Stdout => Ok(Vec::new()),
         Destination::File(path) => Ok(vec![path.clone()]),
@@ -31,7 +31,7 @@ pub(super) fn paths(
                 let path = folder.join(format!("{}.{}", stem(scene), format.ending()));
                 if let Some(first) = paths.iter().position(|p| *p == path) {
                     let (a, b, shown) = (name(scenes[first]), name(scene), path.display());
-                    return Err(Complaint::CommandLine(format!(
+                    return Err(CliError::CommandLine(format!(
                         "{a} and {b} would both become {shown}; rename one"
                     )));
                 }

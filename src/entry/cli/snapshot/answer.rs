@@ -5,8 +5,8 @@ use std::io::{self, BufRead};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
-use crate::cli::complaint::Complaint;
-use crate::cli::ending::Ending;
+use crate::cli::complaint::CliError;
+use crate::cli::ending::ExitStatus;
 use crate::cli::page::Page;
 use crate::cli::terminal::Terminal;
 use crate::snapshot::check::{Acceptance, CheckOutcome, Snapshot};
@@ -31,7 +31,7 @@ const PIECE: usize = 4096;
 pub(super) fn ask(
     terminal: &Terminal,
     report: &mut CheckOutcome,
-) -> Result<Ending, Vec<Complaint>> {
+) -> Result<ExitStatus, Vec<CliError>> {
     let pictures = pictures(terminal);
     let total = report.failing().count();
     let mut number = 0;
@@ -71,7 +71,7 @@ pub(super) fn ask(
     Ok(super::ending(report))
 }
 
-fn show(terminal: &Terminal, snapshot: &Snapshot, pictures: Pictures) -> Result<(), Complaint> {
+fn show(terminal: &Terminal, snapshot: &Snapshot, pictures: Pictures) -> Result<(), CliError> {
     let mut page = Page::default();
     page.end();
     page.line(&snapshot.name);

@@ -20,7 +20,7 @@ enum Noise {
 const SAME_SUM: f64 = 1e-6;
 
 /// Forces in newtons with their proof.
-pub(super) struct Carried {
+pub(super) struct ProvedForces {
     pub forces: Forces,
     pub proof: Proof,
 }
@@ -31,13 +31,13 @@ impl Case<'_> {
     /// Noise becomes 0 and friction is cut to μN, so that what is left of the solver's error shows as imbalance alone, where
     /// the proof measures it. What is noise among heavy blocks may be all that holds a light one: where the proof fails,
     /// less is dropped.
-    pub fn carried(&self, amounts: &Amounts) -> Carried {
+    pub fn carried(&self, amounts: &Amounts) -> ProvedForces {
         // Of several that have no proof, the forces that balance most bodies.
-        let mut best: Option<(usize, Carried)> = None;
+        let mut best: Option<(usize, ProvedForces)> = None;
         for noise in [Noise::OfTheWhole, Noise::OfEachBody, Noise::None] {
             let forces = self.in_newtons(amounts, noise);
             let proof = proof::forces(self.assembly, &forces);
-            let carried = Carried { forces, proof };
+            let carried = ProvedForces { forces, proof };
             if self.believes(&proof) {
                 return carried;
             }
@@ -53,7 +53,7 @@ impl Case<'_> {
             None => {
                 let forces = Forces::none(self.assembly);
                 let proof = proof::forces(self.assembly, &forces);
-                Carried { forces, proof }
+                ProvedForces { forces, proof }
             }
         }
     }

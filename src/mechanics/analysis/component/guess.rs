@@ -1,4 +1,4 @@
-//! [`Guesses`]: forces and motions of siblings of a component, tried as proofs before any program is solved.
+//! [`ProofCache`]: forces and motions of siblings of a component, tried as proofs before any program is solved.
 //!
 //! A margin asks about many components that differ in one number. Forces that balance one often balance the next, and the
 //! motion by which one falls often proves the fall of another. A guess is believed for its proof alone, like everything
@@ -14,7 +14,7 @@ const KEPT: usize = 4;
 
 /// What is remembered of siblings, the latest last.
 #[derive(Debug, Default)]
-pub(in crate::mechanics::analysis) struct Guesses {
+pub(in crate::mechanics::analysis) struct ProofCache {
     forces: Vec<Acting>,
     motions: Vec<Vec<Motion>>,
 }
@@ -26,7 +26,7 @@ struct Acting {
     points: Vec<[Point; 2]>,
 }
 
-impl Guesses {
+impl ProofCache {
     /// Remembers forces on an assembly.
     pub fn add_forces(&mut self, assembly: &Assembly, forces: Forces) {
         if self.forces.len() == KEPT {

@@ -5,10 +5,10 @@
 //! forces balance.
 
 use super::local::Outcome;
-use super::rung::{Attempt, Rung};
+use super::rung::{Attempt, Strategy};
 use super::straight::Least;
 use super::{Case, Method};
-use crate::analysis::{Doubt, Verdict};
+use crate::analysis::{UndecidedReason, Verdict};
 use crate::program::Program;
 use crate::proof::{Motion, Proof};
 use crate::solve::{Amounts, Effort, Stuck};
@@ -17,7 +17,7 @@ use crate::solve::{Amounts, Effort, Stuck};
 pub(super) struct Decision {
     pub verdict: Verdict,
     /// Why it is undecided, in words; empty otherwise.
-    pub doubt: Option<Doubt>,
+    pub doubt: Option<UndecidedReason>,
     /// Forces that balance, or that balance together with the sticking.
     pub amounts: Amounts,
     /// The sum that admissible forces must have at least to balance, N, where it was shown, and whether these have it.
@@ -47,7 +47,7 @@ impl Case<'_> {
         let mut no_status = false;
         let mut weak: Option<(Vec<Motion>, Proof)> = None;
         let (mut last, mut stuck) = (None, None);
-        for rung in Rung::ladder(program, &self.settings, self.place, self.described) {
+        for rung in Strategy::ladder(program, &self.settings, self.place, self.described) {
             let attempt = rung.attempt(program);
             effort = effort.and(attempt.effort);
             no_status |= rung.is_least() && attempt.forces.is_none() && attempt.motion.is_none();
@@ -156,7 +156,7 @@ impl Case<'_> {
         let raw = motion.map(|y| self.mechanism(&self.moved(y).1));
         Decision {
             verdict: Verdict::Undecided,
-            doubt: Some(Doubt::Unproved {
+            doubt: Some(UndecidedReason::Unproved {
                 forces: proof,
                 motion: raw,
             }),

@@ -13,7 +13,7 @@
 //!
 //! Each round brings bodies of smaller weight within the digits; sets within a set are treated alike.
 
-use super::forces::Carried;
+use super::forces::ProvedForces;
 use super::{Case, Place};
 use crate::analysis::Verdict;
 use crate::assembly::Part;
@@ -60,7 +60,7 @@ impl Case<'_> {
             return Outcome::Open;
         }
         let mut amounts = amounts.clone();
-        let failing = |carried: &Carried| -> Vec<bool> {
+        let failing = |carried: &ProvedForces| -> Vec<bool> {
             let off = proof::imbalances(self.assembly, &carried.forces);
             off.iter().map(|off| *off > self.demand.imbalance).collect()
         };

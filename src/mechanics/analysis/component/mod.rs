@@ -17,10 +17,10 @@ mod rung;
 mod straight;
 
 pub(super) use candidate::Candidate;
-pub(super) use guess::Guesses;
+pub(super) use guess::ProofCache;
 pub(super) use question::{Ends, guessed, judged, learn, only_by_wedging};
 
-use super::{Ask, Doubt, Failure, Options, Verdict};
+use super::{Ask, UndecidedReason, Failure, Options, Verdict};
 use crate::assembly::Assembly;
 use crate::program::{Count, Program, Scale, columns, sticking_columns};
 use crate::proof::{Demand, Forces, Motion, Proof, fastest};
@@ -33,7 +33,7 @@ pub(super) use rung::Place;
 #[derive(Clone, Debug)]
 pub(super) struct Findings {
     pub verdict: Verdict,
-    pub doubt: Option<Doubt>,
+    pub doubt: Option<UndecidedReason>,
     pub forces: Forces,
     /// The sum that admissible forces must have at least to balance, N, where it was shown.
     pub force_bound: Option<f64>,
@@ -128,7 +128,7 @@ impl<'a> Case<'a> {
     }
 
     /// Findings of a component that stands by forces found in closed form.
-    fn stands(&self, carried: forces::Carried) -> Findings {
+    fn stands(&self, carried: forces::ProvedForces) -> Findings {
         Findings {
             verdict: Verdict::Stable,
             doubt: None,

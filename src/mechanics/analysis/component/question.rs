@@ -1,21 +1,21 @@
 //! Questions about a component beside what [`solved`](super::solved) finds out.
 
 use super::ladder::Decision;
-use super::{Case, Findings, Guesses, Place};
+use super::{Case, Findings, ProofCache, Place};
 use crate::analysis::{Ask, Options, Verdict, Wedged};
 use crate::assembly::Assembly;
 use crate::effect::wedging::Wedging;
 use crate::program::Program;
 use crate::proof::{Forces, Motion};
 use crate::scene::Scene;
-use crate::solve::{Amounts, Effort, Reach, Squeeze, reach};
+use crate::solve::{Amounts, Effort, SelfStressCheck, SelfStress, reach};
 
 /// Whether a component stands, and how it begins to move where it falls: the verdict of [`solved`](super::solved) without
 /// the rest. What is found is remembered among the guesses; where one of them is a proof already, no program is solved.
 pub(in crate::mechanics::analysis) fn judged(
     assembly: &Assembly,
     place: Place,
-    guesses: &mut Guesses,
+    guesses: &mut ProofCache,
 ) -> (Verdict, Vec<Motion>) {
     let guess = guessed(assembly, guesses);
     if guess.0 != Verdict::Undecided {
@@ -41,7 +41,7 @@ pub(in crate::mechanics::analysis) fn judged(
 /// The same from the guesses alone; undecided where none is a proof.
 pub(in crate::mechanics::analysis) fn guessed(
     assembly: &Assembly,
-    guesses: &Guesses,
+    guesses: &ProofCache,
 ) -> (Verdict, Vec<Motion>) {
     let case = Case::of(assembly, ALONE);
     if guesses.balances(&case) {
@@ -85,7 +85,7 @@ pub(in crate::mechanics::analysis) struct Ends<'a> {
 }
 
 /// Remembers what a program found at the edge; the forces in newtons are returned.
-pub(in crate::mechanics::analysis) fn learn(ends: &Ends, guesses: &mut Guesses) -> Option<Forces> {
+pub(in crate::mechanics::analysis) fn learn(ends: &Ends, guesses: &mut ProofCache) -> Option<Forces> {
     let case = |assembly| Case {
         scale: ends.program.scale,
         ..Case::of(assembly, ALONE)
@@ -128,13 +128,13 @@ pub(in crate::mechanics::analysis) fn only_by_wedging<'a>(
             format!("{}|{}", scene.name(on), scene.name(from))
         };
         match reach(&program, &given) {
-            Reach::FromRest => {}
-            Reach::OnlyWedged(squeeze) => {
+            SelfStressCheck::FromRest => {}
+            SelfStressCheck::OnlyWedged(squeeze) => {
                 let shown = shown(&squeeze, case.scale.force, body, face);
                 let wedged = Wedged::of(assembly, case.scale, &squeeze);
                 return (Some(true), Wedging::Only(shown), Some(wedged));
             }
-            Reach::Undecided(doubt) => answer = (None, Wedging::Open(doubt.to_string()), None),
+            SelfStressCheck::Undecided(doubt) => answer = (None, Wedging::Open(doubt.to_string()), None),
         }
     }
     answer
@@ -142,7 +142,7 @@ pub(in crate::mechanics::analysis) fn only_by_wedging<'a>(
 
 /// What shows that no springs come to rest, in words.
 fn shown<'n>(
-    squeeze: &Squeeze,
+    squeeze: &SelfStress,
     unit: f64,
     body: impl Fn(usize) -> &'n str,
     face: impl Fn(usize) -> String,

@@ -1,7 +1,7 @@
 //! Least forces of joints that are parallel but for rounding.
 
 use super::Case;
-use super::rung::Rung;
+use super::rung::Strategy;
 use crate::program::Program;
 use crate::proof::Proof;
 use crate::solve::{Amounts, Choice, Effort, SolverSettings, corrected};
@@ -30,7 +30,7 @@ impl Case<'_> {
         let wanted = |s: &&SolverSettings| s.choice != Choice::Any;
         let settings = self.settings.iter().find(wanted)?;
         let straight = program.with_straight_joints()?;
-        let attempt = Rung::Force(*settings).attempt(&straight);
+        let attempt = Strategy::Force(*settings).attempt(&straight);
         *effort = effort.and(attempt.effort);
         let amounts = corrected(program, attempt.forces.as_ref()?, effort)?;
         let proof = self.carried(&amounts).proof;

@@ -90,7 +90,7 @@ pub struct Sides {
 /// let slides = margins.horizontal_load.right.at().expect("a block slides");
 /// assert!((slides - 0.5).abs() < 1e-6);
 /// assert_eq!(margins.load_factor, Margin::Unbounded, "the scene lists no load");
-/// # Ok::<(), drystone::scene::Problems>(())
+/// # Ok::<(), drystone::scene::SceneError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]

@@ -6,7 +6,7 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::analysis::Verdict;
-use crate::analysis::component::{Ends, Guesses, Place, guessed, judged, learn};
+use crate::analysis::component::{Ends, ProofCache, Place, guessed, judged, learn};
 use crate::assembly::{Assembly, LoadVector};
 use crate::geometry::quarter_turn;
 use crate::program::{Program, Scale};
@@ -75,7 +75,7 @@ pub(super) struct Trial<'a> {
     given: &'a Assembly,
     /// The forces of the component as it is, where it stands.
     forces: Option<&'a Forces>,
-    guesses: Guesses,
+    guesses: ProofCache,
     /// How many settings were judged.
     pub judged: usize,
 }
@@ -83,7 +83,7 @@ pub(super) struct Trial<'a> {
 impl<'a> Trial<'a> {
     /// A component, with the forces that balance it where it stands.
     pub fn of(given: &'a Assembly, forces: Option<&'a Forces>) -> Trial<'a> {
-        let mut guesses = Guesses::default();
+        let mut guesses = ProofCache::default();
         if let Some(forces) = forces {
             guesses.add_forces(given, forces.clone());
         }

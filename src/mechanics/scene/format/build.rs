@@ -8,7 +8,7 @@ use super::{
     HoldEntry, LimitsEntry, LoadEntry, MaterialEntry, Pair, RobotEntry, SceneFile, ShapeEntry,
     StepEntry,
 };
-use crate::scene::{NoteCode, Problems, Scene};
+use crate::scene::{NoteCode, SceneError, Scene};
 
 /// Methods that set a key whose value is words.
 macro_rules! words {
@@ -165,7 +165,7 @@ impl SceneFile {
     ///
     /// # Errors
     /// Everything that is wrong with it, each with its path.
-    pub fn build(self) -> Result<Scene, Problems> {
+    pub fn build(self) -> Result<Scene, SceneError> {
         Scene::new(self)
     }
 }

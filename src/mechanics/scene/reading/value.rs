@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use super::super::finding::{Doubt, Findings};
+use super::super::finding::{UnreadParts, Findings};
 use super::super::format::{Map, Pair};
 use super::super::path::Trail;
 use super::super::problem::{self, Wording};
@@ -19,7 +19,7 @@ const FEW: usize = 16;
 pub(super) struct Reader<'s, 't> {
     pub(super) source: &'s Source<'t>,
     pub(super) findings: Findings,
-    pub(super) doubt: Doubt,
+    pub(super) doubt: UnreadParts,
 }
 
 /// An object that is known to be one.
@@ -48,7 +48,7 @@ impl<'s, 't> Reader<'s, 't> {
         Reader {
             source,
             findings: Findings::default(),
-            doubt: Doubt::default(),
+            doubt: UnreadParts::default(),
         }
     }
 

@@ -3,7 +3,7 @@
 use super::Resolution;
 use super::body::BodyEntry;
 use crate::geometry::{Cell, Half, Point, Vector, sin_cos_degrees};
-use crate::scene::finding::{Doubt, Findings};
+use crate::scene::finding::{UnreadParts, Findings};
 use crate::scene::format::{CellEntry, CellHalf, SceneFile};
 use crate::scene::number::LARGEST;
 use crate::scene::sketch::{Placement, SketchedBody};
@@ -12,7 +12,7 @@ use crate::scene::{BlockId, BodyId, Scene};
 /// Every body that has corners, the ground first, and the scene where all its bodies are sound; these may overlap in it.
 pub(in crate::mechanics::scene) fn sketch(
     file: &SceneFile,
-    doubt: Doubt,
+    doubt: UnreadParts,
 ) -> (Vec<SketchedBody>, Option<Scene>) {
     let mut findings = Findings::doubting(doubt);
     let resolution = Resolution::new(&mut findings, file);

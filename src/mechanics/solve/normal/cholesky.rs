@@ -5,12 +5,12 @@
 //! So the matrix itself is never written down.
 
 use super::elements::Elements;
-use super::panels::{Panel, Panels};
+use super::panels::{Supernode, Supernodes};
 use super::product::{Packed, dot, factor};
 
 /// A factor, and all that is needed to make it anew with other weights.
 pub(super) struct Cholesky {
-    panels: Panels,
+    panels: Supernodes,
     /// Where the values of each panel begin: column by column, each of its own width and rows.
     begin: Vec<usize>,
     values: Vec<f64>,
@@ -46,7 +46,7 @@ fn packed_size(rows: usize) -> usize {
 impl Cholesky {
     /// Finds the order of elimination, and numbers the unknowns of the columns in it; `None` where there is none.
     pub fn of(elements: &mut Elements) -> Option<Cholesky> {
-        let panels = Panels::of(elements)?;
+        let panels = Supernodes::of(elements)?;
         elements.renumber(&panels.position);
         let mut begin = vec![0];
         let mut of_column = vec![0; elements.unknowns()];
@@ -76,7 +76,7 @@ impl Cholesky {
 
     /// Multiplications and additions of one factoring.
     pub fn operations(&self) -> f64 {
-        let of = |panel: &Panel| {
+        let of = |panel: &Supernode| {
             let (w, m) = (panel.width as f64, panel.rows.len() as f64);
             w * m * m + w * w * m + w * w * w / 3.0
         };

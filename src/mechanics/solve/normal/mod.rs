@@ -31,7 +31,7 @@ mod tests;
 
 use std::time::Instant;
 
-use super::{Answer, Finer, Status};
+use super::{Answer, CrossoverTolerance, Status};
 use crate::program::Conic;
 use cholesky::Cholesky;
 use elements::Elements;
@@ -60,7 +60,7 @@ pub(super) struct Limits {
     /// The tolerance of feasibility and gap.
     pub tolerance: f64,
     /// Where it goes on to; where that is out of reach, the tolerance does.
-    pub finer: Option<Finer>,
+    pub finer: Option<CrossoverTolerance>,
     pub iterations: usize,
     pub deadline: Option<Instant>,
 }

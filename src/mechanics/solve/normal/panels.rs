@@ -1,4 +1,4 @@
-//! [`Panels`]: the order of elimination, and which rows every column of the factor has.
+//! [`Supernodes`]: the order of elimination, and which rows every column of the factor has.
 //!
 //! Columns with the same rows below them make a panel, a dense matrix. A panel joins the one above it where few zeros come
 //! in. Literature: Davis, Direct Methods for Sparse Linear Systems, 2006, chapters 4 and 7.
@@ -9,12 +9,12 @@ use super::elements::Elements;
 
 /// Columns that have the same rows below them.
 #[derive(Clone, Debug)]
-pub(super) struct Panel {
+pub(super) struct Supernode {
     /// The first of its columns.
     pub first: usize,
     /// How many there are.
     pub width: usize,
-    /// Its rows below them, in [`Panels::rows`].
+    /// Its rows below them, in [`Supernodes::rows`].
     pub rows: Range<usize>,
     /// How many panels hand their products to it.
     pub children: usize,
@@ -22,18 +22,18 @@ pub(super) struct Panel {
 
 /// A factor without its values.
 #[derive(Clone, Debug)]
-pub(super) struct Panels {
+pub(super) struct Supernodes {
     /// The position of each unknown in the order of elimination.
     pub position: Vec<u32>,
     /// Children stand before their parents, families side by side.
-    pub panels: Vec<Panel>,
+    pub panels: Vec<Supernode>,
     /// The rows of all panels, as positions.
     pub rows: Vec<u32>,
 }
 
-impl Panels {
+impl Supernodes {
     /// Of Σ weight·column·columnᵀ; `None` where no order is found.
-    pub fn of(elements: &Elements) -> Option<Panels> {
+    pub fn of(elements: &Elements) -> Option<Supernodes> {
         let graph = Graph::of(elements);
         let count = i32::try_from(graph.count()).ok()?;
         let (starts, list) = graph.as_i32()?;
@@ -58,7 +58,7 @@ impl Panels {
         };
         let groups = groups(&parent, &ordered.heights(&parent));
         let (panels, rows) = ordered.panels(&groups);
-        Some(Panels {
+        Some(Supernodes {
             position: position.iter().map(|k| *k as u32).collect(),
             panels,
             rows,
@@ -185,13 +185,13 @@ impl Ordered<'_> {
     }
 
     /// The rows of every panel: those of the matrix, and those of the panels that hand on to it.
-    fn panels(&self, groups: &[Group]) -> (Vec<Panel>, Vec<u32>) {
+    fn panels(&self, groups: &[Group]) -> (Vec<Supernode>, Vec<u32>) {
         let n = self.order.len();
         let mut of_column = vec![0; n];
         for (g, group) in groups.iter().enumerate() {
             of_column[group.first..group.end()].fill(g);
         }
-        let mut panels: Vec<Panel> = Vec::with_capacity(groups.len());
+        let mut panels: Vec<Supernode> = Vec::with_capacity(groups.len());
         let mut rows: Vec<u32> = Vec::new();
         let mut children: Vec<Vec<usize>> = vec![Vec::new(); groups.len()];
         let mut seen = vec![usize::MAX; n];
@@ -216,7 +216,7 @@ impl Ordered<'_> {
             if let Some(first) = rows.get(begin) {
                 children[of_column[*first as usize]].push(g);
             }
-            panels.push(Panel {
+            panels.push(Supernode {
                 first: group.first,
                 width: group.width,
                 rows: begin..rows.len(),

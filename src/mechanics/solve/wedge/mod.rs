@@ -22,18 +22,18 @@ pub use tree::RuledOut;
 
 /// How a balance comes about.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Reach {
+pub enum SelfStressCheck {
     /// The loads build it up themselves.
     FromRest,
     /// Only a self-stress from elsewhere makes it.
-    OnlyWedged(Squeeze),
+    OnlyWedged(SelfStress),
     /// Neither was shown.
-    Undecided(Doubt),
+    Undecided(WedgingUndecided),
 }
 
 /// The self-stress without which a program does not stand.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Squeeze {
+pub struct SelfStress {
     /// Three velocities per block, the largest 1: how the springs give way.
     pub motion: Vec<f64>,
     /// The contacts that this motion opens or slides.
@@ -48,7 +48,7 @@ pub struct Squeeze {
     pub cases: Vec<RuledOut>,
 }
 
-impl Squeeze {
+impl SelfStress {
     /// The blocks that move along the motion.
     pub fn moving(&self) -> impl Iterator<Item = usize> {
         let blocks = self.motion.chunks(3).enumerate();
@@ -56,13 +56,13 @@ impl Squeeze {
     }
 }
 
-impl std::fmt::Display for Doubt {
+impl std::fmt::Display for WedgingUndecided {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
-            Doubt::NotFound => {
+            WedgingUndecided::NotFound => {
                 "springs were not found to come to rest, nor was it shown that none do"
             }
-            Doubt::Stiffness => {
+            WedgingUndecided::Stiffness => {
                 "springs come to rest or not depending on how stiff faces are along themselves"
             }
         })
@@ -71,7 +71,7 @@ impl std::fmt::Display for Doubt {
 
 /// Why an answer was not found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Doubt {
+pub enum WedgingUndecided {
     /// Neither a rest nor a proof that there is none.
     NotFound,
     /// It depends on how stiff faces are along themselves.
@@ -91,9 +91,9 @@ const STILL: f64 = 1e-6;
 /// (force x, force y, torque/L) per grip; within their limits they may give anything else.
 ///
 /// Without friction the answer is known: among the forces that balance, springs come to those of least Σ N².
-pub fn reach(program: &Program, given: &[[f64; 3]]) -> Reach {
+pub fn reach(program: &Program, given: &[[f64; 3]]) -> SelfStressCheck {
     if program.contacts.iter().all(|c| c.friction == 0.0) {
-        return Reach::FromRest;
+        return SelfStressCheck::FromRest;
     }
     let given: Vec<f64> = columns(program)
         .iter()
@@ -107,32 +107,32 @@ pub fn reach(program: &Program, given: &[[f64; 3]]) -> Reach {
         })
         .collect();
     let motion = match Springs::around(program, &given, 1.0).settled() {
-        Ok(_) => return Reach::FromRest,
+        Ok(_) => return SelfStressCheck::FromRest,
         Err(motion) => motion,
     };
     let springs = Springs::new(program, 1.0);
     if !given.is_empty() && springs.settled().is_ok() {
-        return Reach::FromRest;
+        return SelfStressCheck::FromRest;
     }
     if program.blocks <= MOST_BY_TURNS && springs.settled_by_turns().is_some() {
-        return Reach::FromRest;
+        return SelfStressCheck::FromRest;
     }
     let found = search(program);
     if found == Search::Rests {
-        return Reach::FromRest;
+        return SelfStressCheck::FromRest;
     }
     let other = |along: &f64| Springs::around(program, &given, *along).settled().is_ok();
     if ALONG.iter().any(other) {
-        return Reach::Undecided(Doubt::Stiffness);
+        return SelfStressCheck::Undecided(WedgingUndecided::Stiffness);
     }
     match found {
-        Search::NoRest(cases) => Reach::OnlyWedged(squeeze(program, motion, cases)),
-        _ => Reach::Undecided(Doubt::NotFound),
+        Search::NoRest(cases) => SelfStressCheck::OnlyWedged(squeeze(program, motion, cases)),
+        _ => SelfStressCheck::Undecided(WedgingUndecided::NotFound),
     }
 }
 
 /// What a program without rest lacks, shown on a motion.
-fn squeeze(program: &Program, motion: Vec<f64>, cases: Vec<RuledOut>) -> Squeeze {
+fn squeeze(program: &Program, motion: Vec<f64>, cases: Vec<RuledOut>) -> SelfStress {
     let springs = Springs::new(program, 1.0);
     let mut moved = vec![false; program.contacts.len()];
     let mut presses_nothing = true;
@@ -157,7 +157,7 @@ fn squeeze(program: &Program, motion: Vec<f64>, cases: Vec<RuledOut>) -> Squeeze
         &mut effort,
         cost,
     );
-    Squeeze {
+    SelfStress {
         motion,
         contacts,
         presses_nothing,

@@ -1,6 +1,6 @@
 //! Contact: two normal forces per edge interface, pressing only. Source: [Vallat23](crate::doc::references) §2.0.1–2.
 
-use super::{Call, EffectName, Situation, counted};
+use super::{Applicability, EffectName, FrameContext, counted};
 use crate::assembly::{Assembly, AssemblyContact};
 use crate::interface::{ContactKind, Interface};
 use crate::scene::BodyId;
@@ -9,21 +9,21 @@ use crate::scene::BodyId;
 pub const NAME: EffectName = EffectName::Contact;
 
 /// Called for when two bodies touch.
-pub fn called_for(situation: &Situation) -> Call {
+pub fn called_for(situation: &FrameContext) -> Applicability {
     match situation.interfaces.len() {
-        0 => Call::not("no two bodies touch"),
-        n => Call::For(counted(n, "interface")),
+        0 => Applicability::not("no two bodies touch"),
+        n => Applicability::For(counted(n, "interface")),
     }
 }
 
 /// Adds a smooth contact for every edge interface.
-pub fn contribute(situation: &Situation, assembly: &mut Assembly) {
+pub fn contribute(situation: &FrameContext, assembly: &mut Assembly) {
     add(situation, assembly, ContactKind::Edge, |_| 0.0);
 }
 
 /// Adds a contact for every interface of a kind, with the friction given for each.
 pub(super) fn add(
-    situation: &Situation,
+    situation: &FrameContext,
     assembly: &mut Assembly,
     kind: ContactKind,
     friction: impl Fn(&Interface) -> f64,

@@ -62,7 +62,7 @@ impl EffectReport {
 
 /// What an effect looks at to decide.
 #[derive(Clone, Copy, Debug)]
-pub struct Situation<'a> {
+pub struct FrameContext<'a> {
     /// The scene.
     pub scene: &'a Scene,
     /// The frame.
@@ -73,24 +73,24 @@ pub struct Situation<'a> {
 
 /// Whether a frame calls for an effect.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Call {
+pub enum Applicability {
     /// It does, for the reason given.
     For(String),
     /// It does not, for the reason given; so many unknowns are saved by leaving it out.
     Not(String, usize),
 }
 
-impl Call {
-    fn not(why: &str) -> Call {
-        Call::Not(why.to_owned(), 0)
+impl Applicability {
+    fn not(why: &str) -> Applicability {
+        Applicability::Not(why.to_owned(), 0)
     }
 }
 
 /// An effect that contributes to the assembly.
 struct Effect {
     name: EffectName,
-    called_for: fn(&Situation) -> Call,
-    contribute: fn(&Situation, &mut Assembly),
+    called_for: fn(&FrameContext) -> Applicability,
+    contribute: fn(&FrameContext, &mut Assembly),
 }
 
 /// In the order in which they are reported and contribute: friction and kernel change the contacts that are there.
@@ -140,16 +140,16 @@ const EFFECTS: [Effect; 8] = [
 /// Puts a frame's assembly together from the effects it calls for, and reports on each of them.
 ///
 /// The reports of simulated effects hold 0 unknowns until they are counted from the programs posed.
-pub fn assemble(situation: &Situation) -> (Assembly, Vec<EffectReport>) {
+pub fn assemble(situation: &FrameContext) -> (Assembly, Vec<EffectReport>) {
     let mut assembly = Assembly::bare(situation.scene, situation.frame, situation.interfaces);
     let mut reports = Vec::with_capacity(EFFECTS.len());
     for effect in &EFFECTS {
         reports.push(match (effect.called_for)(situation) {
-            Call::For(why) => {
+            Applicability::For(why) => {
                 (effect.contribute)(situation, &mut assembly);
                 EffectReport::simulated(effect.name, why, 0)
             }
-            Call::Not(why, saved) => EffectReport::skipped(effect.name, why, saved),
+            Applicability::Not(why, saved) => EffectReport::skipped(effect.name, why, saved),
         });
     }
     assembly.contacts.sort_by_key(|contact| contact.interface);

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::held::{FLAT, propped};
 use super::{ContactKind, Interface, Interfaces, Near, bodies, ordered};
-use crate::geometry::{Around, Edge, Nearby, Point, Tolerance, Vector, cross, quarter_turn};
+use crate::geometry::{Aabb, Edge, BoxIndex, Point, Tolerance, Vector, cross, quarter_turn};
 use crate::scene::{BodyId, Scene, size};
 
 /// Edges farther apart than this many gaps are not worth a notice.
@@ -30,20 +30,20 @@ struct Side {
 impl Side {
     /// The box around it, and the directions from which one that faces it differs by less than either of them may be off: of
     /// the stones of an arch, thin and leaning, boxes overlap by the hundred, and every joint has a direction of its own.
-    fn around(&self) -> Around<3> {
+    fn around(&self) -> Aabb<3> {
         let along = self.edge.vector();
         let angle = (2.0 * self.near / along.norm()).clamp(PARALLEL, Tolerance::ANGLE);
         // A sine is less than its angle by less than a thousandth, and directions differ by less than angles.
         let angle = 1.001 * angle;
         let (flat, direction) = (self.edge.around(), direction(along));
-        Around {
+        Aabb {
             min: [flat.min[0], flat.min[1], direction - angle],
             max: [flat.max[0], flat.max[1], direction + angle],
         }
     }
 
     /// Boxes around everything that faces it, within its reach. Next to where directions begin and end there are two.
-    fn facing(&self) -> impl Iterator<Item = Around<3>> {
+    fn facing(&self) -> impl Iterator<Item = Aabb<3>> {
         let mut around = self.around();
         for d in 0..2 {
             around.min[d] -= self.near;
@@ -57,7 +57,7 @@ impl Side {
         });
         let margin = 2.0 * Tolerance::ANGLE;
         let is_one =
-            move |around: &Around<3>| around.max[2] >= -margin && around.min[2] <= TURN + margin;
+            move |around: &Aabb<3>| around.max[2] >= -margin && around.min[2] <= TURN + margin;
         turned.into_iter().filter(is_one)
     }
 }
@@ -109,7 +109,7 @@ pub(super) fn find(scene: &Scene) -> Interfaces {
             near,
         }));
     }
-    let nearby = Nearby::of(sides, Side::around);
+    let nearby = BoxIndex::of(sides, Side::around);
     // With the bodies and the numbers of the two edges, whose order is that of the interfaces.
     let mut met: Vec<([BodyId; 2], [usize; 2], Meeting)> =
         Vec::with_capacity(2 * scene.blocks.len());

@@ -4,7 +4,7 @@
 //! their neighbours.
 
 use super::ink::parted;
-use super::{Ink, Placed, ROOM, Wish, around, corners, nearest, within};
+use super::{Ink, Placed, ROOM, LabelRequest, around, corners, nearest, within};
 use crate::drawing::{PagePoint, PageRect};
 
 /// Rounds over all pairs.
@@ -14,7 +14,7 @@ const ROUNDS: usize = 4;
 pub(super) fn untangle(
     bare: &Ink,
     page: PageRect,
-    wishes: &[Wish],
+    wishes: &[LabelRequest],
     placed: &mut [Option<Placed>],
     disliked: &dyn Fn(usize, PageRect) -> bool,
 ) -> bool {
@@ -105,7 +105,7 @@ mod tests {
             width: 200.0,
             height: 100.0,
         };
-        let wish = |x: f64| Wish {
+        let wish = |x: f64| LabelRequest {
             anchor: PagePoint::new(x, 20.0),
             from: 4.0,
             size: (20.0, 10.0),
@@ -114,7 +114,7 @@ mod tests {
             roams: Some(f64::INFINITY),
         };
         let wishes = [wish(50.0), wish(100.0)];
-        let at = |x: f64, wish: &Wish| {
+        let at = |x: f64, wish: &LabelRequest| {
             let rect = around(PagePoint::new(x, 80.0), wish.size);
             Some(Placed {
                 disliked: false,

@@ -25,7 +25,7 @@ use super::option::Options;
 use crate::analysis::{Analysis, Contact};
 use crate::drawing::arrow::{straight, turning};
 use crate::drawing::hatch::{hatch, lines};
-use crate::drawing::placement::{Ink, Wish, place, place_where};
+use crate::drawing::placement::{Ink, LabelRequest, place, place_where};
 use crate::drawing::symbol::{Accent, Symbol};
 use crate::drawing::{
     Anchor, Camera, Drawing, Face, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Text,
@@ -71,7 +71,7 @@ const HATCH: f64 = 7.0;
 /// let drawing = figure::freebody(&analysis, 0, BlockId(0), &figure::Options::default()).expect("block a stands there");
 /// let svg = output::svg::write(&drawing);
 /// assert!(svg.contains("Normal force F_s1 on block a: 2.85 N at 108°"));
-/// # Ok::<(), drystone::scene::Problems>(())
+/// # Ok::<(), drystone::scene::SceneError>(())
 /// ```
 pub fn freebody(
     analysis: &Analysis,
@@ -188,7 +188,7 @@ impl<'a> Sheet<'a> {
         let mut ink = Ink::default();
         items.push(self.neighbours(&mut ink).into());
         items.push(self.body(&mut ink).into());
-        let mut wishes: Vec<(Symbol, Wish)> = Vec::new();
+        let mut wishes: Vec<(Symbol, LabelRequest)> = Vec::new();
         if self.guides() {
             items.push(self.guide_lines(&mut ink, &mut wishes).into());
         }
@@ -260,7 +260,7 @@ impl<'a> Sheet<'a> {
     }
 
     /// Dashed lines from the application points and the centroid to the edges of the picture, and names for their ends.
-    fn guide_lines(&self, ink: &mut Ink, wishes: &mut Vec<(Symbol, Wish)>) -> Group {
+    fn guide_lines(&self, ink: &mut Ink, wishes: &mut Vec<(Symbol, LabelRequest)>) -> Group {
         let theme = &self.options.theme;
         let mut group = Group::of_class("guides");
         let mut described = vec![(
@@ -294,7 +294,7 @@ impl<'a> Sheet<'a> {
                 };
                 wishes.push((
                     symbol,
-                    Wish {
+                    LabelRequest {
                         anchor: end,
                         from: 4.0,
                         size: (wide, high),
@@ -315,7 +315,7 @@ impl<'a> Sheet<'a> {
         arrow.turn.map_or(length, |sweep| length * sweep.abs()) >= LEAST_SEEN
     }
 
-    fn drawn(&self, ink: &mut Ink, wishes: &mut Vec<(Symbol, Wish)>) -> Group {
+    fn drawn(&self, ink: &mut Ink, wishes: &mut Vec<(Symbol, LabelRequest)>) -> Group {
         let theme = &self.options.theme;
         let mut group = Group::of_class("forces");
         for arrow in self.arrows.iter().filter(|a| Sheet::seen(a)) {
@@ -347,7 +347,7 @@ impl<'a> Sheet<'a> {
             let (wide, high) = symbol.size(NAME);
             wishes.push((
                 symbol.clone(),
-                Wish {
+                LabelRequest {
                     anchor: from.moved(0.7 * arrow.along.0, 0.7 * arrow.along.1),
                     from: 5.0,
                     size: (wide, high),
@@ -392,7 +392,7 @@ impl<'a> Sheet<'a> {
     }
 
     /// The names of forces and coordinates, and of the bodies; and how many of them have no room.
-    fn names(&self, ink: &mut Ink, wishes: &[(Symbol, Wish)]) -> (Group, usize) {
+    fn names(&self, ink: &mut Ink, wishes: &[(Symbol, LabelRequest)]) -> (Group, usize) {
         let theme = &self.options.theme;
         let page = PageRect {
             at: PagePoint::new(4.0, self.picture.at.y - 6.0),
@@ -404,7 +404,7 @@ impl<'a> Sheet<'a> {
         let mut nameless = beyond.len();
         ink.index();
         let mut group = Group::of_class("labels");
-        let wanted: Vec<Wish> = wishes.iter().map(|w| w.1.clone()).collect();
+        let wanted: Vec<LabelRequest> = wishes.iter().map(|w| w.1.clone()).collect();
         for ((symbol, _), placed) in wishes.iter().zip(place(ink, page, &wanted)) {
             let Some(placed) = placed else {
                 nameless += 1;
@@ -434,7 +434,7 @@ impl<'a> Sheet<'a> {
             // The block's own name may stand beside it, with a line to it; the others' only where they are.
             let own = body == BodyId::Block(self.block);
             let middle = scene.body(body).polygon.centroid();
-            let wish = Wish {
+            let wish = LabelRequest {
                 anchor: self.camera.place(middle),
                 from: 4.0,
                 size,

@@ -5,7 +5,7 @@ use crate::analysis::Accuracy;
 use crate::drawing::{
     Anchor, Colour, Drawing, Face, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme,
 };
-use crate::output::svg::{self, Words, WordsError};
+use crate::output::svg::{self, Words, OutlineError};
 use crate::study::{DEFAULT_TOLERANCE, Method, Summary};
 use crate::wording::number::counted;
 
@@ -26,8 +26,8 @@ const LEAST: f64 = 1e-16;
 /// The summary of a study of so many frames as an SVG, its words as outlines.
 ///
 /// # Errors
-/// [`WordsError`] where its words cannot be laid out.
-pub fn picture(lines: &[Summary], frames: usize) -> Result<String, WordsError> {
+/// [`OutlineError`] where its words cannot be laid out.
+pub fn picture(lines: &[Summary], frames: usize) -> Result<String, OutlineError> {
     let options = svg::Options {
         words: Words::Outlines,
         ..svg::Options::default()

@@ -1,4 +1,4 @@
-//! [`Bullet`]: a margin as a bar: where it stands, and where it is now.
+//! [`MarginBar`]: a margin as a bar: where it stands, and where it is now.
 
 use crate::analysis::{FrameAnalysis, Margin, Margins, Sides};
 use crate::scene::Scene;
@@ -8,7 +8,7 @@ use crate::wording::number::digits;
 
 /// A margin: a stretch within which the structure stands, and the place where it is.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Bullet {
+pub struct MarginBar {
     /// What varies, with its unit.
     pub name: String,
     /// Up to where it stands, in words.
@@ -26,7 +26,7 @@ pub struct Bullet {
 }
 
 /// The margins of a frame as bars, those that were asked for.
-pub fn of(scene: &Scene, found: &FrameAnalysis) -> Vec<Bullet> {
+pub fn of(scene: &Scene, found: &FrameAnalysis) -> Vec<MarginBar> {
     let Some(margins) = &found.margins else {
         return Vec::new();
     };
@@ -65,25 +65,25 @@ fn known(margin: &Margin) -> Option<f64> {
 }
 
 /// The bullet with the least reserve.
-pub fn closest(bullets: &[Bullet]) -> Option<&Bullet> {
+pub fn closest(bullets: &[MarginBar]) -> Option<&MarginBar> {
     bullets
         .iter()
         .min_by(|a, b| a.reserve.total_cmp(&b.reserve))
 }
 
-fn friction(found: &FrameAnalysis, margins: &Margins) -> Option<Bullet> {
+fn friction(found: &FrameAnalysis, margins: &Margins) -> Option<MarginBar> {
     let all = found.contacts.iter().map(|c| c.interface.friction);
     let least = all.fold(f64::INFINITY, f64::min);
     let have = if least.is_finite() { least } else { 0.0 };
     let needed = needed("friction coefficient, least", "", &margins.friction, have)?;
-    Some(Bullet {
+    Some(MarginBar {
         name: "friction coefficient".into(),
         ..needed
     })
 }
 
 /// What must be at least so much, and is so much.
-fn needed(name: &str, unit: &str, margin: &Margin, have: f64) -> Option<Bullet> {
+fn needed(name: &str, unit: &str, margin: &Margin, have: f64) -> Option<MarginBar> {
     if *margin == Margin::NotAsked {
         return None;
     }
@@ -110,7 +110,7 @@ fn needed(name: &str, unit: &str, margin: &Margin, have: f64) -> Option<Bullet> 
         None => 0.0,
     };
     let shown = value(margin, &format!("{gap}{unit}"), NONE);
-    Some(Bullet {
+    Some(MarginBar {
         name: name.into(),
         words: match margin {
             Margin::None => format!("falls at any; {has}"),
@@ -128,7 +128,7 @@ fn needed(name: &str, unit: &str, margin: &Margin, have: f64) -> Option<Bullet> 
 }
 
 /// What may grow to either side, from nothing.
-fn sided(name: &str, unit: &str, sides: &Sides, all: f64, none: &str) -> Option<Bullet> {
+fn sided(name: &str, unit: &str, sides: &Sides, all: f64, none: &str) -> Option<MarginBar> {
     if sides.left == Margin::NotAsked {
         return None;
     }
@@ -150,7 +150,7 @@ fn sided(name: &str, unit: &str, sides: &Sides, all: f64, none: &str) -> Option<
         (right, "right")
     };
     let [to_left, to_right] = [left, right].map(|m| value(m, unit, none));
-    Some(Bullet {
+    Some(MarginBar {
         name: if unit.is_empty() {
             name.into()
         } else {
@@ -170,7 +170,7 @@ fn sided(name: &str, unit: &str, sides: &Sides, all: f64, none: &str) -> Option<
 }
 
 /// What may grow from where it is.
-fn upwards(name: &str, margin: &Margin, now: f64, end: Option<f64>) -> Option<Bullet> {
+fn upwards(name: &str, margin: &Margin, now: f64, end: Option<f64>) -> Option<MarginBar> {
     if *margin == Margin::NotAsked {
         return None;
     }
@@ -183,7 +183,7 @@ fn upwards(name: &str, margin: &Margin, now: f64, end: Option<f64>) -> Option<Bu
         (None, _) => 0.0,
     };
     let shown = value(margin, "", NONE);
-    Some(Bullet {
+    Some(MarginBar {
         name: name.into(),
         words: match margin {
             Margin::None => format!("falls at any; has {}", digits(now)),

@@ -13,7 +13,7 @@ use super::bullet;
 use super::row::file_name;
 use super::step::{self, Step};
 use super::touch::onto_scene;
-use super::{Entry, Figure, File, Grid, Row, Wanted};
+use super::{Entry, Figure, File, Grid, Row, ReportOptions};
 use crate::analysis::{Analysis, Contact, FrameAnalysis, Verdict};
 use crate::drawing::{Camera, Colour, Drawing, Group, Outline, PagePoint, Path, Stroke};
 use crate::figure::{self, Kind};
@@ -41,7 +41,7 @@ pub struct Side<'s> {
 }
 
 /// What a report tells of two scenes beside each other.
-pub fn compared(sides: [Side<'_>; 2], wanted: &Wanted) -> Entry {
+pub fn compared(sides: [Side<'_>; 2], wanted: &ReportOptions) -> Entry {
     let [was, is] = sides;
     let options = step::options(wanted);
     let mut figures = sides.map(|side| {
@@ -154,7 +154,7 @@ fn plate(side: Side<'_>, found: &FrameAnalysis, drawing: Drawing) -> Figure {
 }
 
 /// A step that both have.
-fn both(sides: [Side<'_>; 2], number: usize, drawings: [Drawing; 2], wanted: &Wanted) -> Step {
+fn both(sides: [Side<'_>; 2], number: usize, drawings: [Drawing; 2], wanted: &ReportOptions) -> Step {
     let [was, is] = sides;
     let [then, now] = sides.map(|side| &side.analysis.frames[number]);
     let shape = Shapes::of(sides, number);

@@ -13,19 +13,19 @@ mod row;
 mod step;
 mod touch;
 
-pub use bullet::Bullet;
+pub use bullet::MarginBar;
 pub use comparison::{Side, compared};
 pub use grid::{Grid, Line};
 pub use row::{Row, Thumbnail};
 pub use step::Step;
-pub use touch::{Touch, touched};
+pub use touch::{HoverTarget, touched};
 
 use std::borrow::Cow;
 
 use crate::analysis::Analysis;
 use crate::chart::{self, Course};
 use crate::drawing::{Drawing, Theme};
-use crate::output::svg::WordsError;
+use crate::output::svg::OutlineError;
 use crate::report::accuracy;
 use crate::result::{Layout, Timing, accuracy_json, to_json_of};
 use crate::study::{Study, summary};
@@ -34,7 +34,7 @@ use crate::wording::number::{letter, prefixed};
 
 /// What a report is asked.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Wanted {
+pub struct ReportOptions {
     /// Colours of the figures.
     pub theme: Theme,
     /// The theme's name where one was chosen, for the command that makes a figure again.
@@ -43,9 +43,9 @@ pub struct Wanted {
     pub timing: Timing,
 }
 
-impl Default for Wanted {
-    fn default() -> Wanted {
-        Wanted {
+impl Default for ReportOptions {
+    fn default() -> ReportOptions {
+        ReportOptions {
             theme: Theme::default(),
             theme_name: None,
             timing: Timing::LeftOut,
@@ -114,7 +114,7 @@ impl Chart {
 
 impl Entry {
     /// What a report tells of an analysis.
-    pub fn of(file: File<'_>, analysis: &Analysis, wanted: &Wanted) -> Entry {
+    pub fn of(file: File<'_>, analysis: &Analysis, wanted: &ReportOptions) -> Entry {
         let steps = step::all(analysis, wanted);
         Entry {
             row: Row::of(file.name, analysis),
@@ -138,7 +138,7 @@ impl Entry {
     ///
     /// # Errors
     /// Where the words of the picture cannot be laid out.
-    pub fn measured(&mut self, study: &Study) -> Result<(), WordsError> {
+    pub fn measured(&mut self, study: &Study) -> Result<(), OutlineError> {
         self.study = Some(Chart {
             caption: format!(
                 "What accuracy costs on this scene. {}",
@@ -163,7 +163,7 @@ fn result(name: &str, analysis: &Analysis, timing: Timing) -> String {
 }
 
 /// The commands that make a scene's figures again.
-fn commands(name: &str, analysis: &Analysis, wanted: &Wanted) -> Vec<(String, String)> {
+fn commands(name: &str, analysis: &Analysis, wanted: &ReportOptions) -> Vec<(String, String)> {
     let theme = wanted
         .theme_name
         .as_ref()

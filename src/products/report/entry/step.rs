@@ -1,9 +1,9 @@
 //! [`Step`]: what a report tells of one frame.
 
-use super::bullet::{self, Bullet};
+use super::bullet::{self, MarginBar};
 use super::chosen::chosen;
 use super::cost::cost;
-use super::{Chart, Figure, Grid, Touch, Wanted};
+use super::{Chart, Figure, Grid, HoverTarget, ReportOptions};
 use crate::analysis::{Analysis, Contact, EffectName, Failure, FrameAnalysis, Verdict};
 use crate::chart::{self, Bars};
 use crate::figure::{self, Kind, Options};
@@ -37,9 +37,9 @@ pub struct Step {
     /// The figures.
     pub plates: Vec<Figure>,
     /// What of the first figure belongs to which line of the tables.
-    pub touches: Vec<Touch>,
+    pub touches: Vec<HoverTarget>,
     /// The margins, where they were asked for.
-    pub bullets: Vec<Bullet>,
+    pub bullets: Vec<MarginBar>,
     /// Charts of its forces.
     pub charts: Vec<Chart>,
     /// Its tables, those first that say most; empty ones are left out.
@@ -54,7 +54,7 @@ pub(super) fn has_mechanism(found: &FrameAnalysis) -> bool {
 }
 
 /// How figures of a report are drawn: what stands beside them on the page is not said in them.
-pub(super) fn options(wanted: &Wanted) -> Options {
+pub(super) fn options(wanted: &ReportOptions) -> Options {
     Options {
         theme: wanted.theme.clone(),
         titles: false,
@@ -67,7 +67,7 @@ pub(super) fn options(wanted: &Wanted) -> Options {
 }
 
 /// The steps of an analysis.
-pub(super) fn all(analysis: &Analysis, wanted: &Wanted) -> Vec<Step> {
+pub(super) fn all(analysis: &Analysis, wanted: &ReportOptions) -> Vec<Step> {
     let options = options(wanted);
     let chosen = chosen(analysis);
     let drawn = |frame: &usize| chosen[*frame];
@@ -114,7 +114,7 @@ fn of(
     scene: &Scene,
     number: usize,
     found: &FrameAnalysis,
-    (wanted, drawn): (&Wanted, bool),
+    (wanted, drawn): (&ReportOptions, bool),
 ) -> Step {
     let several = scene.frames.len() > 1;
     let title = line(&scene.frames[number].title);
@@ -365,7 +365,7 @@ fn charts(found: &FrameAnalysis) -> Vec<Chart> {
     drawn.collect()
 }
 
-fn touches(scene: &Scene, found: &FrameAnalysis) -> Vec<Touch> {
+fn touches(scene: &Scene, found: &FrameAnalysis) -> Vec<HoverTarget> {
     if found.contacts.len() > MOST_TOUCHES {
         return Vec::new();
     }
@@ -391,7 +391,7 @@ fn touches(scene: &Scene, found: &FrameAnalysis) -> Vec<Touch> {
             ));
         }
         let between = failure::pair(scene, contact.interface.bodies);
-        touches.push(Touch {
+        touches.push(HoverTarget {
             mark: format!("i{number}"),
             words: line(&format!("Interface between {between}: {}", listed(&parts))),
             ends: contact.interface.ends,
@@ -424,8 +424,8 @@ fn touches(scene: &Scene, found: &FrameAnalysis) -> Vec<Touch> {
     touches
 }
 
-fn touch(mark: String, words: &str, at: Point) -> Touch {
-    Touch {
+fn touch(mark: String, words: &str, at: Point) -> HoverTarget {
+    HoverTarget {
         mark,
         words: line(words),
         ends: [at, at],

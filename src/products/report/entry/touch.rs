@@ -1,4 +1,4 @@
-//! [`Touch`]: what of a figure belongs to a line of a table, for a mouse that hovers over either.
+//! [`HoverTarget`]: what of a figure belongs to a line of a table, for a mouse that hovers over either.
 
 use crate::drawing::{Camera, Colour, Drawing, Group, Item, Outline, Path, Stroke};
 use crate::geometry::Point;
@@ -10,7 +10,7 @@ const RADIUS: f64 = 11.0;
 
 /// A part of a scene that a line of a table tells of.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Touch {
+pub struct HoverTarget {
     /// Its name, as of the line.
     pub mark: String,
     /// Its numbers in words.
@@ -21,7 +21,7 @@ pub struct Touch {
 
 /// A drawing with an invisible mark over each of some parts of its scene, on top of everything. Nothing is added to a
 /// drawing that shows no scene.
-pub fn touched(drawing: &Drawing, touches: &[Touch]) -> Drawing {
+pub fn touched(drawing: &Drawing, touches: &[HoverTarget]) -> Drawing {
     let mut drawing = drawing.clone();
     onto_scene(&mut drawing, &|camera| {
         let marks = touches.iter().map(|touch| mark(touch, camera));
@@ -56,7 +56,7 @@ fn laid(group: &mut Group, marks: &dyn Fn(&Camera) -> Group) -> bool {
     })
 }
 
-fn mark(touch: &Touch, camera: &Camera) -> Group {
+fn mark(touch: &HoverTarget, camera: &Camera) -> Group {
     let [a, b] = touch.ends.map(|p| camera.place(p));
     let colour = Colour::hex(0x4479b4);
     let path = if a == b {

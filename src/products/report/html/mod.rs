@@ -12,7 +12,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 pub(super) use scene::section;
 
 use super::entry::{Row, Thumbnail};
-use super::page::{Made, Report};
+use super::page::{OutputFile, Report};
 use crate::analysis::Verdict;
 use crate::text;
 use crate::wording::verdict::plain;
@@ -36,7 +36,7 @@ pub(super) fn whole(report: &Report, summary: &str, bodies: &[&str]) -> String {
 }
 
 /// An index and a page for each scene.
-pub(super) fn split(report: &Report, summary: &str) -> Vec<Made> {
+pub(super) fn split(report: &Report, summary: &str) -> Vec<OutputFile> {
     let names: Vec<String> = report
         .pieces
         .iter()

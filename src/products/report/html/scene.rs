@@ -5,7 +5,7 @@ use maud::{Markup, PreEscaped, html};
 use super::{path, thumbnail, verdict, verdicts};
 use crate::chart;
 use crate::output::svg::{self, Options};
-use crate::report::entry::{Bullet, Chart, Entry, Figure, Grid, Step, touched};
+use crate::report::entry::{MarginBar, Chart, Entry, Figure, Grid, Step, touched};
 
 /// Tables of more lines are folded.
 const LONG: usize = 24;
@@ -91,7 +91,7 @@ fn step(step: &Step, (number, place): (usize, usize), several: bool) -> Markup {
     }
 }
 
-fn plate(plate: &Figure, mark: &str, touches: &[crate::report::entry::Touch]) -> Markup {
+fn plate(plate: &Figure, mark: &str, touches: &[crate::report::entry::HoverTarget]) -> Markup {
     let drawing = touched(&plate.drawing, touches);
     let options = Options {
         mark: Some(mark.trim_end_matches('-').to_owned()),
@@ -144,7 +144,7 @@ fn grid(of: &Grid) -> Markup {
     }
 }
 
-fn bullets(bullets: &[Bullet]) -> Markup {
+fn bullets(bullets: &[MarginBar]) -> Markup {
     html! {
         div.wide tabindex="0" role="region" aria-label="Margins" {
             table.margins {
@@ -164,7 +164,7 @@ fn bullets(bullets: &[Bullet]) -> Markup {
     }
 }
 
-fn bar(bullet: &Bullet) -> Markup {
+fn bar(bullet: &MarginBar) -> Markup {
     let (width, height) = BAR;
     let (low, high) = bullet.scale;
     let at = |value: f64| {

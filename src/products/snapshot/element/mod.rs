@@ -10,7 +10,7 @@ mod tree;
 
 use shape::Movement;
 use tree::Element;
-pub use tree::NoSvg;
+pub use tree::SvgParseError;
 
 /// So far may a place be from the one expected, pixels.
 const NEAR: f64 = 0.025;
@@ -38,9 +38,9 @@ struct Event {
 ///     <path d="M0 0h9v5z" fill="{colour}"/></g></svg>"##);
 /// let found = changes(&page("#ff0000"), &page("#0000ff"))?;
 /// assert_eq!(found, ["path in block \"Block a\": fill #ff0000 → #0000ff"]);
-/// # Ok::<(), drystone::snapshot::element::NoSvg>(())
+/// # Ok::<(), drystone::snapshot::element::SvgParseError>(())
 /// ```
-pub fn changes(expected: &str, found: &str) -> Result<Vec<String>, NoSvg> {
+pub fn changes(expected: &str, found: &str) -> Result<Vec<String>, SvgParseError> {
     if expected == found {
         return Ok(Vec::new());
     }

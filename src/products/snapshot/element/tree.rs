@@ -7,7 +7,7 @@ const DEEPEST: usize = 200;
 
 /// A text that is no SVG.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum NoSvg {
+pub enum SvgParseError {
     /// No bytes at all.
     #[error("it is empty (0 bytes)")]
     Empty,
@@ -102,28 +102,28 @@ impl Element {
     }
 }
 
-pub(super) fn read(text: &str) -> Result<Element, NoSvg> {
+pub(super) fn read(text: &str) -> Result<Element, SvgParseError> {
     if text.trim().is_empty() {
-        return Err(NoSvg::Empty);
+        return Err(SvgParseError::Empty);
     }
     if text.starts_with("version https://git-lfs") {
-        return Err(NoSvg::Pointer);
+        return Err(SvgParseError::Pointer);
     }
     if let Some(line) = text.lines().position(crate::text::is_conflict_mark) {
-        return Err(NoSvg::Conflict(line + 1));
+        return Err(SvgParseError::Conflict(line + 1));
     }
-    let document = Document::parse(text).map_err(|e| NoSvg::Xml(e.to_string()))?;
+    let document = Document::parse(text).map_err(|e| SvgParseError::Xml(e.to_string()))?;
     let root = document.root_element();
     if root.tag_name().name() != "svg" {
         let name = crate::text::heading(root.tag_name().name(), 40);
-        return Err(NoSvg::Xml(format!("its outermost element is {name}")));
+        return Err(SvgParseError::Xml(format!("its outermost element is {name}")));
     }
     element(root, 0)
 }
 
-fn element(node: Node<'_, '_>, depth: usize) -> Result<Element, NoSvg> {
+fn element(node: Node<'_, '_>, depth: usize) -> Result<Element, SvgParseError> {
     if depth > DEEPEST {
-        return Err(NoSvg::Xml(format!(
+        return Err(SvgParseError::Xml(format!(
             "its elements lie more than {DEEPEST} deep"
         )));
     }

@@ -23,7 +23,7 @@ mod round;
 mod write;
 
 pub use compare::Change;
-pub use read::NoFacts;
+pub use read::FactsError;
 pub use write::DIGITS;
 
 use crate::analysis::Analysis;
@@ -93,8 +93,8 @@ impl Facts {
     /// Facts from a text that was kept.
     ///
     /// # Errors
-    /// [`NoFacts`] with the line that is none.
-    pub fn read(text: &str) -> Result<Facts, NoFacts> {
+    /// [`FactsError`] with the line that is none.
+    pub fn read(text: &str) -> Result<Facts, FactsError> {
         read::facts(text)
     }
 

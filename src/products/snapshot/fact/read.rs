@@ -5,7 +5,7 @@ use super::{Fact, Facts, Section, Value};
 
 /// A text that holds no facts, and where it goes wrong.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum NoFacts {
+pub enum FactsError {
     /// No bytes at all.
     #[error("it is empty (0 bytes)")]
     Empty,
@@ -28,27 +28,27 @@ pub enum NoFacts {
     },
 }
 
-pub(super) fn facts(text: &str) -> Result<Facts, NoFacts> {
+pub(super) fn facts(text: &str) -> Result<Facts, FactsError> {
     let text = text.trim_start_matches('\u{feff}');
     if text.trim().is_empty() {
-        return Err(NoFacts::Empty);
+        return Err(FactsError::Empty);
     }
     if text.starts_with("version https://git-lfs") {
-        return Err(NoFacts::Pointer);
+        return Err(FactsError::Pointer);
     }
     if let Some(line) = text.lines().position(crate::text::is_conflict_mark) {
-        return Err(NoFacts::Conflict(line + 1));
+        return Err(FactsError::Conflict(line + 1));
     }
     let mut lines = text.lines().enumerate();
     if lines.next().map(|(_, line)| line.trim_end()) != Some(HEAD) {
-        return Err(NoFacts::Foreign);
+        return Err(FactsError::Foreign);
     }
     let mut sections: Vec<Section> = Vec::new();
     for (number, line) in lines {
         if line.trim().is_empty() {
             continue;
         }
-        let wrong = || NoFacts::Line {
+        let wrong = || FactsError::Line {
             line: number + 1,
             text: crate::text::heading(line, 60),
         };

@@ -1,7 +1,7 @@
 //! [`Picture`]: the pixels of a PNG, whoever wrote it.
 //!
 //! Every sort of PNG becomes 8 bits of red, green, blue and alpha, not premultiplied; 16 bits are rounded to 8. What is no
-//! whole PNG is refused with a sentence of its own ([`Unreadable`]). A picture written by [`Picture::encode`] may have had
+//! whole PNG is refused with a sentence of its own ([`PictureError`]). A picture written by [`Picture::encode`] may have had
 //! its rare colours rounded to make the file small; it then says by how much each, and the comparison counts that in.
 //!
 //! The second door of the png crate: `output::png` writes what we draw, this reads what anyone wrote.
@@ -49,7 +49,7 @@ impl Subject {
 
 /// Why a file is no picture to compare with.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum Unreadable {
+pub enum PictureError {
     /// No bytes at all.
     #[error("it is empty (0 bytes)")]
     Empty,
@@ -123,24 +123,24 @@ impl Picture {
     /// The picture in a PNG.
     ///
     /// # Errors
-    /// [`Unreadable`], whatever the bytes are.
+    /// [`PictureError`], whatever the bytes are.
     ///
     /// # Example
     /// ```
-    /// use drystone::snapshot::picture::{Picture, Unreadable};
-    /// assert_eq!(Picture::decode(b""), Err(Unreadable::Empty));
+    /// use drystone::snapshot::picture::{Picture, PictureError};
+    /// assert_eq!(Picture::decode(b""), Err(PictureError::Empty));
     /// let pointer = b"version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n";
-    /// assert_eq!(Picture::decode(pointer), Err(Unreadable::Pointer));
+    /// assert_eq!(Picture::decode(pointer), Err(PictureError::Pointer));
     /// ```
-    pub fn decode(bytes: &[u8]) -> Result<Picture, Unreadable> {
+    pub fn decode(bytes: &[u8]) -> Result<Picture, PictureError> {
         if let Some(foreign) = foreign(bytes) {
             return Err(foreign);
         }
         let wrong = |error: DecodingError| match error {
             DecodingError::IoError(error) if error.kind() == ErrorKind::UnexpectedEof => {
-                Unreadable::Truncated(bytes.len())
+                PictureError::Truncated(bytes.len())
             }
-            error => Unreadable::Damaged(error.to_string()),
+            error => PictureError::Damaged(error.to_string()),
         };
         let mut decoder = png::Decoder::new(Cursor::new(bytes));
         decoder.set_transformations(Transformations::EXPAND);
@@ -149,10 +149,10 @@ impl Picture {
         let (width, height) = (info.width, info.height);
         let most = width > MOST_ACROSS || height > MOST_ACROSS;
         if most || u64::from(width) * u64::from(height) > MOST_PIXELS {
-            return Err(Unreadable::Large { width, height });
+            return Err(PictureError::Large { width, height });
         }
         if let Some(animation) = info.animation_control.filter(|a| a.num_frames > 1) {
-            return Err(Unreadable::Animation(animation.num_frames));
+            return Err(PictureError::Animation(animation.num_frames));
         }
         let stated = |keyword: &str| {
             let mut texts = info.uncompressed_latin1_text.iter();
@@ -162,7 +162,7 @@ impl Picture {
         let colours = info.palette.as_deref().unwrap_or_default();
         let rounding = rounding.map(|text| palette::rounding(&text, colours));
         let size = reader.output_buffer_size();
-        let mut data = vec![0; size.ok_or(Unreadable::Large { width, height })?];
+        let mut data = vec![0; size.ok_or(PictureError::Large { width, height })?];
         let frame = reader.next_frame(&mut data).map_err(wrong)?;
         reader.finish().map_err(wrong)?;
         data.truncate(frame.buffer_size());
@@ -219,21 +219,21 @@ impl Picture {
 }
 
 /// What bytes are that do not begin like a PNG.
-fn foreign(bytes: &[u8]) -> Option<Unreadable> {
+fn foreign(bytes: &[u8]) -> Option<PictureError> {
     let begins = |with: &[u8]| bytes.starts_with(with);
     if bytes.is_empty() {
-        return Some(Unreadable::Empty);
+        return Some(PictureError::Empty);
     }
     if begins(POINTER) {
-        return Some(Unreadable::Pointer);
+        return Some(PictureError::Pointer);
     }
     if begins(SIGNATURE) {
         return None;
     }
     if SIGNATURE.starts_with(bytes) {
-        return Some(Unreadable::Truncated(bytes.len()));
+        return Some(PictureError::Truncated(bytes.len()));
     }
-    Some(Unreadable::Foreign(match bytes {
+    Some(PictureError::Foreign(match bytes {
         b if b.starts_with(b"\x89PNG") => {
             "its line ends were changed, as for a text; mark *.png as binary in .gitattributes"
         }

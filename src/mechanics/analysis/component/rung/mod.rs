@@ -59,7 +59,7 @@ pub(in crate::mechanics::analysis) enum Place {
 
 /// One program that may decide.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Rung {
+pub(super) enum Strategy {
     /// The mechanism of what is statically determinate.
     Determinate,
     /// Least force of many blocks, given up early.
@@ -95,7 +95,7 @@ impl Attempt {
     }
 }
 
-impl Rung {
+impl Strategy {
     /// From the quickest to the one that decides nearest to the edge.
     ///
     /// What is statically determinate needs no program: what its forces lack is known, and what gives way. Else
@@ -116,20 +116,20 @@ impl Rung {
         settings: &[SolverSettings],
         place: Place,
         described: bool,
-    ) -> Vec<Rung> {
-        let mut rungs: Vec<Rung> = settings.iter().copied().map(Rung::Force).collect();
+    ) -> Vec<Strategy> {
+        let mut rungs: Vec<Strategy> = settings.iter().copied().map(Strategy::Force).collect();
         let many = program.blocks >= MANY_BLOCKS;
         let any = settings.iter().all(|s| s.choice == Choice::Any);
         let plain = |s: &&SolverSettings| s.conditioning == Conditioning::Plain;
         let quick = settings.iter().find(plain).copied();
-        let residual = [Rung::Any, Rung::Residual];
+        let residual = [Strategy::Any, Strategy::Residual];
         match place {
             Place::Anywhere if many && !any => {
                 rungs.splice(0..0, residual);
                 if described {
-                    rungs.splice(1..1, quick.map(Rung::Sticking));
+                    rungs.splice(1..1, quick.map(Strategy::Sticking));
                 }
-                rungs.splice(0..0, quick.map(Rung::FirstLook));
+                rungs.splice(0..0, quick.map(Strategy::FirstLook));
             }
             Place::Anywhere if many => {
                 rungs.splice(0..0, residual);
@@ -137,7 +137,7 @@ impl Rung {
                     choice: Choice::Unique,
                     ..settings
                 };
-                rungs.splice(1..1, quick.map(unique).map(Rung::FirstLook));
+                rungs.splice(1..1, quick.map(unique).map(Strategy::FirstLook));
             }
             Place::Anywhere => {
                 let second = 1.min(rungs.len());
@@ -147,8 +147,8 @@ impl Rung {
                 rungs.splice(0..0, residual);
             }
         }
-        rungs.insert(0, Rung::Determinate);
-        for settings in settings.iter().copied().map(Rung::Sticking) {
+        rungs.insert(0, Strategy::Determinate);
+        for settings in settings.iter().copied().map(Strategy::Sticking) {
             if !rungs.contains(&settings) {
                 rungs.push(settings);
             }
@@ -158,39 +158,39 @@ impl Rung {
 
     pub fn attempt(&self, program: &Program) -> Attempt {
         match self {
-            Rung::Determinate => determinate::attempt(program),
-            Rung::FirstLook(settings) => least_force::first_look(program, *settings),
-            Rung::Force(settings) => least_force::attempt(program, *settings),
-            Rung::Any => least_residual::any(program),
-            Rung::Residual => least_residual::attempt(program),
-            Rung::Sticking(settings) => least_sticking::attempt(program, *settings),
+            Strategy::Determinate => determinate::attempt(program),
+            Strategy::FirstLook(settings) => least_force::first_look(program, *settings),
+            Strategy::Force(settings) => least_force::attempt(program, *settings),
+            Strategy::Any => least_residual::any(program),
+            Strategy::Residual => least_residual::attempt(program),
+            Strategy::Sticking(settings) => least_sticking::attempt(program, *settings),
         }
     }
 
     /// Whether its forces are those of least sum.
     pub fn is_least(&self) -> bool {
-        matches!(self, Rung::Force(_))
+        matches!(self, Strategy::Force(_))
     }
 
     /// Whether its forces come so near to a balance that, where they have no proof, none have.
     pub fn excludes_balance(&self, attempt: &Attempt) -> bool {
         match self {
-            Rung::Determinate | Rung::FirstLook(_) | Rung::Force(_) => false,
-            Rung::Any | Rung::Residual => attempt.forces.is_some(),
-            Rung::Sticking(_) => attempt.stuck.is_some(),
+            Strategy::Determinate | Strategy::FirstLook(_) | Strategy::Force(_) => false,
+            Strategy::Any | Strategy::Residual => attempt.forces.is_some(),
+            Strategy::Sticking(_) => attempt.stuck.is_some(),
         }
     }
 
     pub fn method(&self) -> Method {
         match self {
-            Rung::Determinate => Method::ClosedForm,
-            Rung::FirstLook(_) => Method::LeastForce,
-            Rung::Force(settings) if settings.conditioning == Conditioning::Plain => {
+            Strategy::Determinate => Method::ClosedForm,
+            Strategy::FirstLook(_) => Method::LeastForce,
+            Strategy::Force(settings) if settings.conditioning == Conditioning::Plain => {
                 Method::LeastForce
             }
-            Rung::Force(_) => Method::LeastForceRefined,
-            Rung::Any | Rung::Residual => Method::LeastResidual,
-            Rung::Sticking(_) => Method::LeastSticking,
+            Strategy::Force(_) => Method::LeastForceRefined,
+            Strategy::Any | Strategy::Residual => Method::LeastResidual,
+            Strategy::Sticking(_) => Method::LeastSticking,
         }
     }
 }
