@@ -14,7 +14,7 @@ mod turn;
 
 use std::hint::black_box;
 
-use drystone::analysis::{Ask, Options};
+use drystone::analysis::{Options};
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
 
@@ -30,8 +30,8 @@ const TURNS: Turns = Turns {
 
 fn main() {
     let plain = Options::default();
-    let margins = plain.margins(Ask::Yes);
-    let wedging = plain.wedging(Ask::Yes);
+    let margins = plain.margins(true);
+    let wedging = plain.wedging(true);
     let robots = json!([{ "id": "r", "holds": "40", "limits": { "force": 100.0 } },
         { "id": "s", "holds": "60", "limits": { "force": 100.0 } }]);
     let mut strong = robots.clone();

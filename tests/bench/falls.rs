@@ -15,7 +15,7 @@ mod turn;
 
 use std::hint::black_box;
 
-use drystone::analysis::{Ask, Options, Verdict};
+use drystone::analysis::{Options, Verdict};
 use drystone::internals::effect::{FrameContext, assemble};
 use drystone::internals::interface::Interfaces;
 use drystone::internals::program::{Conic, Program, Scale, source};
@@ -59,7 +59,7 @@ fn main() {
 
 fn told(name: &str, blocks: usize, file: &Value, angle: f64) {
     let [stands, falls] = [scene(file), scene(&turned(file, angle))];
-    let verdict_only = Options::default().verdict_only(Ask::Yes);
+    let verdict_only = Options::default().verdict_only(true);
     let upright = Analysis::of(&stands);
     assert_eq!(
         upright.verdict(),

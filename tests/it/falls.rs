@@ -2,7 +2,7 @@
 
 use drystone::Analysis;
 use drystone::analysis::{
-    Ask, EffectName, Failure, FrameAnalysis, MarginKind, MarginKinds, Options, Verdict, verdicts,
+    EffectName, Failure, FrameAnalysis, MarginKind, MarginKinds, Options, Verdict, verdicts,
 };
 use drystone::internals::effect::{FrameContext, assemble};
 use drystone::internals::geometry::{Point, Vector, cross};
@@ -123,7 +123,7 @@ fn an_arch_of_a_thousand_is_carried_the_same_way_from_either_end() {
 /// With the verdict alone the verdict and its proof are there, no soft program was posed, and the result says so.
 #[test]
 fn the_verdict_alone_is_proved_and_says_what_it_leaves_out() {
-    let asked = Options::default().verdict_only(Ask::Yes);
+    let asked = Options::default().verdict_only(true);
     let files = [
         (wall(10, 10), 0.0, Verdict::Stable),
         (wall(10, 10), 28.0, Verdict::Stable),
@@ -182,7 +182,7 @@ fn a_high_turned_stack_takes_no_program() {
     let mut bricks: Vec<Value> = (0..2_000)
         .map(|k| block(&k.to_string(), at(k), 6.0))
         .collect();
-    let asked = Options::default().verdict_only(Ask::Yes);
+    let asked = Options::default().verdict_only(true);
     for programs in [0, 1] {
         let scene = scene(&turned(on_floor(0.7, bricks.clone()), 26.0));
         let frame = Analysis::with(&scene, &asked).frames.remove(0);
@@ -203,7 +203,7 @@ fn the_verdict_alone_of_ten_thousand_blocks_one_on_the_other_takes_few_programs(
         .map(|k| block(&k.to_string(), at(k), 1.0))
         .collect();
     let with_it = alone.iter().cloned().chain([beside]).collect();
-    let asked = Options::default().verdict_only(Ask::Yes);
+    let asked = Options::default().verdict_only(true);
     for (bricks, most) in [(alone, 0), (with_it, 8)] {
         for (degrees, verdict) in [(0.0, Verdict::Stable), (40.0, Verdict::Unstable)] {
             let scene = scene(&turned(on_floor(0.7, bricks.clone()), degrees));
@@ -317,7 +317,7 @@ fn a_wall_short_of_its_edge_by_a_hundred_thousandth_is_balanced_at_once() {
 fn what_a_wall_lacks_just_past_its_edge_is_the_least_that_could_hold_it() {
     let file = wall(16, 16);
     let options = Options::default()
-        .margins(Ask::Yes)
+        .margins(true)
         .margin_kinds(MarginKinds::of(&[MarginKind::Tilt]));
     let upright = Analysis::with(scene(&file), &options).frames.remove(0);
     let tilt = upright.margins.expect("asked for").tilt;
@@ -352,7 +352,7 @@ fn a_tall_leaning_stack_tips_as_one() {
         block(&format!("b{k}"), at, 1.0)
     });
     let scene = scene(&on_floor(0.7, bricks.collect()));
-    let analysis = Analysis::with(&scene, &Options::default().verdict_only(Ask::Yes));
+    let analysis = Analysis::with(&scene, &Options::default().verdict_only(true));
     let frame = &analysis.frames[0];
     assert_eq!(frame.verdict, Verdict::Unstable);
     assert!(

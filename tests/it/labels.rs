@@ -189,7 +189,7 @@ fn no_label_lies_on_another_on_a_title_or_verdict_or_beyond_the_page_in_any_kind
     let mut count = 0;
     let mut complaints = Vec::new();
     for (name, scene) in gallery().into_iter().chain(brought()) {
-        let options = drystone::analysis::Options::default().margins(drystone::analysis::Ask::Yes);
+        let options = drystone::analysis::Options::default().margins(true);
         let analysis = Analysis::with(&scene, &options);
         for width in [COLUMN, TWO_COLUMNS] {
             for kind in figure::Kind::ALL {

@@ -1,7 +1,7 @@
 //! Margins: values known by hand or from the literature, and what every margin must obey.
 
 use drystone::analysis::{
-    Ask, EffectName, FrameAnalysis, Margin, MarginKind, MarginKinds, Margins, Options, Verdict,
+    EffectName, FrameAnalysis, Margin, MarginKind, MarginKinds, Margins, Options, Verdict,
 };
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use crate::structure::{arch, block, on_floor, on_slope, rectangle, scene, verdict, wall};
 
 fn frames(scene: &Scene) -> Vec<FrameAnalysis> {
-    let asked = Options::default().margins(Ask::Yes);
+    let asked = Options::default().margins(true);
     Analysis::with(scene, &asked).frames
 }
 
@@ -390,7 +390,7 @@ fn a_margin_alone_is_what_it_is_among_all() {
     let file = scene(&arch(15, 0.3, 0.7));
     let all = frames(&file).remove(0);
     let asked = Options::default()
-        .margins(Ask::Yes)
+        .margins(true)
         .margin_kinds(MarginKinds::of(&[MarginKind::Friction]));
     let alone = Analysis::with(&file, &asked).frames.remove(0);
     assert!(judged(&alone) < judged(&all));

@@ -161,7 +161,7 @@ fn a_margin_shows_the_structure_and_the_ghost_of_its_fall() {
     let text = r#"{ "drystone": 1, "friction": 0.9, "ground": [ { "polygon": [[-5,-1],[6,-1],[6,0],[-5,0]] } ],
         "blocks": [ { "id": "a", "polygon": [[0,0],[1,0],[1,4],[0,4]], "weight": 8 } ] }"#;
     let scene = Scene::from_json(text).unwrap_or_else(|problems| panic!("{problems}"));
-    let asked = drystone::analysis::Options::default().margins(drystone::analysis::Ask::Yes);
+    let asked = drystone::analysis::Options::default().margins(true);
     let analysis = Analysis::with(&scene, &asked);
     let (turn, motions) = analysis.tilted(0).expect("it topples");
     assert!((turn.abs() - 14.036).abs() < 1e-2, "{turn}");

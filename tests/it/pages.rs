@@ -8,7 +8,7 @@ mod result;
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use drystone::analysis::{Analysis, Ask, Options};
+use drystone::analysis::{Analysis, Options};
 use drystone::result::key::{KEYS, Key, REFUSAL_KEYS, Type};
 use drystone::result::{Layout, Timing, refusal, schema, to_json_of};
 use drystone::scene::{Code, NoteCode, Scene};
@@ -356,7 +356,7 @@ fn every_key_of_real_results_is_told_and_every_told_key_occurs() {
                 .map(|p| std::fs::read_to_string(p).expect("readable")),
         );
     }
-    let options = Options::default().margins(Ask::Yes).wedging(Ask::Yes);
+    let options = Options::default().margins(true).wedging(true);
     for text in &texts {
         let scene = Scene::from_json(text).expect("sound");
         let analysis = Analysis::with(&scene, &options);

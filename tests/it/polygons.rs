@@ -1,6 +1,6 @@
 //! What figures say of forces that are missing, and of loads: where it falls, nothing reads as a balance.
 
-use drystone::analysis::{Analysis, Ask, Options as Asked, Toward, Verdict};
+use drystone::analysis::{Analysis, Options as Asked, Toward, Verdict};
 use drystone::drawing::{Drawing, Group, Item};
 use drystone::figure::{self, Kind, Options};
 use drystone::report::entry::{Entry, File, ReportOptions};
@@ -70,7 +70,7 @@ fn a_force_polygon_closes_only_with_missing_forces_where_it_falls_and_says_so() 
 
 #[test]
 fn a_margin_of_loads_is_drawn_where_the_verdict_changes() {
-    let asked = Asked::default().margins(Ask::Yes);
+    let asked = Asked::default().margins(true);
     let options = Options::default().toward(Toward::LoadFactor);
     let pushed = block(1.0, 2.0);
     let analysis = Analysis::with(&pushed, &asked);

@@ -1,13 +1,13 @@
 //! Wedging: which structures stand only by a self-stress that nobody built up.
 
 use drystone::Analysis;
-use drystone::analysis::{Ask, EffectName, FrameAnalysis, Options, Verdict};
+use drystone::analysis::{EffectName, FrameAnalysis, Options, Verdict};
 use serde_json::{Value, json};
 
 use crate::structure::{arch, block, harmonic, on_floor, on_slope, rectangle, scene, wall};
 
 fn asked(file: &Value) -> FrameAnalysis {
-    let options = Options::default().wedging(Ask::Yes);
+    let options = Options::default().wedging(true);
     Analysis::with(scene(file), &options).frames.remove(0)
 }
 
@@ -128,7 +128,7 @@ fn it_is_an_effect_on_request() {
 #[test]
 fn the_figure_says_so() {
     let scene = scene(&bar_between_walls(0.0, 0.7));
-    let options = Options::default().wedging(Ask::Yes);
+    let options = Options::default().wedging(true);
     let drawn = |options: &Options| {
         let analysis = Analysis::with(&scene, options);
         let drawing = drystone::figure::forces(&analysis, &drystone::figure::Options::default());

@@ -11,7 +11,7 @@ use std::thread;
 
 use clap::Args;
 
-use crate::analysis::{Analysis, Ask, Options, Verdict, verdicts};
+use crate::analysis::{Analysis, Options, Verdict, verdicts};
 use crate::batch::{Record, Records, Capacity, in_order};
 use crate::cli::complaint::CliError;
 use crate::cli::destination;
@@ -157,8 +157,8 @@ impl Batch {
             }
         };
         let asks = |path: &[&str]| match self.fields.ask(path) {
-            true => Ask::Yes,
-            false => Ask::No,
+            true => true,
+            false => false,
         };
         Ok(Work {
             level: self.level,
@@ -173,8 +173,8 @@ impl Batch {
 /// What is done with every scene.
 struct Work {
     level: AnalysisArgs,
-    margins: Ask,
-    wedging: Ask,
+    margins: bool,
+    wedging: bool,
     fields: Fields,
     drawn: Option<Arc<Drawn>>,
 }
@@ -252,8 +252,8 @@ impl Work {
         Options {
             margins: self.margins,
             wedging: match asked.wedging {
-                Ask::Yes => Ask::Yes,
-                Ask::No => self.wedging,
+                true => true,
+                false => self.wedging,
             },
             ..asked
         }

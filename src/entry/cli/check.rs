@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 
-use crate::analysis::{Analysis, Ask, MarginKind, MarginKinds, Options};
+use crate::analysis::{Analysis, MarginKind, MarginKinds, Options};
 use crate::cli::complaint::CliError;
 use crate::cli::ending::ExitStatus;
 use crate::cli::level::AnalysisArgs;
@@ -142,9 +142,9 @@ impl Check {
         };
         let progress = Progress::begin(sources.len(), shown);
         let options = Options {
-            margins: asked(self.margins.is_some()),
+            margins: self.margins.is_some(),
             margin_kinds: kinds(self.margins.as_deref().unwrap_or_default()),
-            verdict_only: asked(self.verdict_only),
+            verdict_only: self.verdict_only,
             ..self.level.options()
         };
         let analyses: Vec<Analysis> = sources
@@ -201,10 +201,6 @@ impl Check {
             .max()
             .unwrap_or(ExitStatus::Done))
     }
-}
-
-fn asked(flag: bool) -> Ask {
-    if flag { Ask::Yes } else { Ask::No }
 }
 
 /// Notes below a table, a line each with what to do about it in the next.

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use clap::{Args, ValueEnum};
 
-use crate::analysis::{Accuracy, Ask, Options};
+use crate::analysis::{Accuracy, Options};
 
 /// How accurate, and whether by wedging.
 #[derive(Clone, Copy, Debug, Args)]
@@ -41,7 +41,7 @@ impl AnalysisArgs {
         };
         Options {
             accuracy,
-            wedging: if self.wedging { Ask::Yes } else { Ask::No },
+            wedging: self.wedging,
             deadline: self
                 .time_limit
                 .and_then(|limit| Instant::now().checked_add(limit)),

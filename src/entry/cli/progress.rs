@@ -157,7 +157,7 @@ mod tests {
             r#"{ "drystone": 1, "blocks": [{ "id": "a", "polygon": [[0, 0], [3, 0], [0, 2]] }] }"#,
         );
         let options = crate::analysis::Options {
-            margins: crate::analysis::Ask::Yes,
+            margins: true,
             ..Default::default()
         };
         crate::analysis::Analysis::with(scene.expect("sound"), &options);

@@ -215,7 +215,7 @@ impl Render {
         let progress = Progress::begin(2 * sources.len(), shown);
         let mut asked = self.level.options();
         if matches!(self.kind, KindChoice::Margin) {
-            asked.margins = analysis::Ask::Yes;
+            asked.margins = true;
         }
         let rendered: Vec<Result<Rendered, CliError>> = match &sources[..] {
             [before, after] if self.joins(scenes.len(), &destination) => {

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 
-use crate::analysis::{self, Analysis, Ask};
+use crate::analysis::{self, Analysis};
 use crate::cli::complaint::CliError;
 use crate::cli::destination;
 use crate::cli::ending::ExitStatus;
@@ -92,7 +92,7 @@ impl Report {
             },
         };
         let options = analysis::Options {
-            margins: if self.margins { Ask::Yes } else { Ask::No },
+            margins: self.margins,
             ..self.level.options()
         };
         let shown = if terminal.shows_progress() {

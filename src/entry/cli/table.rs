@@ -300,7 +300,7 @@ mod tests {
     use std::path::Path;
 
     use super::*;
-    use crate::analysis::{Ask, Options};
+    use crate::analysis::{Options};
     use crate::scene::format::{BlockEntry, LimitsEntry, RobotEntry, StepEntry};
 
     fn assert_fits(name: &str, analysis: &Analysis) {
@@ -346,8 +346,8 @@ mod tests {
                 let scene = Scene::from_json(&fs::read_to_string(&path).expect("text"));
                 let scene = scene.expect("a sound scene");
                 let options = match folder {
-                    "thesis" => Options::default().margins(Ask::Yes),
-                    _ => Options::default().verdict_only(Ask::Yes),
+                    "thesis" => Options::default().margins(true),
+                    _ => Options::default().verdict_only(true),
                 };
                 assert_fits(&name, &Analysis::with(scene, &options));
                 seen += 1;
@@ -389,7 +389,7 @@ mod tests {
                 .step(StepEntry::new(&name).place(&ids[..5]))
                 .step(held);
             let scene = scene.build().expect("a sound scene");
-            let options = Options::default().margins(Ask::Yes);
+            let options = Options::default().margins(true);
             assert_fits(&format!("{name}.json"), &Analysis::with(scene, &options));
         }
     }

@@ -1,6 +1,6 @@
 //! What a frame's components say together.
 
-use super::{Ask, FrameAnalysis, Verdict};
+use super::{FrameAnalysis, Verdict};
 use crate::effect::sticking::Sought;
 use crate::effect::{
     FrameContext, contact, corner_contact, friction, mechanism, robot, robot_torque, sticking,
@@ -53,7 +53,7 @@ pub(super) fn settle(
     analysis: &mut FrameAnalysis,
     situation: &FrameContext,
     count: Count,
-    verdict_only: Ask,
+    verdict_only: bool,
 ) {
     let unstable = analysis.verdict == Verdict::Unstable;
     if analysis.verdict != Verdict::Undecided {
@@ -71,7 +71,7 @@ pub(super) fn settle(
     }
     let blocks = situation.frame.placed.len();
     let sought = match verdict_only {
-        Ask::Yes if unstable => Sought::NotAsked,
+        true if unstable => Sought::NotAsked,
         _ if analysis.failures.is_empty() => Sought::NotNeeded,
         _ => Sought::Found,
     };
@@ -80,11 +80,11 @@ pub(super) fn settle(
         .push(sticking::report(blocks, sought, count.sticking));
     analysis.effects.push(mechanism::report(unstable));
     match (verdict_only, analysis.verdict) {
-        (Ask::Yes, Verdict::Stable) => analysis.notices.push(
+        (true, Verdict::Stable) => analysis.notices.push(
             "only the verdict was asked for: where more than one set of forces balances, any of them is shown"
                 .into(),
         ),
-        (Ask::Yes, Verdict::Unstable) => analysis.notices.push(
+        (true, Verdict::Unstable) => analysis.notices.push(
             "only the verdict was asked for: what fails, and the forces beside it, were not sought"
                 .into(),
         ),

@@ -6,7 +6,7 @@
 //! [`Analysis`](super::Analysis) does, so that a guess can save work and decide nothing.
 
 use super::component::Candidate;
-use super::{Analysis, Ask, Known, Options, Verdict, examined};
+use super::{Analysis, Known, Options, Verdict, examined};
 use crate::assembly::Assembly;
 use crate::effect::{self, FrameContext};
 use crate::interface::{Interface, Interfaces};
@@ -34,7 +34,7 @@ const OFF_SCALE: f64 = 100.0;
 /// # Ok::<(), drystone::scene::SceneError>(())
 /// ```
 pub fn verdicts(scene: &Scene, options: &Options) -> Vec<Verdict> {
-    let options = &options.verdict_only(Ask::Yes);
+    let options = &options.verdict_only(true);
     let found = Interfaces::of(scene);
     if hinges_on_gaps(scene, &found) {
         let frames = Analysis::with(scene, options).frames;
@@ -103,7 +103,7 @@ impl WarmStart {
                 return (verdict, Source::WarmStart);
             }
         }
-        let alone = options.verdict_only(Ask::Yes);
+        let alone = options.verdict_only(true);
         let verdict = examined(&situation, alone, &mut Known::default()).verdict;
         (verdict, Source::Examined)
     }

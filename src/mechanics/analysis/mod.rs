@@ -54,7 +54,7 @@ pub use judgement::{Source, verdicts};
 use margin::Part;
 pub use margin::{Margin, MarginKind, MarginKinds, Margins, RobotMargins, Sides, trials};
 pub use mechanism::Toward;
-pub use option::{Accuracy, Ask, Options};
+pub use option::{Accuracy, Options};
 pub use pair::pair;
 pub use wedged::{FaceCase, PointCase, RuledOut, Wedged};
 
@@ -385,19 +385,19 @@ fn examined(situation: &FrameContext, options: Options, known: &mut Known) -> Fr
     };
     let before = start.elapsed().as_secs_f64();
     let wedging = match (options.wedging, analysis.verdict) {
-        (Ask::No, _) => Wedging::NotAsked,
-        (Ask::Yes, Verdict::Stable) => {
+        (false, _) => Wedging::NotAsked,
+        (true, Verdict::Stable) => {
             let components = found.iter().copied();
             let (only, shown, wedged) = component::only_by_wedging(situation.scene, components);
             (analysis.only_by_wedging, analysis.wedged) = (only, wedged);
             shown
         }
-        (Ask::Yes, _) => Wedging::Falls,
+        (true, _) => Wedging::Falls,
     };
     let after = start.elapsed().as_secs_f64();
     analysis.solve.stages.wedging = after - before;
     let mut judged = None;
-    if options.margins == Ask::Yes {
+    if options.margins {
         let parts = found
             .iter()
             .zip(&keys)

@@ -7,7 +7,7 @@
 //! differ nobody can say which structure was meant: the frame is undecided, with the places and the tolerance that settles
 //! it. If they agree an overlap is reported beside the verdict. A tolerance that somebody gave settles it already.
 
-use super::{Ask, UndecidedReason, FrameAnalysis, Options, Verdict, examine, examine_found};
+use super::{UndecidedReason, FrameAnalysis, Options, Verdict, examine, examine_found};
 use crate::geometry::Point;
 use crate::interface::{Interface, Interfaces, Near, Touching, held_open};
 use crate::scene::{BodyId, Note, NoteCode, Penetration, Scene, ToleranceSource, size};
@@ -94,8 +94,8 @@ pub(super) fn judge(
         return;
     };
     let options = Options {
-        margins: Ask::No,
-        wedging: Ask::No,
+        margins: false,
+        wedging: false,
         ..*options
     };
     let closed = |closing: f64| (closing, examine(&scene.closed(closing), &options).1);
@@ -152,8 +152,8 @@ fn judge_slivers(
         return;
     }
     let options = Options {
-        margins: Ask::No,
-        wedging: Ask::No,
+        margins: false,
+        wedging: false,
         ..*options
     };
     let others = examine_found(scene, &found.with_slivers(), &options);

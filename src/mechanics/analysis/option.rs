@@ -17,27 +17,17 @@ pub struct Options {
     /// A tolerance for the solver in place of the level's own, to measure what it costs.
     pub tolerance: Option<f64>,
     /// How far each frame is from the edge of standing.
-    pub margins: Ask,
+    pub margins: bool,
     /// Which margins, where they are asked for; by default all.
     pub margin_kinds: MarginKinds,
     /// Whether each standing frame stands only by wedging.
-    pub wedging: Ask,
+    pub wedging: bool,
     /// The verdict with its proof, and no program beyond what decides: where a frame falls, what fails is not sought; where it
     /// stands, the forces are some that balance. Each is stated in the result.
-    pub verdict_only: Ask,
+    pub verdict_only: bool,
     /// When to give up: what is not decided by then is `Undecided`, and its doubt says so. Without one the same scene gives
     /// the same answer every time.
     pub deadline: Option<Instant>,
-}
-
-/// Whether something is asked for.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Ask {
-    /// It is left out, and costs nothing.
-    #[default]
-    No,
-    /// It is found out.
-    Yes,
 }
 
 /// What an answer may cost, and how well it must be proved.
@@ -70,10 +60,10 @@ impl Accuracy {
 impl Options {
     setters! {
         accuracy: Accuracy, "How accurate it is.";
-        margins: Ask, "How far each frame is from the edge of standing.";
+        margins: bool, "How far each frame is from the edge of standing.";
         margin_kinds: MarginKinds, "Which margins, where they are asked for.";
-        wedging: Ask, "Whether each standing frame stands only by wedging.";
-        verdict_only: Ask, "The verdict with its proof, and no program beyond what decides.";
+        wedging: bool, "Whether each standing frame stands only by wedging.";
+        verdict_only: bool, "The verdict with its proof, and no program beyond what decides.";
     }
 
     optional_setters! {
@@ -85,10 +75,10 @@ impl Options {
     pub(super) const PLAIN: Options = Options {
         accuracy: Accuracy::Standard,
         tolerance: None,
-        margins: Ask::No,
+        margins: false,
         margin_kinds: MarginKinds::ALL,
-        wedging: Ask::No,
-        verdict_only: Ask::No,
+        wedging: false,
+        verdict_only: false,
         deadline: None,
     };
 
@@ -117,7 +107,7 @@ impl Options {
             list.insert(0, draft);
         }
         for one in &mut list {
-            if self.verdict_only == Ask::Yes {
+            if self.verdict_only {
                 one.choice = Choice::Any;
             }
             one.tolerance = self.tolerance.unwrap_or(one.tolerance);

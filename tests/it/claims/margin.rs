@@ -1,7 +1,7 @@
 //! What is told of how far a structure is from the edge.
 
 use drystone::Analysis;
-use drystone::analysis::{Ask, Options, Verdict};
+use drystone::analysis::{Options, Verdict};
 use serde_json::{Value, json};
 
 use super::{list, number, told_with};
@@ -23,7 +23,7 @@ fn margins_are_borne_out_by_verdicts_on_either_side() {
         pushed,
         held,
     ] {
-        let options = Options::default().margins(Ask::Yes);
+        let options = Options::default().margins(true);
         let json = told_with(&file, &options).json;
         let margins = &json["frames"][0]["margins"];
         let mut agrees = |margin: &Value, more_is_worse: bool, change: &dyn Fn(f64) -> Value| {

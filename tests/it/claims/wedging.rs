@@ -1,6 +1,6 @@
 //! What is told of structures that stand only by wedging.
 
-use drystone::analysis::{Ask, Options};
+use drystone::analysis::{Options};
 use serde_json::{Value, json};
 
 use super::{Told, list, number, told, told_with};
@@ -9,7 +9,7 @@ use crate::structure::{block, harmonic, rectangle, wall};
 /// `only_by_wedging` is absent where nobody asked and where the frame falls, and says in its effect what shows it.
 #[test]
 fn wedging_is_told_with_what_shows_it() {
-    let asked = Options::default().wedging(Ask::Yes);
+    let asked = Options::default().wedging(true);
     let between = json!({ "drystone": 1, "friction": 0.7,
         "ground": [{ "polygon": rectangle(-2.0, -2.0, 2.0, 4.0) }, { "polygon": rectangle(3.0, -2.0, 2.0, 4.0) }],
         "blocks": [block("bar", rectangle(0.0, 0.0, 3.0, 0.5), 7.0)] });
@@ -42,7 +42,7 @@ fn wedging_is_told_with_what_shows_it() {
 /// What shows that a frame stands only by wedging is checked from the result alone: its interfaces, their forces, two motions.
 #[test]
 fn the_certificate_of_wedging_is_checked_from_the_result_alone() {
-    let asked = Options::default().wedging(Ask::Yes);
+    let asked = Options::default().wedging(true);
     let walls = json!([{ "polygon": rectangle(-2.0, -2.0, 2.0, 4.0) }, { "polygon": rectangle(3.0, -2.0, 2.0, 4.0) }]);
     // Friction of μ must carry the weight, so both faces together press with weight/μ at least.
     for (mu, weight) in [(0.7, 7.0), (0.25, 3.0)] {

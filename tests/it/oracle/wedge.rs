@@ -2,7 +2,7 @@
 //! leave nothing out. The rows are made here, from outlines and the law of the springs, and solved by the exact simplex.
 
 use dashu_ratio::RBig;
-use drystone::analysis::{Ask, FrameAnalysis, Options, RuledOut, Slide};
+use drystone::analysis::{FrameAnalysis, Options, RuledOut, Slide};
 use drystone::scene::BodyId;
 use drystone::{Analysis, Scene};
 
@@ -234,7 +234,7 @@ fn every_case_of_a_wedge_is_ruled_out_in_fractions_too() {
         h_model(0.7),
     ] {
         let scene = scene(&file);
-        let options = Options::default().wedging(Ask::Yes);
+        let options = Options::default().wedging(true);
         let analysis = Analysis::with(scene.clone(), &options);
         let frame = &analysis.frames[0];
         let wedged = frame.wedged.as_ref().expect("what shows that it is wedged");

@@ -1,7 +1,7 @@
 //! What the page of results says, each phrase beside a small scene that shows it.
 
 use drystone::Analysis;
-use drystone::analysis::{Ask, EffectName, MarginKind, MarginKinds, Method, Options};
+use drystone::analysis::{EffectName, MarginKind, MarginKinds, Method, Options};
 use drystone::result::{Layout, Timing, to_json};
 use serde_json::{Value, json};
 
@@ -81,7 +81,7 @@ fn sums_lengths_and_shares_are_as_the_page_says() {
         2.0,
     ));
     let slides = on_slope(35.0, 2.0, 1.0, 0.5, 0.1);
-    let only = Options::default().verdict_only(Ask::Yes);
+    let only = Options::default().verdict_only(true);
     let (nothing, two, three) = (
         on_floor(0.7, vec![]),
         beside(&[3.0, 0.5]),
@@ -273,9 +273,9 @@ fn sums_lengths_and_shares_are_as_the_page_says() {
 fn what_is_asked_for_is_there_and_the_rest_is_not() {
     let plain = Options::default();
     let some = Options::default()
-        .margins(Ask::Yes)
+        .margins(true)
         .margin_kinds(MarginKinds::of(&[MarginKind::Friction]));
-    let all = Options::default().margins(Ask::Yes).wedging(Ask::Yes);
+    let all = Options::default().margins(true).wedging(true);
     let stands = on_floor(0.7, vec![block("a", rectangle(0.0, 0.0, 1.0, 1.0), 1.0)]);
     let mut narrow = stands.clone();
     narrow["blocks"][0]["polygon"] = rectangle(0.0, 0.005, 1.0, 1.0);

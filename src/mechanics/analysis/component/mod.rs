@@ -20,7 +20,7 @@ pub(super) use candidate::Candidate;
 pub(super) use guess::ProofCache;
 pub(super) use question::{Ends, guessed, judged, learn, only_by_wedging};
 
-use super::{Ask, UndecidedReason, Failure, Options, Verdict};
+use super::{UndecidedReason, Failure, Options, Verdict};
 use crate::assembly::Assembly;
 use crate::program::{Count, Program, Scale, columns, sticking_columns};
 use crate::proof::{Demand, Forces, Motion, Proof, fastest};
@@ -96,7 +96,7 @@ impl<'a> Case<'a> {
             scale: Scale::of_assembly(assembly),
             settings: options.solver_settings(),
             demand: options.accuracy.demand(),
-            described: options.verdict_only == Ask::No,
+            described: !options.verdict_only,
             place: Place::Anywhere,
         }
     }

@@ -2,7 +2,7 @@
 
 use super::ladder::Decision;
 use super::{Case, Findings, ProofCache, Place};
-use crate::analysis::{Ask, Options, Verdict, Wedged};
+use crate::analysis::{Options, Verdict, Wedged};
 use crate::assembly::Assembly;
 use crate::effect::wedging::Wedging;
 use crate::program::Program;
@@ -55,7 +55,7 @@ pub(in crate::mechanics::analysis) fn guessed(
 
 /// The verdict is all that margins want.
 const ALONE: Options = Options {
-    verdict_only: Ask::Yes,
+    verdict_only: true,
     ..Options::PLAIN
 };
 

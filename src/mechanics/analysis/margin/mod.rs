@@ -80,12 +80,12 @@ pub struct Sides {
 ///
 /// # Example
 /// ```
-/// use drystone::{Analysis, Scene, analysis::{Ask, Margin, Options}};
+/// use drystone::{Analysis, Scene, analysis::{Margin, Options}};
 /// // A block 3 m wide and 2 m high would topple at a horizontal share of 1.5, but slides at its friction of 0.5.
 /// let scene = Scene::from_json(r#"{ "drystone": 1, "friction": 0.5,
 ///     "ground": [{ "polygon": [[0, 0], [9, 0], [9, -1], [0, -1]] }],
 ///     "blocks": [{ "id": "a", "polygon": [[1, 0], [4, 0], [4, 2], [1, 2]], "weight": 6 }] }"#)?;
-/// let analysis = Analysis::with(&scene, &Options::default().margins(Ask::Yes));
+/// let analysis = Analysis::with(&scene, &Options::default().margins(true));
 /// let margins = analysis.frames[0].margins.as_ref().expect("asked for");
 /// let slides = margins.horizontal_load.right.at().expect("a block slides");
 /// assert!((slides - 0.5).abs() < 1e-6);
