@@ -16,7 +16,7 @@ const BRICKS: usize = 6;
 fn main() -> Result<(), Box<dyn Error>> {
     for share in [0.999, 1.001] {
         let scene = stack(share)?;
-        let frame = &Analysis::of(&scene).frames[0];
+        let frame = &Analysis::new(&scene).frames[0];
         let reach: f64 = (1..=BRICKS).map(|n| share * 0.5 / n as f64).sum();
         println!(
             "{BRICKS} bricks, {reach:.4} over the edge: {:?}, proved by {:?}",

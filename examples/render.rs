@@ -15,7 +15,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         return Err("give a scene and the picture to make of it".into());
     };
     let scene = Scene::from_slice(&fs::read(input)?)?;
-    let analysis = Analysis::of(&scene);
+    let analysis = Analysis::new(&scene);
     println!(
         "{:?}",
         analysis

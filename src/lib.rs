@@ -12,7 +12,7 @@
 //!     "blocks": [{ "id": "left",   "polygon": [[0, 0], [1, 0], [1, 3], [0, 3]] },
 //!                { "id": "right",  "polygon": [[5, 0], [6, 0], [6, 3], [5, 3]] },
 //!                { "id": "lintel", "polygon": [[0, 3], [6, 3], [6, 4], [0, 4]] }] }"#)?;
-//! let analysis = Analysis::of(&scene);
+//! let analysis = Analysis::new(&scene);
 //! assert_eq!(analysis.frames[0].verdict, Verdict::Stable);
 //!
 //! let drawing = figure::forces(&analysis, &figure::Options::default());
@@ -36,7 +36,7 @@
 //!     .block(BlockEntry::new("right").polygon(post).at([5.0, 0.0]))
 //!     .block(BlockEntry::new("lintel").polygon([[0.0, 3.0], [6.0, 3.0], [6.0, 4.0], [0.0, 4.0]]))
 //!     .build()?;
-//! assert_eq!(Analysis::of(&scene).frames[0].contacts.len(), 4);
+//! assert_eq!(Analysis::new(&scene).frames[0].contacts.len(), 4);
 //! # Ok::<(), drystone::scene::SceneError>(())
 //! ```
 //!

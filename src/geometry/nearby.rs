@@ -82,7 +82,7 @@ struct Placed<T, const D: usize> {
 }
 
 impl<T, const D: usize> SortedBoxes<T, D> {
-    fn of(things: Vec<T>, around: impl Fn(&T) -> Aabb<D>) -> SortedBoxes<T, D> {
+    fn new(things: Vec<T>, around: impl Fn(&T) -> Aabb<D>) -> SortedBoxes<T, D> {
         let placed = |thing: T| Placed {
             own: around(&thing),
             reach: 0.0,
@@ -124,7 +124,7 @@ struct Node<const D: usize> {
 }
 
 impl<T, const D: usize> Tree<T, D> {
-    fn of(things: Vec<T>, around: impl Fn(&T) -> Aabb<D>) -> Tree<T, D> {
+    fn new(things: Vec<T>, around: impl Fn(&T) -> Aabb<D>) -> Tree<T, D> {
         let boxes = things.iter().map(around).enumerate();
         let mut order: Vec<(Aabb<D>, usize)> = boxes.map(|(n, own)| (own, n)).collect();
         let usual = usual(&order);
@@ -223,11 +223,11 @@ fn parted<const D: usize>(
 }
 
 impl<T, const D: usize> BoxIndex<T, D> {
-    pub(crate) fn of(things: Vec<T>, around: impl Fn(&T) -> Aabb<D>) -> BoxIndex<T, D> {
+    pub(crate) fn new(things: Vec<T>, around: impl Fn(&T) -> Aabb<D>) -> BoxIndex<T, D> {
         if things.len() > FEW {
-            return BoxIndex::Many(Tree::of(things, around));
+            return BoxIndex::Many(Tree::new(things, around));
         }
-        BoxIndex::Few(SortedBoxes::of(things, around))
+        BoxIndex::Few(SortedBoxes::new(things, around))
     }
 
     /// All of them with the boxes around them, in no order that may matter.
@@ -271,7 +271,7 @@ mod tests {
             [Point::new(x, 0.0), Point::new(x + 200.0, 200.0)]
         };
         let leaning = |n: &usize| Aabb::leaning(&needle(*n));
-        let things = BoxIndex::of((0..100).collect(), leaning);
+        let things = BoxIndex::new((0..100).collect(), leaning);
         for n in 0..100 {
             assert_eq!(things.near(leaning(&n)).collect::<Vec<_>>(), [&n]);
         }
@@ -281,7 +281,7 @@ mod tests {
     fn few_and_many_are_found_alike() {
         for side in [7_usize, 8, 12] {
             let at = |n: usize| [(n / side) as f64, (n % side) as f64];
-            let things = BoxIndex::of((0..side * side).collect(), |n| point(at(*n)));
+            let things = BoxIndex::new((0..side * side).collect(), |n| point(at(*n)));
             assert_eq!(matches!(things, BoxIndex::Few(_)), side * side <= FEW);
             assert_eq!(things.all().count(), side * side);
             let found = things.near(Aabb {
@@ -316,7 +316,7 @@ mod tests {
                     max: [right, high],
                 }
             };
-            let things = BoxIndex::of((0..count).collect(), |n| around(all[*n]));
+            let things = BoxIndex::new((0..count).collect(), |n| around(all[*n]));
             for _ in 0..60 {
                 let asked = any();
                 let mut found: Vec<usize> = things.near(around(asked)).copied().collect();

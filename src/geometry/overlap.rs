@@ -26,8 +26,8 @@ struct Piece<'p> {
 }
 
 impl<'p> Piece<'p> {
-    fn of(corners: Cow<'p, [Point]>) -> Option<Piece<'p>> {
-        let around = Bounds::of(corners.iter().copied())?;
+    fn new(corners: Cow<'p, [Point]>) -> Option<Piece<'p>> {
+        let around = Bounds::from_points(corners.iter().copied())?;
         let last = corners.len() - 1;
         let mut longest = corners[0] - corners[last];
         for i in 0..last {
@@ -75,10 +75,10 @@ pub struct Overlap {
 
 impl<'p> Pieces<'p> {
     /// A convex polygon stays whole, any other is cut into triangles.
-    pub fn of(polygon: &'p Polygon) -> Pieces<'p> {
+    pub fn new(polygon: &'p Polygon) -> Pieces<'p> {
         if polygon.is_convex() {
             return Pieces {
-                whole: Piece::of(Cow::Borrowed(polygon.outline())),
+                whole: Piece::new(Cow::Borrowed(polygon.outline())),
                 triangles: Vec::new(),
             };
         }
@@ -103,7 +103,7 @@ impl<'p> Pieces<'p> {
                 triangle
             })
             .filter(|t| cross(t[1] - t[0], t[2] - t[0]) > 0.0)
-            .filter_map(|t| Piece::of(Cow::Owned(t)))
+            .filter_map(|t| Piece::new(Cow::Owned(t)))
             .collect();
         Pieces {
             whole: None,
@@ -219,17 +219,21 @@ mod tests {
     #[test]
     fn touching_is_not_overlapping_and_overlap_tells_area_and_place() {
         let a = rectangle(0.0, 0.0, 2.0, 1.0);
-        let a = Pieces::of(&a);
+        let a = Pieces::new(&a);
         assert_eq!(
-            overlap(&a, &Pieces::of(&rectangle(2.0, 0.0, 1.0, 1.0)), 0.0),
+            overlap(&a, &Pieces::new(&rectangle(2.0, 0.0, 1.0, 1.0)), 0.0),
             None
         );
         assert_eq!(
-            overlap(&a, &Pieces::of(&rectangle(2.0 - 1e-7, 0.0, 1.0, 1.0)), 1e-6),
+            overlap(
+                &a,
+                &Pieces::new(&rectangle(2.0 - 1e-7, 0.0, 1.0, 1.0)),
+                1e-6
+            ),
             None
         );
         let found =
-            overlap(&a, &Pieces::of(&rectangle(1.5, 0.75, 3.0, 1.0)), 1e-6).expect("overlap");
+            overlap(&a, &Pieces::new(&rectangle(1.5, 0.75, 3.0, 1.0)), 1e-6).expect("overlap");
         assert!((found.area - 0.125).abs() < 1e-12);
         assert!((found.at - Point::new(1.75, 0.875)).norm() < 1e-12);
         assert!((found.depth - 0.25).abs() < 1e-12);
@@ -246,13 +250,13 @@ mod tests {
             ]
         };
         let frame = Polygon::new(corners(0.0, 4.0), vec![corners(1.0, 2.0)]).expect("sound");
-        let pieces = Pieces::of(&frame);
+        let pieces = Pieces::new(&frame);
         assert_eq!(
-            overlap(&pieces, &Pieces::of(&rectangle(1.0, 1.0, 2.0, 1.0)), 1e-9),
+            overlap(&pieces, &Pieces::new(&rectangle(1.0, 1.0, 2.0, 1.0)), 1e-9),
             None
         );
         let stuck =
-            overlap(&pieces, &Pieces::of(&rectangle(1.0, 1.0, 2.5, 1.0)), 1e-9).expect("overlap");
+            overlap(&pieces, &Pieces::new(&rectangle(1.0, 1.0, 2.5, 1.0)), 1e-9).expect("overlap");
         assert!((stuck.area - 0.5).abs() < 1e-12);
     }
 
@@ -263,7 +267,7 @@ mod tests {
 
     /// The overlap of two, the same in either order.
     fn both(a: &Polygon, b: &Polygon) -> Overlap {
-        let (a, b) = (&Pieces::of(a), &Pieces::of(b));
+        let (a, b) = (&Pieces::new(a), &Pieces::new(b));
         let found = overlap(a, b, 1e-9).expect("overlap");
         let other = overlap(b, a, 1e-9).expect("overlap");
         assert!((found.area - other.area).abs() < 1e-12);
@@ -319,7 +323,7 @@ mod tests {
         let box_at = |d: f64| rectangle(1.5 - 0.8 * d, 2.0 - 0.6 * d, 5.0, 5.0);
         assert!((both(&slope, &box_at(0.25)).depth - 0.25).abs() < 1e-12);
         let deep =
-            |a: &Polygon, b: &Polygon, gap: f64| overlap(&Pieces::of(a), &Pieces::of(b), gap);
+            |a: &Polygon, b: &Polygon, gap: f64| overlap(&Pieces::new(a), &Pieces::new(b), gap);
         assert_eq!(deep(&slope, &box_at(-1e-6), 0.0), None);
         // As deep as the gap is none yet.
         let stone = rectangle(1.0, 3.75, 1.0, 1.0);
@@ -336,9 +340,9 @@ mod tests {
         let frame = Polygon::new(ring(-3.0, 9.0), vec![ring(0.0, 1.0), ring(2.0, 3.0)]);
         let frame = frame.expect("sound");
         let mut area = 0.0;
-        for piece in Pieces::of(&frame).all() {
+        for piece in Pieces::new(&frame).all() {
             let t = &piece.corners;
-            let around = Bounds::of(t.iter().copied());
+            let around = Bounds::from_points(t.iter().copied());
             assert_eq!((t.len(), around), (3, Some(piece.around)));
             let part = cross(t[1] - t[0], t[2] - t[0]) / 2.0;
             assert!(part > 0.0, "anticlockwise");
@@ -358,14 +362,14 @@ mod tests {
             [0.0, 3.0],
         ];
         let l = polygon(&corners.map(far));
-        let pieces = Pieces::of(&l);
+        let pieces = Pieces::new(&l);
         let parts = pieces.all().map(|piece| {
             let t = &piece.corners;
             cross(t[1] - t[0], t[2] - t[0]) / 2.0
         });
         assert_eq!(parts.sum::<f64>(), 5.0 / 16.0);
         let square = rectangle(0.0, 0.0, 1.0, 1.0);
-        let pieces = Pieces::of(&square);
+        let pieces = Pieces::new(&square);
         let whole: Vec<usize> = pieces.all().map(|piece| piece.corners.len()).collect();
         assert_eq!(whole, [4], "what is convex stays whole");
     }

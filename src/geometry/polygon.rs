@@ -59,7 +59,7 @@ pub struct Bounds {
 
 impl Bounds {
     /// The smallest box around some points, `None` for no points.
-    pub fn of(points: impl IntoIterator<Item = Point>) -> Option<Bounds> {
+    pub fn from_points(points: impl IntoIterator<Item = Point>) -> Option<Bounds> {
         points.into_iter().fold(None, |bounds: Option<Bounds>, p| {
             let b = bounds.unwrap_or(Bounds { min: p, max: p });
             Some(Bounds {
@@ -427,7 +427,7 @@ fn crossings(rings: &[Vec<Point>], repeats: &Repeats) -> Vec<Flaw> {
             edge,
         }));
     }
-    let nearby = (all.len() > FEW_SIDES).then(|| BoxIndex::of(all.clone(), Side::around));
+    let nearby = (all.len() > FEW_SIDES).then(|| BoxIndex::new(all.clone(), Side::around));
     let mut flaws = Vec::new();
     for (number, a) in all.iter().enumerate() {
         let before = flaws.len();

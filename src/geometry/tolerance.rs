@@ -34,7 +34,7 @@ impl Tolerance {
     /// The tolerance of a scene whose blocks reach `extent` metres across in all and are `typical` metres large each.
     ///
     /// Both are lengths in metres; a scene without blocks has extent 0 and gets the tolerance 0.
-    pub fn of(extent: f64, typical: f64) -> Tolerance {
+    pub fn new(extent: f64, typical: f64) -> Tolerance {
         Tolerance::within(Self::GAP * extent.min(Self::REACH * typical))
     }
 
@@ -81,9 +81,9 @@ mod tests {
     #[test]
     fn edges_touch_within_a_millionth_of_the_reach() {
         // A house of 20 m from bricks of half a metre; and two of them a thousand kilometres apart.
-        assert!(close(Tolerance::of(20.0, 0.5).gap, 20e-6));
-        assert!(close(Tolerance::of(1e6, 0.5).gap, 500e-6));
-        assert_eq!(Tolerance::of(0.0, 0.0).gap, 0.0);
+        assert!(close(Tolerance::new(20.0, 0.5).gap, 20e-6));
+        assert!(close(Tolerance::new(1e6, 0.5).gap, 500e-6));
+        assert_eq!(Tolerance::new(0.0, 0.0).gap, 0.0);
     }
 
     #[test]

@@ -14,7 +14,7 @@ mod turn;
 
 use std::hint::black_box;
 
-use drystone::analysis::{Options};
+use drystone::analysis::Options;
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
 

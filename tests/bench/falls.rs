@@ -60,14 +60,14 @@ fn main() {
 fn told(name: &str, blocks: usize, file: &Value, angle: f64) {
     let [stands, falls] = [scene(file), scene(&turned(file, angle))];
     let verdict_only = Options::default().verdict_only(true);
-    let upright = Analysis::of(&stands);
+    let upright = Analysis::new(&stands);
     assert_eq!(
         upright.verdict(),
         Verdict::Stable,
         "{name} {blocks} upright"
     );
     let hard = [program(&stands), program(&falls)].map(|program| hard(&program));
-    let analysis = Analysis::of(&falls);
+    let analysis = Analysis::new(&falls);
     let frame = &analysis.frames[0];
     let said = solve(&hard[1], TOLERANCE, Conditioning::Full).status;
     let work: [&dyn Fn(); 5] = [
@@ -110,7 +110,7 @@ fn posed(conic: &Conic) {
 
 /// The program of a structure that hangs together.
 fn program(scene: &Scene) -> Program {
-    let found = Interfaces::of(scene);
+    let found = Interfaces::new(scene);
     let frame = &scene.frames()[0];
     let (assembly, _) = assemble(&FrameContext {
         scene,
@@ -118,7 +118,7 @@ fn program(scene: &Scene) -> Program {
         interfaces: &found.in_frame(scene, frame),
     });
     let component = assembly.split().remove(0);
-    Program::of(&component, Scale::of_assembly(&component))
+    Program::new(&component, Scale::from_assembly(&component))
 }
 
 /// The source's hard program: its soft one without the twins of its unknowns, which stand last in columns and rows.

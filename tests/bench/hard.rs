@@ -41,7 +41,7 @@ fn main() {
             continue;
         }
         let scenes = [scene(&hard), scene(&easy)];
-        let analysis = Analysis::of(&scenes[0]);
+        let analysis = Analysis::new(&scenes[0]);
         let frame = &analysis.frames[0];
         let options = &Options::default().accuracy(Accuracy::Standard);
         let work = scenes.each_ref().map(|scene| {

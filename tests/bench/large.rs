@@ -48,20 +48,20 @@ fn a_read(bencher: Bencher, case: Case) {
 #[divan::bench(args = cases(), sample_count = 5, sample_size = 1)]
 fn b_find_contacts(bencher: Bencher, case: Case) {
     let scene = scene(case);
-    bencher.bench_local(|| Interfaces::of(black_box(&scene)));
+    bencher.bench_local(|| Interfaces::new(black_box(&scene)));
 }
 
 #[divan::bench(args = cases(), sample_count = 5, sample_size = 1)]
 fn c_assemble(bencher: Bencher, case: Case) {
     let scene = scene(case);
-    let found = Interfaces::of(&scene);
+    let found = Interfaces::new(&scene);
     bencher.bench_local(|| programs(&components(black_box(&scene), &found).1));
 }
 
 #[divan::bench(args = cases(), sample_count = 3, sample_size = 1)]
 fn d_solve(bencher: Bencher, case: Case) {
     let scene = scene(case);
-    let found = Interfaces::of(&scene);
+    let found = Interfaces::new(&scene);
     let programs = programs(&components(&scene, &found).1);
     bencher.bench_local(|| -> usize {
         let solved = programs.iter().map(|p| balance(p, Conditioning::Plain));
@@ -72,9 +72,9 @@ fn d_solve(bencher: Bencher, case: Case) {
 #[divan::bench(args = cases(), sample_count = 5, sample_size = 1)]
 fn e_prove(bencher: Bencher, case: Case) {
     let scene = scene(case);
-    let found = Interfaces::of(&scene);
+    let found = Interfaces::new(&scene);
     let (whole, _) = components(&scene, &found);
-    let forces = forces(&Analysis::of(&scene));
+    let forces = forces(&Analysis::new(&scene));
     assert!(proof::forces(&whole, &forces).holds());
     bencher.bench_local(|| proof::forces(black_box(&whole), &forces));
 }
@@ -82,13 +82,13 @@ fn e_prove(bencher: Bencher, case: Case) {
 #[divan::bench(args = cases(), sample_count = 3, sample_size = 1)]
 fn f_all_of_it(bencher: Bencher, case: Case) {
     let scene = scene(case);
-    bencher.bench_local(|| Analysis::of(black_box(&scene)).verdict());
+    bencher.bench_local(|| Analysis::new(black_box(&scene)).verdict());
 }
 
 #[divan::bench(args = cases(), sample_count = 3, sample_size = 1)]
 fn g_draw_as_svg(bencher: Bencher, case: Case) {
     let scene = scene(case);
-    let analysis = Analysis::of(&scene);
+    let analysis = Analysis::new(&scene);
     let options = figure::Options::default();
     bencher
         .bench_local(|| output::svg::write(&figure::forces(black_box(&analysis), &options)).len());
@@ -107,7 +107,7 @@ fn components(scene: &Scene, found: &Interfaces) -> (Assembly, Vec<Assembly>) {
 }
 
 fn programs(parts: &[Assembly]) -> Vec<Program> {
-    let of = |part: &Assembly| Program::of(part, Scale::of_assembly(part));
+    let of = |part: &Assembly| Program::new(part, Scale::from_assembly(part));
     parts.iter().map(of).collect()
 }
 

@@ -53,7 +53,7 @@ fn main() {
         };
         let alone = scratch(&|scene| verdicts(scene, &Options::default())[0]);
         println!("| {blocks} | from scratch, the verdict alone | {alone:.1} | |");
-        let whole = scratch(&|scene| Analysis::of(scene).verdict());
+        let whole = scratch(&|scene| Analysis::new(scene).verdict());
         println!("| {blocks} | from scratch, everything | {whole:.1} | |");
     }
 }
@@ -83,7 +83,7 @@ impl Steps {
 
 /// Lays a wall and does a few things to it.
 fn lay(blocks: usize, steps: &mut Steps) {
-    let mut session = Session::of(empty(blocks)).expect("sound");
+    let mut session = Session::new(empty(blocks)).expect("sound");
     for k in 0..blocks {
         let brick = brick(k, blocks);
         let verdict = steps.take("place a brick", &mut session, |s| {

@@ -117,12 +117,12 @@ fn program(file: &Value, degrees: f64) -> Program {
     let mut file = file.clone();
     file["gravity"] = json!([9.81 * sin, -9.81 * cos]);
     let scene = scene(&file);
-    let found = Interfaces::of(&scene);
+    let found = Interfaces::new(&scene);
     let frame = &scene.frames()[0];
     let (assembly, _) = assemble(&FrameContext {
         scene: &scene,
         frame,
         interfaces: &found.in_frame(&scene, frame),
     });
-    Program::of(&assembly, Scale::of_assembly(&assembly))
+    Program::new(&assembly, Scale::from_assembly(&assembly))
 }

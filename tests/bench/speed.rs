@@ -30,7 +30,7 @@ fn main() {
 #[divan::bench(args = WALLS)]
 fn check(bencher: Bencher, blocks: usize) {
     let scene = wall(blocks);
-    bencher.bench_local(|| Analysis::of(black_box(&scene)));
+    bencher.bench_local(|| Analysis::new(black_box(&scene)));
 }
 
 #[divan::bench(args = WALLS)]
@@ -61,7 +61,7 @@ fn read_and_check_a_file(bencher: Bencher, blocks: usize) {
 #[divan::bench]
 fn figure_4_as_svg(bencher: Bencher) {
     let scene = Scene::from_json(FIGURE_4).expect("sound");
-    let analysis = Analysis::of(&scene);
+    let analysis = Analysis::new(&scene);
     bencher.bench_local(|| {
         output::svg::write(&figure::forces(
             black_box(&analysis),
@@ -74,7 +74,7 @@ fn figure_4_as_svg(bencher: Bencher) {
 fn figure_4_from_json_to_png(bencher: Bencher) {
     bencher.bench_local(|| {
         let scene = Scene::from_json(black_box(FIGURE_4)).expect("sound");
-        let drawing = figure::forces(&Analysis::of(&scene), &figure::Options::default());
+        let drawing = figure::forces(&Analysis::new(&scene), &figure::Options::default());
         output::png::render(&output::svg::write(&drawing), output::png::Size::Scale(2.0))
     });
 }
@@ -99,7 +99,7 @@ fn figure_4_as_a_process(bencher: Bencher) {
 
 /// The whole wall hangs together, so it is one component and one program.
 fn program(scene: &Scene) -> Program {
-    let found = Interfaces::of(scene);
+    let found = Interfaces::new(scene);
     let frame = &scene.frames()[0];
     let interfaces = found.in_frame(scene, frame);
     let (assembly, _) = assemble(&FrameContext {
@@ -109,7 +109,7 @@ fn program(scene: &Scene) -> Program {
     });
     let components = assembly.split();
     assert_eq!(components.len(), 1, "a wall is one component");
-    Program::of(&components[0], Scale::of_assembly(&components[0]))
+    Program::new(&components[0], Scale::from_assembly(&components[0]))
 }
 
 fn wall(blocks: usize) -> Scene {

@@ -49,7 +49,7 @@ fn scenes() -> Vec<(String, Value)> {
 }
 
 fn assembly_of(scene: &Scene, frame: &Frame) -> (Assembly, Vec<ContactKind>) {
-    let found = Interfaces::of(scene);
+    let found = Interfaces::new(scene);
     let interfaces = found.in_frame(scene, frame);
     let situation = FrameContext {
         scene,
@@ -214,7 +214,7 @@ fn contacts_lie_where_sampled_points_say_that_two_bodies_touch() {
 fn components_hold_every_body_contact_and_grip_once_and_effects_count_what_is_posed() {
     for (name, file) in scenes() {
         let scene = crate::structure::scene(&file);
-        let analysis = Analysis::of(&scene);
+        let analysis = Analysis::new(&scene);
         for (frame, result) in scene.frames().iter().zip(&analysis.frames) {
             let (assembly, _) = assembly_of(&scene, frame);
             let parts = assembly.split();
@@ -228,10 +228,10 @@ fn components_hold_every_body_contact_and_grip_once_and_effects_count_what_is_po
             assert_eq!(count(|p| p.grips.len()), assembly.grips.len(), "{name}");
             let mut posed = 0;
             for part in &parts {
-                let program = Program::of(part, Scale::of_assembly(part));
+                let program = Program::new(part, Scale::from_assembly(part));
                 let all = columns(&program);
                 posed += all.len();
-                let count = Count::of(&program, &all);
+                let count = Count::new(&program, &all);
                 assert_eq!(
                     count.contact
                         + count.friction
@@ -261,7 +261,7 @@ fn an_effect_that_is_not_called_for_leaves_no_trace_in_the_assembly() {
     assert!(assembly.contacts.iter().all(|c| c.friction == 0.0));
     assert!(assembly.contacts.iter().all(|c| c.points == c.ends));
     assert!(assembly.grips.is_empty());
-    let program = Program::of(&assembly, Scale::of_assembly(&assembly));
+    let program = Program::new(&assembly, Scale::from_assembly(&assembly));
     assert_eq!(columns(&program).len(), 2 * assembly.contacts.len());
 }
 
@@ -310,7 +310,7 @@ fn a_frame_is_answered_as_the_scene_of_what_stands_then() {
     for seed in 1..40 {
         let file = sequence(seed);
         let scene = crate::structure::scene(&file);
-        let whole = Analysis::of(&scene);
+        let whole = Analysis::new(&scene);
         for (frame, result) in scene.frames().iter().zip(&whole.frames) {
             // The same as a file of its own: only what stands, held as it is held then.
             let mut alone = file.clone();
@@ -363,12 +363,12 @@ fn a_program_counts_lengths_in_l_and_forces_in_parts_of_the_heaviest_load() {
         "robots": [{ "id": "r", "holds": "a", "at": [0, 3], "limits": { "fx": 20, "fy": 50, "torque": 64 } }] });
     let scene = Scene::from_json(&file.to_string()).expect("a sound scene");
     let (assembly, _) = assembly_of(&scene, &scene.frames()[0]);
-    let scale = Scale::of_assembly(&assembly);
+    let scale = Scale::from_assembly(&assembly);
     assert_eq!((scale.length, scale.moment()), (4.0, 4.0 * scale.force));
     // The load and the weight together pull a little more than the weight alone.
     let heaviest = libm::hypot(600.0, 10.0);
     assert!((scale.force * Scale::HEAVIEST - heaviest).abs() < 1e-9);
-    let program = Program::of(&assembly, scale);
+    let program = Program::new(&assembly, scale);
     // 10 N, 1.5 m above the centroid, turn by −15 N·m.
     let loads = [-10.0, 600.0, (15.0 - 3.0) / 4.0].map(|v| v / scale.force);
     for (found, expected) in program.loads.iter().zip(loads) {
@@ -386,5 +386,5 @@ fn a_program_counts_lengths_in_l_and_forces_in_parts_of_the_heaviest_load() {
     assert!((limits[1] * scale.force - 50.0).abs() < 1e-9);
     assert!((limits[2] * scale.moment() - 64.0).abs() < 1e-9);
     // Without loads a unit is a three hundredth of a newton.
-    assert_eq!(Scale::of(2.0, 0.0).force, 1.0 / 300.0);
+    assert_eq!(Scale::new(2.0, 0.0).force, 1.0 / 300.0);
 }

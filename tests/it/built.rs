@@ -112,7 +112,7 @@ fn every_key_has_a_method_of_its_name() {
         .silence(NoteCode::FrictionHigh);
     let file: SceneFile = serde_json::from_value(read.clone()).expect("it fits");
     assert_eq!(made, file);
-    let same = |scene: &Scene| format!("{:?}", Analysis::of(scene).frames[2].contacts);
+    let same = |scene: &Scene| format!("{:?}", Analysis::new(scene).frames[2].contacts);
     let (built, read) = (
         made.build().expect("sound"),
         Scene::from_json(&read.to_string()).expect("sound"),

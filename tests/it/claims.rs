@@ -97,7 +97,7 @@ fn structures() -> Vec<Told> {
 fn captions_say_what_the_result_says() {
     for told in structures() {
         let scene = scene(&told.file);
-        let analysis = Analysis::of(&scene);
+        let analysis = Analysis::new(&scene);
         let caption = figure::caption(&analysis);
         let frame = &analysis.frames[0];
         let (word, others) = match frame.verdict {

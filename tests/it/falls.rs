@@ -68,7 +68,7 @@ fn amount(failure: &Failure) -> f64 {
 
 fn named(file: Value, degrees: f64) {
     let scene = scene(&turned(file, degrees));
-    let frame = Analysis::of(&scene).frames.remove(0);
+    let frame = Analysis::new(&scene).frames.remove(0);
     assert_eq!(frame.verdict, Verdict::Unstable, "{degrees}°");
     assert!(
         !frame.failures.is_empty(),
@@ -110,7 +110,7 @@ fn an_arch_of_a_thousand_is_carried_the_same_way_from_either_end() {
     let before = scene(&file);
     file["blocks"].as_array_mut().unwrap().reverse();
     let after = scene(&file);
-    let [before, after] = [&before, &after].map(|scene| Analysis::of(scene).frames.remove(0));
+    let [before, after] = [&before, &after].map(|scene| Analysis::new(scene).frames.remove(0));
     assert_eq!(before.verdict, Verdict::Stable);
     assert!((before.total_force - after.total_force).abs() < 1e-7 * before.total_force);
     let worst = |frame: &FrameAnalysis| {
@@ -135,7 +135,7 @@ fn the_verdict_alone_is_proved_and_says_what_it_leaves_out() {
     for (file, degrees, verdict) in files {
         let scene = scene(&turned(file, degrees));
         let frame = Analysis::with(&scene, &asked).frames.remove(0);
-        let whole = Analysis::of(&scene).frames.remove(0);
+        let whole = Analysis::new(&scene).frames.remove(0);
         assert_eq!(
             (frame.verdict, whole.verdict),
             (verdict, verdict),
@@ -252,14 +252,14 @@ fn what_a_stack_of_ten_thousand_lacks_is_what_the_balance_above_each_joint_says(
 
 /// The program of a structure that hangs together.
 fn program(scene: &Scene) -> Program {
-    let found = Interfaces::of(scene);
+    let found = Interfaces::new(scene);
     let frame = &scene.frames()[0];
     let (assembly, _) = assemble(&FrameContext {
         scene,
         frame,
         interfaces: &found.in_frame(scene, frame),
     });
-    Program::of(&assembly, Scale::of_assembly(&assembly))
+    Program::new(&assembly, Scale::from_assembly(&assembly))
 }
 
 /// Plain conditioning of so many blocks means the normal equations, full conditioning clarabel.
@@ -318,12 +318,12 @@ fn what_a_wall_lacks_just_past_its_edge_is_the_least_that_could_hold_it() {
     let file = wall(16, 16);
     let options = Options::default()
         .margins(true)
-        .margin_kinds(MarginKinds::of(&[MarginKind::Tilt]));
+        .margin_kinds(MarginKinds::new(&[MarginKind::Tilt]));
     let upright = Analysis::with(scene(&file), &options).frames.remove(0);
     let tilt = upright.margins.expect("asked for").tilt;
     let edge = tilt.right.at().expect("it falls");
     let scene = scene(&turned(file, edge + 1e-4));
-    let frame = Analysis::of(&scene).frames.remove(0);
+    let frame = Analysis::new(&scene).frames.remove(0);
     assert_eq!(frame.verdict, Verdict::Unstable);
 
     let program = program(&scene);

@@ -84,7 +84,7 @@ fn balances(name: &str, analysis: &Analysis, frame: usize, id: BlockId) -> usize
 fn the_forces_and_moments_of_every_block_add_up_to_nothing_as_printed() {
     let mut listed = 0;
     for (name, scene) in gallery().into_iter().chain(brought()) {
-        let analysis = Analysis::of(&scene);
+        let analysis = Analysis::new(&scene);
         for frame in 0..analysis.frames.len() {
             // A wall has many blocks like each other.
             for id in scene.frames()[frame].placed.iter().take(24) {
@@ -100,7 +100,7 @@ fn loads_what_is_missing_and_the_step_are_told() {
     let loaded = crate::pictures::scene("tests/scenes/loaded.json");
     let beam = BlockId(2);
     let options = Options::default();
-    let drawing = figure::freebody(&Analysis::of(&loaded), 0, beam, &options).expect("placed");
+    let drawing = figure::freebody(&Analysis::new(&loaded), 0, beam, &options).expect("placed");
     let told = &drawing.description;
     assert!(
         told.contains("Load Q_1 on block beam: 4 kN at 270°"),
@@ -108,14 +108,15 @@ fn loads_what_is_missing_and_the_step_are_told() {
     );
     assert!(told.contains("Q_2 = 0.800 kN: (0.800; 0.000) kN"), "{told}");
     let slide = crate::pictures::scene("tests/scenes/slide.json");
-    let drawing = figure::freebody(&Analysis::of(&slide), 0, BlockId(0), &options).expect("placed");
+    let drawing =
+        figure::freebody(&Analysis::new(&slide), 0, BlockId(0), &options).expect("placed");
     assert!(
         drawing.description.contains("missing, ground"),
         "{}",
         drawing.description
     );
     let steps = crate::pictures::scene("assets/thesis/figure-4.json");
-    let analysis = Analysis::of(&steps);
+    let analysis = Analysis::new(&steps);
     let drawing = figure::freebody(&analysis, 1, BlockId(0), &options).expect("placed");
     let svg = drystone::output::svg::write(&drawing);
     assert!(svg.contains("step (b) of 6"), "{svg}");
@@ -127,7 +128,7 @@ fn every_name_of_a_free_body_is_legible() {
     let column = Options::default().width(COLUMN);
     let corners = Options::default().corners(figure::Corners::All);
     for (name, scene) in gallery().into_iter().chain(brought()) {
-        let analysis = Analysis::of(&scene);
+        let analysis = Analysis::new(&scene);
         for (frame, found) in scene.frames().iter().enumerate().take(3) {
             for block in &found.placed {
                 for options in [&Options::default(), &column, &corners] {
@@ -165,7 +166,7 @@ fn every_name_of_a_free_body_is_legible() {
 #[test]
 fn the_free_body_of_the_slope_names_and_tells_every_force() {
     let scene = scene("assets/thesis/figure-1.json");
-    let analysis = Analysis::of(&scene);
+    let analysis = Analysis::new(&scene);
     let all = Options::default().corners(figure::Corners::All);
     let drawing = figure::freebody(&analysis, 0, BlockId(0), &all).expect("placed");
     for name in ["F_s1", "F_fl1", "F_fr1", "F_s2", "F_fl2", "F_fr2"] {

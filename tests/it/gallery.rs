@@ -160,7 +160,7 @@ fn point(value: &Value) -> Point {
 fn forces_are_those_of_the_source() {
     for (name, panel) in panels() {
         let scene = scene(&panel);
-        let analysis = Analysis::of(&scene);
+        let analysis = Analysis::new(&scene);
         let found = &analysis.frames[panel["frame"].as_u64().expect("a frame") as usize];
         let expected = &panel["expected"];
         let verdict = if expected["verdict"] == "stable" {

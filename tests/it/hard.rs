@@ -289,7 +289,7 @@ fn what_is_not_called_for_is_not_simulated() {
         { "place": ["0", "1"] }, { "place": ["2", "3", "4"] }, { "remove": ["2", "3", "4"] }
     ]);
     let scene = scene(&file);
-    let analysis = Analysis::of(&scene);
+    let analysis = Analysis::new(&scene);
     let effect = |name: &str| {
         analysis.frames[1]
             .effects
@@ -337,7 +337,7 @@ fn non_binding_limits_change_nothing() {
     let mut file: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
     let totals = |file: &Value| {
         let scene = scene(file);
-        let frames = Analysis::of(&scene).frames;
+        let frames = Analysis::new(&scene).frames;
         frames
             .iter()
             .map(|f| (f.verdict, f.total_force, f.total_sticking))

@@ -349,7 +349,7 @@ fn every_frame_of_the_thesis_keeps_its_verdict() {
     let mut count = 0;
     for path in paths {
         let scene = Scene::from_json(&std::fs::read_to_string(&path).unwrap()).unwrap();
-        let meant = Analysis::of(&scene);
+        let meant = Analysis::new(&scene);
         for (number, (frame, meant)) in scene.frames().iter().zip(&meant.frames).enumerate() {
             // Its centre of gravity lies exactly above a corner: rounding moves it to either side.
             if path.ends_with("figure-6-kernel-0.json") && number == 0 {

@@ -38,13 +38,13 @@ fn remarks(imported: &Imported) -> Vec<(&str, &str)> {
 
 fn verdict(file: &SceneFile) -> Verdict {
     let scene = Scene::from_json(&file.to_json()).expect("an imported scene is sound");
-    Analysis::of(&scene).frames[0].verdict
+    Analysis::new(&scene).frames[0].verdict
 }
 
 /// Pairs of bodies with an interface.
 fn touching(file: &SceneFile) -> usize {
     let scene = Scene::from_json(&file.to_json()).expect("sound");
-    let analysis = Analysis::of(&scene);
+    let analysis = Analysis::new(&scene);
     let mut pairs: Vec<_> = analysis.frames[0]
         .contacts
         .iter()
@@ -167,7 +167,7 @@ fn our_own_figures_read_back_give_the_same_verdicts() {
         let path = entry.expect("readable").path();
         let text = fs::read_to_string(&path).expect("a scene");
         let scene = Scene::from_json(&text).expect("sound");
-        let analysis = Analysis::of(&scene);
+        let analysis = Analysis::new(&scene);
         let svg = output::svg::write(&figure::forces(&analysis, &figure::Options::default()));
         let json: Value = serde_json::from_str(&text).expect("JSON");
         let limits: Vec<Option<LimitsEntry>> = json["robots"]
@@ -218,7 +218,7 @@ fn our_own_figures_read_back_give_the_same_verdicts() {
                 let off = (block.body.polygon.centroid() - drawn.centroid()).norm();
                 assert!(off < 1e-3, "{told}: {} is off by {off} m", block.id);
             }
-            let again = Analysis::of(&read);
+            let again = Analysis::new(&read);
             assert_eq!(again.frames[0].verdict, found.verdict, "{told}");
             assert_eq!(
                 again.frames[0].contacts.len(),
@@ -298,7 +298,7 @@ fn a_figure_of_very_many_blocks_is_read_back_too() {
     }
     let scene = crate::structure::scene(&crate::structure::on_floor(0.7, blocks));
     let svg = output::svg::write(&figure::forces(
-        &Analysis::of(&scene),
+        &Analysis::new(&scene),
         &figure::Options::default(),
     ));
     let imported = import(&svg, Format::Svg, &Options::default()).expect("a scene");

@@ -10,7 +10,7 @@ use crate::pictures::scene;
 #[test]
 fn a_load_tells_its_amount_and_a_key_what_it_is() {
     let scene = scene("tests/scenes/loaded.json");
-    let drawing = figure::forces(&Analysis::of(&scene), &Options::default());
+    let drawing = figure::forces(&Analysis::new(&scene), &Options::default());
     let amounts: Vec<String> = classes(&drawing.items, &["amount"])
         .into_iter()
         .flat_map(texts)
@@ -32,7 +32,7 @@ fn a_load_tells_its_amount_and_a_key_what_it_is() {
 #[test]
 fn robots_beyond_the_key_are_counted_in_it() {
     let scene = scene("tests/scenes/robots10.json");
-    let drawing = figure::forces(&Analysis::of(&scene), &Options::default());
+    let drawing = figure::forces(&Analysis::new(&scene), &Options::default());
     let key: Vec<Text> = classes(&drawing.items, &["key"])
         .into_iter()
         .flat_map(texts)
@@ -49,7 +49,7 @@ fn thirty_steps_fit_on_a_page_and_figure_4_in_a_column() {
         let scene = scene(path);
         let mut options = Options::default();
         options.width = width;
-        figure::forces(&Analysis::of(&scene), &options)
+        figure::forces(&Analysis::new(&scene), &options)
     };
     let steps = drawn("tests/scenes/steps30.json", None);
     assert!(
@@ -66,7 +66,7 @@ fn thirty_steps_fit_on_a_page_and_figure_4_in_a_column() {
 #[test]
 fn switches_leave_out_what_they_name_and_nothing_else() {
     let scene = scene("tests/scenes/lintel.json");
-    let analysis = Analysis::of(&scene);
+    let analysis = Analysis::new(&scene);
     let said = |options: &Options| {
         let drawing = figure::forces(&analysis, options);
         let page = Group {

@@ -27,7 +27,7 @@ fn draw(analysis: &Analysis, kind: Kind) -> Drawing {
 }
 
 /// Every group of a class.
-fn of_class<'a>(items: &'a [Item], class: &str, found: &mut Vec<&'a Group>) {
+fn with_class<'a>(items: &'a [Item], class: &str, found: &mut Vec<&'a Group>) {
     for item in items {
         if let Item::Group(group) = item {
             if group.class == class {
@@ -76,7 +76,7 @@ fn nothing_of_any_kind_lies_beyond_the_page() {
         "study/feather-falls.json",
     ] {
         let scene = scene(name);
-        let analysis = Analysis::of(&scene);
+        let analysis = Analysis::new(&scene);
         for kind in KINDS {
             let drawing = draw(&analysis, kind);
             outlines(&drawing.items, &mut |outline| {
@@ -93,7 +93,7 @@ fn nothing_of_any_kind_lies_beyond_the_page() {
 #[test]
 fn what_stands_has_no_mechanism_and_what_falls_shows_every_block_that_moves() {
     let scene = scene("thesis/figure-4.json");
-    let analysis = Analysis::of(&scene);
+    let analysis = Analysis::new(&scene);
     let drawing = draw(&analysis, Kind::Mechanism);
     let frames = all(&drawing, "frame");
     for (found, frame) in analysis.frames.iter().zip(frames) {
@@ -107,7 +107,7 @@ fn what_stands_has_no_mechanism_and_what_falls_shows_every_block_that_moves() {
     assert!(svg.contains("there is no mechanism"));
     assert!(svg.contains("turns about a hinge on block"), "{svg}");
     let held = self::scene("thesis/figure-9b.json");
-    let svg = svg::write(&draw(&Analysis::of(&held), Kind::Mechanism));
+    let svg = svg::write(&draw(&Analysis::new(&held), Kind::Mechanism));
     assert!(svg.contains("about the grip of robot"), "{svg}");
 }
 
@@ -119,7 +119,7 @@ fn a_safe_stretch_is_as_long_as_the_kernel_leaves_it() {
         ("thesis/figure-6-kernel-05.json", 0.5),
     ] {
         let scene = scene(name);
-        let drawing = draw(&Analysis::of(&scene), Kind::Kernel);
+        let drawing = draw(&Analysis::new(&scene), Kind::Kernel);
         let interfaces = all(&drawing, "interface");
         assert!(interfaces.len() >= 2, "{name}");
         for interface in interfaces {
@@ -149,7 +149,7 @@ fn a_kernel_of_one_leaves_a_point() {
         "ground": [{ "polygon": structure::rectangle(-5.0, -1.0, 10.0, 1.0) }],
         "blocks": [structure::block("a", structure::rectangle(0.0, 0.0, 2.0, 1.0), 6.0)] });
     let scene = structure::scene(&file);
-    let svg = svg::write(&draw(&Analysis::of(&scene), Kind::Kernel));
+    let svg = svg::write(&draw(&Analysis::new(&scene), Kind::Kernel));
     assert!(svg.contains("every safe stretch is a point"), "{svg}");
     assert!(
         svg.contains("Between a and the ground: 0 m of 2 m safe"),
@@ -166,7 +166,7 @@ fn marks_of_all_friction_stand_exactly_where_all_of_it_is_used() {
         "study/slope-exact.json",
     ] {
         let scene = scene(name);
-        let analysis = Analysis::of(&scene);
+        let analysis = Analysis::new(&scene);
         let drawing = draw(&analysis, Kind::Utilisation);
         // A rim, a line, and a bar across where all friction is used.
         let bars = all(&drawing, "interface")
@@ -203,7 +203,7 @@ fn a_thousand_blocks_and_more_are_few_paths() {
         .collect();
     let file = json!({ "drystone": 1, "friction": 0.7, "ground": ground, "blocks": blocks });
     let scene = structure::scene(&file);
-    let analysis = Analysis::of(&scene);
+    let analysis = Analysis::new(&scene);
     for kind in KINDS {
         let svg = svg::write(&draw(&analysis, kind));
         // The bar of colours in a key alone is more than a hundred.
@@ -217,7 +217,7 @@ fn the_same_scene_gives_the_same_bytes_whatever_the_kind() {
     for kind in KINDS {
         let text = || {
             let scene = scene("thesis/figure-4.json");
-            svg::write(&draw(&Analysis::of(&scene), kind))
+            svg::write(&draw(&Analysis::new(&scene), kind))
         };
         assert_eq!(text(), text(), "{kind:?}");
     }
@@ -235,7 +235,7 @@ fn what_changed_from_frame_to_frame_is_marked_and_what_did_not_is_not() {
     let file = json!({ "drystone": 1, "friction": 0.7, "ground": ground, "blocks": blocks,
         "steps": [{ "place": ["low", "aside"] }, { "place": ["high"] }, { "remove": ["high"] }] });
     let scene = structure::scene(&file);
-    let drawing = draw(&Analysis::of(&scene), Kind::Compare);
+    let drawing = draw(&Analysis::new(&scene), Kind::Compare);
     let frames = all(&drawing, "frame");
     let count = |frame: usize, class: &str| {
         let mut found = Vec::new();

@@ -57,7 +57,7 @@ pub(crate) fn texts(group: &Group) -> Vec<Text> {
 }
 
 /// Every group of a class, with those inside others.
-fn of_class<'d>(items: &'d [Item], class: &str, found: &mut Vec<&'d Group>) {
+fn with_class<'d>(items: &'d [Item], class: &str, found: &mut Vec<&'d Group>) {
     for item in items {
         if let Item::Group(group) = item {
             if group.class == class {
@@ -163,7 +163,7 @@ fn names_and_amounts_lie_on_nothing_in_the_whole_gallery() {
     for amounts in [false, true] {
         let options = Options::default().amounts(amounts);
         for (name, scene) in gallery() {
-            let drawing = figure::forces(&Analysis::of(&scene), &options);
+            let drawing = figure::forces(&Analysis::new(&scene), &options);
             for items in panels(&drawing) {
                 let (labels, complaints) = hidden(
                     items,
@@ -236,7 +236,7 @@ fn on_a_page_as_wide_as_a_column_words_stay_large_and_nothing_is_cut() {
     let options = Options::default().width(COLUMN);
     let mut drawings = Vec::new();
     for (name, scene) in gallery() {
-        let analysis = Analysis::of(&scene);
+        let analysis = Analysis::new(&scene);
         for kind in figure::Kind::ALL {
             drawings.push((
                 format!("{name} {}", kind.name()),
@@ -326,7 +326,7 @@ fn names(text: &str, name: &str) -> bool {
 fn what_the_words_below_a_frame_name_is_labelled_and_what_is_not_is_counted() {
     let (mut named, mut counted) = (0, 0);
     for (name, scene) in gallery().into_iter().chain(brought()) {
-        let analysis = Analysis::of(&scene);
+        let analysis = Analysis::new(&scene);
         for width in [None, Some(COLUMN), Some(TWO_COLUMNS)] {
             let mut options = Options::default();
             options.width = width;
@@ -388,7 +388,7 @@ fn around_a_block_its_neighbours_are_drawn_and_named() {
         .position(|b| b.id == "pebble")
         .expect("there is one");
     let options = Options::default().zoom(BlockId(pebble));
-    let drawing = figure::forces(&Analysis::of(&scene), &options);
+    let drawing = figure::forces(&Analysis::new(&scene), &options);
     let picture = classes(&drawing.items, &["picture"])[0];
     assert!(picture.clip.is_some());
     let labels: Vec<String> = classes(&drawing.items, &["name"])
@@ -413,7 +413,7 @@ fn around_a_block_its_neighbours_are_drawn_and_named() {
 #[test]
 fn a_hidden_label_is_found() {
     let scene = scene("assets/thesis/figure-4.json");
-    let drawing = figure::forces(&Analysis::of(&scene), &Options::default());
+    let drawing = figure::forces(&Analysis::new(&scene), &Options::default());
     let mut items = panels(&drawing)[0].to_vec();
     let weight = classes(&items, &["force"])[0];
     let at = pieces(weight)[0][0];
@@ -425,7 +425,7 @@ fn a_hidden_label_is_found() {
         drystone::drawing::Colour::BLACK,
     )
     .anchored(Anchor::Middle);
-    items.push(Group::of_class("name").with(words).into());
+    items.push(Group::with_class("name").with(words).into());
     let (_, complaints) = hidden(&items, &["name"], &["force"]);
     assert!(
         complaints.iter().any(|c| c.starts_with("hidden lies on")),

@@ -12,7 +12,11 @@ use crate::pictures::{gallery, scene};
 const NAMES: [&str; 3] = ["name", "robot-name", "amount"];
 
 fn drawn(scene: &Scene, kind: Kind, width: f64) -> Drawing {
-    figure::draw(&Analysis::of(scene), kind, &Options::default().width(width))
+    figure::draw(
+        &Analysis::new(scene),
+        kind,
+        &Options::default().width(width),
+    )
 }
 
 /// The boxes of a label's lines.
@@ -169,7 +173,7 @@ fn a_name_of_several_words_stands_in_lines_where_one_has_no_room() {
 /// Names stood off the lines of ground that the picture has cut away.
 #[test]
 fn both_names_of_level_points_stand_at_the_edge_of_the_picture() {
-    let found = Analysis::of(scene("tests/scenes/one.json"));
+    let found = Analysis::new(scene("tests/scenes/one.json"));
     for width in [COLUMN, 658.0] {
         let drawing = figure::freebody(&found, 0, BlockId(0), &Options::default().width(width));
         let drawing = drawing.expect("placed");
@@ -193,7 +197,7 @@ fn the_list_of_a_free_body_breaks_long_names_and_cuts_none() {
              "blocks": [{{ "id": "{name}", "polygon": [[0,0],[3,0],[3,1],[0,1]] }},
                         {{ "id": "b", "polygon": [[0,1],[3,1],[3,2],[0,2]] }}] }}"#
     );
-    let found = Analysis::of(Scene::from_json(&text).expect("sound"));
+    let found = Analysis::new(Scene::from_json(&text).expect("sound"));
     let drawing = figure::freebody(&found, 0, BlockId(1), &Options::default().width(COLUMN));
     let drawing = drawing.expect("placed");
     let list = classes(&drawing.items, &["list"]);

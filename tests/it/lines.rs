@@ -23,7 +23,7 @@ pub(crate) fn brought() -> Vec<(String, Scene)> {
     names.into_iter().map(read).collect()
 }
 
-fn of_class<'d>(items: &'d [Item], class: &str, found: &mut Vec<&'d Group>) {
+fn with_class<'d>(items: &'d [Item], class: &str, found: &mut Vec<&'d Group>) {
     for item in items {
         if let Item::Group(group) = item {
             if group.class == class {
@@ -126,7 +126,7 @@ fn lines([pressing, loads]: &[Vec<Acting>; 2]) -> Vec<Acting> {
 fn every_piece_of_a_line_of_thrust_lies_on_a_true_line_of_action() {
     let (mut checked, mut scenes) = (0, 0);
     for (name, scene) in gallery().into_iter().chain(brought()) {
-        let analysis = Analysis::of(&scene);
+        let analysis = Analysis::new(&scene);
         let drawing = figure::draw(&analysis, Kind::Thrust, &Options::default());
         for (found, frame) in analysis.frames.iter().zip(all(&drawing.items, "frame")) {
             let picture = all(&frame.items, "picture")[0];
@@ -175,7 +175,7 @@ fn on_a_line(name: &str, scene: &Scene, found: &FrameAnalysis, drawn: &Group, ca
 #[test]
 fn a_loaded_beam_has_no_line_along_its_soffit_and_shows_its_loads() {
     let scene = scene("tests/scenes/loaded.json");
-    let analysis = Analysis::of(&scene);
+    let analysis = Analysis::new(&scene);
     let drawing = figure::draw(&analysis, Kind::Thrust, &Options::default());
     let thrust = all(&drawing.items, "thrust");
     for force in all(&thrust[0].items, "force") {
@@ -249,7 +249,7 @@ fn from_tail_to_tip_every_arrow_is_as_long_as_its_force_and_so_is_the_scale() {
         Options::default().width(396.0),
     ];
     for (name, scene) in gallery().into_iter().chain(brought()) {
-        let analysis = Analysis::of(&scene);
+        let analysis = Analysis::new(&scene);
         for (options, kind) in options
             .iter()
             .flat_map(|o| [(o, Kind::Forces), (o, Kind::Thrust)])
@@ -306,7 +306,7 @@ fn all_text(group: &Group) -> Vec<&str> {
 #[test]
 fn what_is_too_small_to_be_drawn_is_counted() {
     for (name, scene) in gallery().into_iter().chain(brought()) {
-        let analysis = Analysis::of(&scene);
+        let analysis = Analysis::new(&scene);
         let options = Options::default();
         let drawing = figure::forces(&analysis, &options);
         let page = Group {
@@ -349,7 +349,7 @@ fn what_is_too_small_to_be_drawn_is_counted() {
 fn a_force_polygon_is_closed_where_the_structure_stands_and_tip_to_tail() {
     let (mut closed, mut joined) = (0, 0);
     for (name, scene) in gallery().into_iter().chain(brought()) {
-        let analysis = Analysis::of(&scene);
+        let analysis = Analysis::new(&scene);
         let drawing = figure::draw(&analysis, Kind::Polygon, &Options::default());
         for (found, frame) in analysis.frames.iter().zip(all(&drawing.items, "frame")) {
             let Some(polygon) = all(&frame.items, "polygon").first().copied() else {

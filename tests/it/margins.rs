@@ -256,7 +256,7 @@ fn margins_are_an_effect_on_request() {
         let effect = effect.expect("every effect is told");
         (effect.simulated, effect.why.clone())
     };
-    let plain = Analysis::of(&scene).frames.remove(0);
+    let plain = Analysis::new(&scene).frames.remove(0);
     assert_eq!(told(&plain), (false, "not asked for".to_string()));
     assert_eq!(plain.margins, None);
     let asked = frames(&scene).remove(0);
@@ -324,7 +324,7 @@ fn just_inside_it_stands_and_just_beyond_it_falls() {
                 };
                 for (share, inside) in [(1.0 - 1e-4, more_is_worse), (1.0 + 1e-4, !more_is_worse)] {
                     let scene = scene(&change(at * share));
-                    let verdict = Analysis::of(&scene).frames[number].verdict;
+                    let verdict = Analysis::new(&scene).frames[number].verdict;
                     let expected = if inside {
                         Verdict::Stable
                     } else {
@@ -391,7 +391,7 @@ fn a_margin_alone_is_what_it_is_among_all() {
     let all = frames(&file).remove(0);
     let asked = Options::default()
         .margins(true)
-        .margin_kinds(MarginKinds::of(&[MarginKind::Friction]));
+        .margin_kinds(MarginKinds::new(&[MarginKind::Friction]));
     let alone = Analysis::with(&file, &asked).frames.remove(0);
     assert!(judged(&alone) < judged(&all));
     let (all, alone) = (

@@ -48,7 +48,7 @@ fn power_and_closing(scene: &Scene, found: &FrameAnalysis, motions: &[Motion]) -
 fn elementary_mechanisms_do_work_and_close_no_contact() {
     let mut falling = 0;
     for (name, scene) in crate::pictures::gallery().into_iter().chain(brought()) {
-        let analysis = Analysis::of(&scene);
+        let analysis = Analysis::new(&scene);
         let elementary = analysis.elementary();
         for (found, drawn) in analysis.frames.iter().zip(&elementary.frames) {
             if found.verdict != Verdict::Unstable {
@@ -68,7 +68,7 @@ fn elementary_mechanisms_do_work_and_close_no_contact() {
 fn a_thin_arch_falls_on_four_hinges() {
     for name in ["arch13thin", "archri4.55"] {
         let scene = scene(&format!("tests/scenes/{name}.json"));
-        let drawing = figure::draw(&Analysis::of(&scene), Kind::Mechanism, &Options::default());
+        let drawing = figure::draw(&Analysis::new(&scene), Kind::Mechanism, &Options::default());
         let hinges = all(&drawing.items, "hinge").len();
         assert_eq!(hinges, 4, "{name}");
     }
@@ -91,7 +91,7 @@ fn polygon(group: &Group, camera: &Camera) -> Polygon {
 fn nobody_passes_through_another_at_the_amplitude_drawn() {
     let mut compared = 0;
     for (name, scene) in brought() {
-        let analysis = Analysis::of(&scene);
+        let analysis = Analysis::new(&scene);
         if analysis.frames[0].verdict != Verdict::Unstable || scene.kernel() > 0.0 {
             continue;
         }
@@ -106,7 +106,7 @@ fn nobody_passes_through_another_at_the_amplitude_drawn() {
         bodies.extend(scene.ground().iter().map(|g| g.body.polygon.clone()));
         for (i, a) in bodies.iter().enumerate() {
             for b in &bodies[..i] {
-                let shared = overlap(&Pieces::of(a), &Pieces::of(b), 0.0).map_or(0.0, |o| o.area);
+                let shared = overlap(&Pieces::new(a), &Pieces::new(b), 0.0).map_or(0.0, |o| o.area);
                 let share = shared / a.area().min(b.area());
                 assert!(share < 0.012, "{name}: {share} of the smaller");
                 compared += 1;
@@ -119,7 +119,7 @@ fn nobody_passes_through_another_at_the_amplitude_drawn() {
 #[test]
 fn what_slides_stays_on_its_joint() {
     let scene = scene("tests/scenes/slide.json");
-    let drawing = figure::draw(&Analysis::of(&scene), Kind::Mechanism, &Options::default());
+    let drawing = figure::draw(&Analysis::new(&scene), Kind::Mechanism, &Options::default());
     let picture = all(&drawing.items, "picture")[0];
     let camera = picture.camera.expect("it shows the scene");
     let moved = polygon(all(&picture.items, "displaced")[0], &camera);
@@ -139,7 +139,7 @@ fn what_slides_stays_on_its_joint() {
 #[test]
 fn an_animated_mechanism_moves_and_its_pages_are_alike() {
     let scene = scene("tests/scenes/arch13thin.json");
-    let analysis = Analysis::of(&scene);
+    let analysis = Analysis::new(&scene);
     let pages = figure::pages(&analysis, Kind::Mechanism, &Options::default());
     assert!(pages.len() >= 10);
     let first = |n: usize| {
@@ -182,6 +182,6 @@ fn a_margin_shows_the_structure_and_the_ghost_of_its_fall() {
         "{svg}"
     );
     // Without margins there is nothing to show, and that is said.
-    let plain = figure::draw(&Analysis::of(&scene), Kind::Margin, &Options::default());
+    let plain = figure::draw(&Analysis::new(&scene), Kind::Margin, &Options::default());
     assert!(drystone::output::svg::write(&plain).contains("its margins were not asked for"));
 }

@@ -214,7 +214,7 @@ fn examine(text: &str) -> Result<bool, String> {
             };
         }
     };
-    let analysis = Analysis::of(&scene);
+    let analysis = Analysis::new(&scene);
     for frame in &analysis.frames {
         if frame.verdict == Verdict::Undecided && frame.doubt().is_empty() {
             return Err("undecided without a reason".into());
@@ -313,7 +313,7 @@ fn numbers_that_products_of_them_cannot_hold_are_refused() {
     let scene = Scene::from_json(&least.to_string()).expect("just large enough");
     assert!(scene.blocks().iter().all(|block| block.weight > 0.0));
     assert_eq!(
-        Analysis::of(&scene).frames[0].verdict,
+        Analysis::new(&scene).frames[0].verdict,
         Verdict::Unstable,
         "it overhangs by two thirds"
     );

@@ -8,7 +8,7 @@ const GROUND: &str = r#""ground": [{ "polygon": [[-5, -1], [9, -1], [9, 0], [-5,
 
 fn notes(text: &str) -> Vec<Note> {
     let scene = Scene::from_json(text).unwrap_or_else(|p| panic!("{text}\n{p}"));
-    Analysis::of(&scene).notes
+    Analysis::new(&scene).notes
 }
 
 /// A scene that calls for a note, the note's code and path, and the line where it stands.
@@ -159,7 +159,7 @@ fn a_note_changes_no_verdict_and_an_unknown_code_is_a_problem() {
         "{{ \"drystone\": 1, {GROUND}, \"blocks\": [{{ \"polygon\": [[0, 0], [1, 0], [1, 1], [0, 1]], \"friction\": 3 }}] }}"
     );
     let scene = Scene::from_json(&text).expect("sound");
-    let analysis = Analysis::of(&scene);
+    let analysis = Analysis::new(&scene);
     assert_eq!(
         (analysis.verdict(), analysis.notes.len()),
         (Verdict::Stable, 1)

@@ -50,7 +50,7 @@ fn arrows_are_the_sources() {
     let mut compared = 0;
     for (name, panel) in panels.as_object().expect("panels") {
         let scene = scene(panel["scene"].as_str().expect("a scene"));
-        let analysis = Analysis::of(&scene);
+        let analysis = Analysis::new(&scene);
         let frame = panel["frame"].as_u64().expect("a frame") as usize;
         let mut ours = figure::arrows(&analysis, frame, &source());
         let expected = panel["expected"]["arrows"].as_array().expect("arrows");
@@ -113,7 +113,7 @@ fn fills_are_the_sources() {
     for (name, panel) in panels.as_object().expect("panels") {
         let scene = scene(panel["scene"].as_str().expect("a scene"));
         let options = Options::default().fill(Fill::Source);
-        let drawing = figure::forces(&Analysis::of(&scene), &options);
+        let drawing = figure::forces(&Analysis::new(&scene), &options);
         let fills = fills(&drawing, panel["frame"].as_u64().expect("a frame") as usize);
         let blocks = panel["blocks"].as_array().expect("blocks");
         assert_eq!(fills.len(), blocks.len(), "{name}");
@@ -144,7 +144,7 @@ fn points(items: &[Item], visit: &mut dyn FnMut(&Outline)) {
 fn nothing_lies_beyond_the_page_and_words_fit() {
     for style in [Options::default(), source()] {
         for (name, scene) in gallery() {
-            let drawing = figure::forces(&Analysis::of(&scene), &style);
+            let drawing = figure::forces(&Analysis::new(&scene), &style);
             let inside = |x: f64, y: f64| {
                 (0.0..=drawing.width).contains(&x) && (0.0..=drawing.height).contains(&y)
             };
@@ -187,7 +187,7 @@ fn nothing_lies_beyond_the_page_and_words_fit() {
 #[test]
 fn a_figure_says_its_verdicts_and_numbers_to_those_who_do_not_see_it() {
     let scene = scene("assets/thesis/figure-4.json");
-    let svg = svg::write(&figure::forces(&Analysis::of(&scene), &Options::default()));
+    let svg = svg::write(&figure::forces(&Analysis::new(&scene), &Options::default()));
     for said in [
         "<title>(a): Initial situation: stands</title>",
         "<title>Force on block 3 from block 2: 6.91 N at 65°</title>",
@@ -204,7 +204,7 @@ fn a_figure_says_its_verdicts_and_numbers_to_those_who_do_not_see_it() {
 #[test]
 fn the_largest_arrow_is_one_edge_long_in_each_panel() {
     let scene = scene("assets/thesis/figure-4.json");
-    let analysis = Analysis::of(&scene);
+    let analysis = Analysis::new(&scene);
     for frame in 0..scene.frames().len() {
         let arrows = figure::arrows(&analysis, frame, &Options::default());
         let longest = arrows.iter().map(|a| a.vector.norm()).fold(0.0, f64::max);
@@ -216,7 +216,7 @@ fn the_largest_arrow_is_one_edge_long_in_each_panel() {
 #[test]
 fn between_two_blocks_arrows_are_opposite_and_the_ground_has_none() {
     let scene = scene("assets/thesis/figure-8-left.json");
-    let arrows = figure::arrows(&Analysis::of(&scene), 0, &Options::default());
+    let arrows = figure::arrows(&Analysis::new(&scene), 0, &Options::default());
     let mut pairs = 0;
     for arrow in &arrows {
         assert!(matches!(arrow.on, drystone::scene::BodyId::Block(_)));
@@ -237,7 +237,7 @@ fn between_two_blocks_arrows_are_opposite_and_the_ground_has_none() {
 fn the_same_scene_gives_the_same_bytes() {
     let text = |_: usize| {
         let scene = scene("assets/thesis/figure-5.json");
-        svg::write(&figure::forces(&Analysis::of(&scene), &Options::default()))
+        svg::write(&figure::forces(&Analysis::new(&scene), &Options::default()))
     };
     assert_eq!(text(0), text(1));
     let picture = |svg: &str| png::render(svg, png::Size::Width(700)).expect("a picture");
@@ -259,7 +259,7 @@ fn from_json(text: &str) -> Scene {
 }
 
 fn drawn(scene: &Scene) -> String {
-    svg::write(&figure::forces(&Analysis::of(scene), &Options::default()))
+    svg::write(&figure::forces(&Analysis::new(scene), &Options::default()))
 }
 
 /// A 4 × 2 block of 8 N on wide ground, with more text put into the scene.
@@ -277,7 +277,7 @@ fn loads_and_robots_torques_have_their_arrows() {
         r#""loads": [ { "block": "s", "force": [1, -2], "at": [3, 2], "torque": -1.5 } ],"#,
         "",
     );
-    let analysis = Analysis::of(&scene);
+    let analysis = Analysis::new(&scene);
     let marks = figure::marks(&analysis, 0, &Options::default(), 10.0);
     let load = marks
         .arrows
@@ -319,7 +319,7 @@ fn heights(drawing: &Drawing, title: &str) -> Vec<f64> {
 #[test]
 fn one_scale_for_a_strip_makes_equal_weights_equal() {
     let scene = scene("assets/thesis/figure-5.json");
-    let analysis = Analysis::of(&scene);
+    let analysis = Analysis::new(&scene);
     let weights = |scale| {
         let options = Options::default().scale(scale);
         heights(&figure::forces(&analysis, &options), "Weight of block 1")
@@ -357,7 +357,7 @@ fn without_a_limit_the_key_says_what_the_colours_stand_for() {
     assert_eq!(of_blocks(&with_robot, &full), of_blocks(&text, &full));
     let options = Options::default().fill(Fill::Source);
     let scene = from_json(&limited);
-    let source = svg::write(&figure::forces(&Analysis::of(&scene), &options));
+    let source = svg::write(&figure::forces(&Analysis::new(&scene), &options));
     assert!(source.contains("of the robots&#39; limit of 20 N"));
 }
 
@@ -365,7 +365,7 @@ fn without_a_limit_the_key_says_what_the_colours_stand_for() {
 fn an_authors_fill_wins() {
     let scene = slab("", r##", "fill": "#8b6b3d""##);
     let fill = fills(
-        &figure::forces(&Analysis::of(&scene), &Options::default()),
+        &figure::forces(&Analysis::new(&scene), &Options::default()),
         0,
     );
     assert_eq!(fill, [("Block s".to_owned(), Colour::hex(0x8b6b3d))]);
@@ -373,7 +373,7 @@ fn an_authors_fill_wins() {
 
 #[test]
 fn wide_ground_is_cut_and_the_structure_stays_large() {
-    let drawing = figure::forces(&Analysis::of(slab("", "")), &Options::default());
+    let drawing = figure::forces(&Analysis::new(slab("", "")), &Options::default());
     let mut block = None;
     groups(&drawing.items, &mut |group| {
         if let ("block", Some(Item::Path(path))) = (group.class.as_str(), group.items.first()) {

@@ -42,7 +42,7 @@ fn said(drawing: &Drawing) -> (String, bool) {
 fn a_force_polygon_closes_only_with_missing_forces_where_it_falls_and_says_so() {
     let drawn = |scene: &Scene| {
         said(&figure::draw(
-            &Analysis::of(scene),
+            &Analysis::new(scene),
             Kind::Polygon,
             &Options::default(),
         ))
@@ -81,8 +81,8 @@ fn a_margin_of_loads_is_drawn_where_the_verdict_changes() {
         words.contains("falls once its loads are 1.5 times as large"),
         "{words}"
     );
-    assert_eq!(Analysis::of(block(1.0, 2.99)).verdict(), Verdict::Stable);
-    assert_eq!(Analysis::of(block(1.0, 3.01)).verdict(), Verdict::Unstable);
+    assert_eq!(Analysis::new(block(1.0, 2.99)).verdict(), Verdict::Stable);
+    assert_eq!(Analysis::new(block(1.0, 3.01)).verdict(), Verdict::Unstable);
     assert_eq!(classes(&drawing.items, &["ghosts"]).len(), 1);
     assert_eq!(
         classes(&drawing.items, &["force"]).len(),
@@ -106,7 +106,7 @@ fn a_small_turning_load_is_drawn_so_that_its_sense_is_read_and_its_amount_told()
         "blocks": [{ "id": "a", "polygon": [[1,0],[5,0],[5,2],[1,2]], "weight": 6000 }],
         "loads": [{ "block": "a", "force": [0, 0], "at": [3, 1.5], "torque": 0.5 }] }"#,
     );
-    let drawing = figure::draw(&Analysis::of(&small), Kind::Forces, &Options::default());
+    let drawing = figure::draw(&Analysis::new(&small), Kind::Forces, &Options::default());
     let turns = classes(&drawing.items, &["torque"]);
     let [turn] = turns[..] else {
         panic!("{} turning arrows", turns.len())
@@ -134,7 +134,7 @@ fn a_report_says_of_what_falls_that_missing_forces_are_counted() {
         text: "{}",
     };
     let captions = |scene: &Scene| {
-        let entry = Entry::of(file, &Analysis::of(scene), &ReportOptions::default());
+        let entry = Entry::new(file, &Analysis::new(scene), &ReportOptions::default());
         let grids = entry.steps.iter().flat_map(|s| &s.grids);
         let captions: Vec<String> = grids.map(|g| g.caption.clone()).collect();
         (captions.join(" / "), entry.row.friction)

@@ -21,7 +21,7 @@ fn read(name: &str) -> Scene {
 }
 
 fn drawn(scene: &Scene) -> Drawing {
-    figure::forces(&Analysis::of(scene), &figure::Options::default())
+    figure::forces(&Analysis::new(scene), &figure::Options::default())
 }
 
 fn figure(name: &str) -> Drawing {

@@ -3,7 +3,7 @@
 //! `tests/reference/problems.txt` holds the cases: a title, a scene, and all that is said of it. `UPDATE_SNAPSHOTS=1`
 //! writes what is said now in place of what was.
 
-use drystone::scene::{Code, SceneError, Scene, starter};
+use drystone::scene::{Code, Scene, SceneError, starter};
 use serde_json::{Value, json};
 
 const REFERENCE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/problems.txt");

@@ -310,7 +310,7 @@ fn the_starter_scene_uses_what_a_newcomer_needs() {
     );
     assert!(scene.frames().len() >= 3 && scene.frames().iter().all(|f| !f.title.is_empty()));
     assert!(scene.lattice().is_none());
-    let verdicts: Vec<Verdict> = Analysis::of(&scene)
+    let verdicts: Vec<Verdict> = Analysis::new(&scene)
         .frames
         .iter()
         .map(|f| f.verdict)

@@ -22,7 +22,7 @@ struct Beside {
 impl Beside {
     fn verdict(&self) -> Result<Verdict, String> {
         let scene = Scene::from_json(&self.file.to_string()).map_err(|p| p.to_string())?;
-        Ok(Analysis::of(&scene).verdict())
+        Ok(Analysis::new(&scene).verdict())
     }
 
     fn blocks(&mut self) -> &mut Vec<Value> {
@@ -53,7 +53,7 @@ fn played(
     tally: &mut Tally,
 ) {
     let mut chance = Chance::new(number);
-    let mut session = Session::of(file(&base)).unwrap();
+    let mut session = Session::new(file(&base)).unwrap();
     let mut beside = Beside { file: base };
     let mut standing: Vec<String> = Vec::new();
     let mut held: [Option<String>; 2] = [None, None];
@@ -213,7 +213,7 @@ fn a_session_of_bricks_says_what_a_file_says() {
 fn a_block_that_is_wrong_is_refused_and_changes_nothing() {
     let base = json!({ "drystone": 1, "grid": { "kind": "square" }, "ground": [{ "cells": [[0, -1]] }],
         "blocks": [{ "id": "a", "cells": [[0, 0]] }] });
-    let mut session = Session::of(file(&base)).unwrap();
+    let mut session = Session::new(file(&base)).unwrap();
     for (wrong, says) in [
         (json!({ "cells": [[0, 0]] }), "overlap"),
         (json!({ "cells": [[0, 1], [2, 1]] }), "blocks"),
@@ -231,7 +231,7 @@ fn a_block_that_is_wrong_is_refused_and_changes_nothing() {
     assert!(session.hold("r0", "a", None).is_err() && session.remove("b").is_err());
     let stepped = json!({ "drystone": 1, "blocks": [{ "id": "a", "cells": [[0, 0]] }], "grid": { "kind": "square" },
         "steps": [{ "place": ["a"] }] });
-    assert!(Session::of(file(&stepped)).is_err());
+    assert!(Session::new(file(&stepped)).is_err());
     // Without an id a block has the least number that is free.
     session
         .place(serde_json::from_value(json!({ "cells": [[0, 1]] })).unwrap())

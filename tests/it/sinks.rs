@@ -55,7 +55,7 @@ fn each(mut check: impl FnMut(&str, &Scene, &Analysis)) {
     for hostile in HOSTILE {
         let scene =
             Scene::from_json(&scene(hostile)).unwrap_or_else(|e| panic!("{hostile:?}: {e}"));
-        check(hostile, &scene, &Analysis::of(&scene));
+        check(hostile, &scene, &Analysis::new(&scene));
     }
 }
 
@@ -257,7 +257,7 @@ fn snapshots_are_told_in_words_whatever_their_names() {
     use drystone::snapshot::{CheckOutcome, Finding, Layer, Snapshot, State, ci, review};
     let mut shapes = Vec::new();
     each(|hostile, _, analysis| {
-        let facts = Facts::of(analysis, DIGITS);
+        let facts = Facts::new(analysis, DIGITS);
         silent(&facts.text(), hostile);
         assert_eq!(Facts::read(&facts.text()), Ok(facts), "{hostile:?}");
         let finding = Finding {
@@ -318,13 +318,13 @@ fn a_report_keeps_words_as_words_in_all_its_forms() {
             name: hostile,
             text: &text,
         };
-        let entry = Entry::of(file, analysis, &ReportOptions::default());
+        let entry = Entry::new(file, analysis, &ReportOptions::default());
         let mut problem: Problem = Scene::from_json("").expect_err("refused").list.remove(0);
         problem.path = hostile.into();
         problem.message = hostile.into();
         problem.help = hostile.into();
         for form in [Form::Html, Form::Split, Form::Markdown, Form::Json] {
-            let piece = |number| Piece::of(&entry, number, form, "r").expect("drawn");
+            let piece = |number| Piece::new(&entry, number, form, "r").expect("drawn");
             let report = Report {
                 title: hostile.into(),
                 pieces: vec![piece(1), piece(2)],

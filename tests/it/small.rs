@@ -191,7 +191,7 @@ fn slivers_between_large_blocks_are_judged_both_ways() {
     file["blocks"] = blocks;
     file["blocks"][1]["polygon"] = rectangle(2.9, 0.0, 0.2, 1.0);
     let scene = Scene::from_json(&file.to_string()).expect("a scene");
-    let frame = Analysis::of(&scene).frames.remove(0);
+    let frame = Analysis::new(&scene).frames.remove(0);
     assert_eq!(frame.verdict, Verdict::Undecided, "{:?}", frame.notices);
     assert!(frame.doubt().contains("left") && frame.doubt().contains("contact_tolerance"));
     assert_eq!(verdicts(&scene, &Options::default()), [Verdict::Undecided]);
@@ -214,7 +214,7 @@ fn verdicts_alone_are_judged_both_ways_at_overlaps() {
     );
     let scene = Scene::from_json(&file.to_string()).expect("a scene");
     assert_eq!(scene.penetrations().len(), 1);
-    let frame = Analysis::of(&scene).frames.remove(0);
+    let frame = Analysis::new(&scene).frames.remove(0);
     assert_eq!(frame.verdict, Verdict::Undecided, "{:?}", frame.notices);
     let alone = verdicts(&scene, &Options::default());
     assert_eq!(alone, [Verdict::Undecided]);
@@ -416,7 +416,7 @@ fn a_falling_pebble_makes_any_structure_fall() {
         if !scene.penetrations().is_empty() {
             continue;
         }
-        let analysis = Analysis::of(&scene);
+        let analysis = Analysis::new(&scene);
         let frame = &analysis.frames[0];
         let last = BodyId::Block(BlockId(blocks.len()));
         let touched = frame
@@ -453,7 +453,7 @@ fn reported_forces_keep_the_rule_at_every_block() {
     }
     for file in files {
         let scene = Scene::from_json(&file.to_string()).expect("a scene");
-        let frame = Analysis::of(&scene).frames.remove(0);
+        let frame = Analysis::new(&scene).frames.remove(0);
         assert_eq!(frame.verdict, STANDS, "{file}");
         for (number, block) in scene.blocks().iter().enumerate() {
             let outline = block.body.polygon.outline().iter();

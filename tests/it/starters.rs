@@ -9,7 +9,7 @@ fn verdict(file: &SceneFile) -> Verdict {
     let text = file.to_json();
     let scene = Scene::from_json(&text).unwrap_or_else(|problems| panic!("{problems}\n{text}"));
     assert!(!scene.title().is_empty());
-    let analysis = Analysis::of(&scene);
+    let analysis = Analysis::new(&scene);
     assert_eq!(analysis.notes, [], "{text}");
     analysis.verdict()
 }

@@ -109,13 +109,13 @@ fn faults(drawing: &Drawing) -> (usize, Vec<String>) {
 #[test]
 fn words_on_words_and_faint_words_are_found() {
     let (_, scene) = strangers().remove(0);
-    let mut drawing = figure::forces(&Analysis::of(&scene), &Options::default());
+    let mut drawing = figure::forces(&Analysis::new(&scene), &Options::default());
     assert_eq!(faults(&drawing).1, Vec::<String>::new());
     let key = classes(&drawing.items, &["key"])[0];
     let mut twice = texts(key)[0].clone();
     twice.at = twice.at.moved(3.0, 1.0);
     drawing.items.push(twice.into());
-    let faint = Group::of_class("labels").with(Text::new(
+    let faint = Group::with_class("labels").with(Text::new(
         PagePoint::new(40.0, 70.0),
         "faint",
         drystone::drawing::Face::Sans,
@@ -124,7 +124,7 @@ fn words_on_words_and_faint_words_are_found() {
     ));
     drawing
         .items
-        .push(Group::of_class("picture").with(faint).into());
+        .push(Group::with_class("picture").with(faint).into());
     let said = faults(&drawing).1;
     assert!(said.iter().any(|f| f.contains("lies on")), "{said:?}");
     assert!(
@@ -145,7 +145,7 @@ fn said(drawing: &Drawing) -> String {
 #[test]
 fn what_is_missing_and_what_loads_are_shown_however_small_they_are() {
     for (name, scene) in strangers() {
-        let analysis = Analysis::of(&scene);
+        let analysis = Analysis::new(&scene);
         let drawing = figure::forces(&analysis, &Options::default());
         for (found, frame) in analysis
             .frames
@@ -176,7 +176,7 @@ fn a_number_of_newtons_names_no_block() {
         .into_iter()
         .find(|s| s.0 == "falls.json")
         .expect("it is there");
-    let analysis = Analysis::of(&scene);
+    let analysis = Analysis::new(&scene);
     for kind in Kind::ALL {
         let drawing = figure::draw(&analysis, kind, &Options::default());
         let words = said(&drawing);

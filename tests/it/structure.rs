@@ -12,7 +12,7 @@ pub fn scene(file: &Value) -> Scene {
 /// The first frame of a scene file.
 pub fn first(file: &Value) -> FrameAnalysis {
     let scene = scene(file);
-    let frame = Analysis::of(&scene).frames.remove(0);
+    let frame = Analysis::new(&scene).frames.remove(0);
     assert!(
         frame.proof.holds() || frame.verdict == Verdict::Undecided,
         "{:?}",

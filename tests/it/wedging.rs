@@ -112,7 +112,7 @@ fn it_is_an_effect_on_request() {
     };
     let file = h_model(0.7);
     let scene = scene(&file);
-    let plain = Analysis::of(&scene).frames.remove(0);
+    let plain = Analysis::new(&scene).frames.remove(0);
     assert_eq!(told(&plain), (false, "not asked for".to_string()));
     assert_eq!(plain.only_by_wedging, None);
     let (simulated, why) = told(&asked(&file));

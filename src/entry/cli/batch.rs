@@ -12,7 +12,7 @@ use std::thread;
 use clap::Args;
 
 use crate::analysis::{Analysis, Options, Verdict, verdicts};
-use crate::batch::{Record, Records, Capacity, in_order};
+use crate::batch::{Capacity, Record, Records, in_order};
 use crate::cli::complaint::CliError;
 use crate::cli::destination;
 use crate::cli::ending::ExitStatus;
@@ -84,7 +84,7 @@ impl Batch {
         if let Some(folder) = &self.render {
             destination::make_folder(folder).map_err(|c| vec![c])?;
         }
-        let mut records = Records::of(inputs.list);
+        let mut records = Records::new(inputs.list);
         let mut pace = Pace::begin(terminal, self.progress, inputs.bytes, records.read());
         let done = output.done();
         if let Some(missing) = (0..done).find(|_| records.next().is_none()) {
@@ -103,7 +103,7 @@ impl Batch {
         let mut failed = None;
         in_order(
             records,
-            Capacity::of(threads),
+            Capacity::new(threads),
             move |record| work.answer(record),
             |answer| {
                 let written = match answer {
@@ -242,7 +242,7 @@ impl Work {
         };
         Ok(Answer {
             line: line_of(origin, &analysis, &picture, &self.fields),
-            ending: ExitStatus::of(&analysis),
+            ending: ExitStatus::from_analysis(&analysis),
         })
     }
 

@@ -83,7 +83,7 @@ fn kinds(names: &[Name]) -> MarginKinds {
         Name::LoadFactor => MarginKind::LoadFactor,
         Name::Robots => MarginKind::Robots,
     });
-    MarginKinds::of(&kinds.collect::<Vec<_>>())
+    MarginKinds::new(&kinds.collect::<Vec<_>>())
 }
 
 /// The words of a command line, with the list that may follow `--margins` joined to it.
@@ -196,7 +196,7 @@ impl Check {
         };
         printed.map_err(|c| vec![c])?;
         let wrong = refused.iter().map(|(.., complaint)| complaint.ending());
-        Ok((analyses.iter().map(ExitStatus::of))
+        Ok((analyses.iter().map(ExitStatus::from_analysis))
             .chain(wrong)
             .max()
             .unwrap_or(ExitStatus::Done))

@@ -156,7 +156,7 @@ fn all(name: &str, text: Option<&str>, problems: &[Problem], width: Option<usize
     for problem in problems.iter().take(SHOWN) {
         let place = text
             .zip(problem.span.clone())
-            .and_then(|(text, span)| Place::of(text, span));
+            .and_then(|(text, span)| Place::new(text, span));
         out += &match place {
             Some(place) if place.is_shown_whole(problem, width) => {
                 pointed(&name, problem, &place, width)
@@ -180,7 +180,7 @@ struct Place<'a> {
 
 impl<'a> Place<'a> {
     /// `None` where the span does not fit the text.
-    fn of(text: &'a str, span: Range<usize>) -> Option<Place<'a>> {
+    fn new(text: &'a str, span: Range<usize>) -> Option<Place<'a>> {
         let before = text.get(..span.start)?;
         let start = before.rfind('\n').map_or(0, |n| n + 1);
         let line = text[start..].lines().next().unwrap_or("");

@@ -20,7 +20,7 @@ pub(crate) enum Destination {
 
 impl Destination {
     /// What `-o` means: `-`, an existing folder, a path with a slash at its end, or a file.
-    pub(crate) fn of(typed: &Path) -> Destination {
+    pub(crate) fn from_path(typed: &Path) -> Destination {
         let text = typed.to_string_lossy();
         if text == "-" {
             Destination::Stdout
@@ -113,7 +113,7 @@ mod tests {
 
     #[test]
     fn endings_decide_the_format_and_may_not_contradict() {
-        let file = |name: &str| Destination::of(Path::new(name));
+        let file = |name: &str| Destination::from_path(Path::new(name));
         assert_eq!(file("a/b.PNG").format(None).ok(), Some(Format::Png));
         assert_eq!(
             file("b.svg").format(Some(Format::Svg)).ok(),

@@ -21,7 +21,7 @@ pub(crate) enum ExitStatus {
 
 impl ExitStatus {
     /// What the frames of an analysis come to.
-    pub(crate) fn of(analysis: &Analysis) -> ExitStatus {
+    pub(crate) fn from_analysis(analysis: &Analysis) -> ExitStatus {
         ExitStatus::from(analysis.verdict())
     }
 

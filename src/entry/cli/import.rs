@@ -210,7 +210,7 @@ impl Import {
             n => format!("{n} {many}"),
         };
         let scene = &imported.scene;
-        let mut page = Page::of(&format!(
+        let mut page = Page::new(&format!(
             "{name}: {}, {}, {}",
             count(scene.blocks.len(), "block", "blocks"),
             count(

@@ -52,7 +52,7 @@ use clap::{Parser, Subcommand};
 
 use crate::cli::complaint::CliError;
 use crate::cli::ending::ExitStatus;
-use crate::cli::terminal::{Terminal, OutputArgs};
+use crate::cli::terminal::{OutputArgs, Terminal};
 
 const BEFORE_YOU_TRUST_IT: &str = "\
 A verdict of 'stands' says that a balance of forces exists: for rigid blocks, laid dry (no cohesion), at rest. A balance \

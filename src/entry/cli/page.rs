@@ -17,7 +17,7 @@ pub(crate) struct Page {
 
 impl Page {
     /// A page of one line.
-    pub(crate) fn of(words: &str) -> Page {
+    pub(crate) fn new(words: &str) -> Page {
         let mut page = Page::default();
         page.line(words);
         page
@@ -165,7 +165,7 @@ mod tests {
 
     #[test]
     fn foreign_words_begin_no_line_and_set_no_colour() {
-        let mut page = Page::of("a\n\u{1b}[31mb\rc");
+        let mut page = Page::new("a\n\u{1b}[31mb\rc");
         page.ours("x\n");
         assert_eq!(page.text(), "a \u{fffd}[31mb c\nx\n");
     }

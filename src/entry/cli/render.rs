@@ -158,7 +158,7 @@ impl Render {
 
     /// Draws everything once.
     fn once(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
-        let destination = Destination::of(&self.output);
+        let destination = Destination::from_path(&self.output);
         let format = destination
             .format(self.picture.asked())
             .map_err(|c| vec![c])?;
@@ -267,7 +267,11 @@ impl Render {
                 terminal.note(&format!("{}: {summary}", path.display()));
             }
         }
-        Ok(if self.strict { ending } else { ExitStatus::Done })
+        Ok(if self.strict {
+            ending
+        } else {
+            ExitStatus::Done
+        })
     }
 
     /// What can be refused before any scene is read.
@@ -371,7 +375,7 @@ impl Render {
         progress.step();
         Ok(Rendered {
             bytes,
-            ending: ExitStatus::of(&analysis),
+            ending: ExitStatus::from_analysis(&analysis),
             summary,
         })
     }

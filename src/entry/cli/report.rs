@@ -18,7 +18,7 @@ use crate::cli::source::{self, Source};
 use crate::cli::terminal::Terminal;
 use crate::output::file::Existing;
 use crate::output::fonts::Fonts;
-use crate::report::entry::{Entry, File, Side, ReportOptions, compared};
+use crate::report::entry::{Entry, File, ReportOptions, Side, compared};
 use crate::report::page::{Form, Piece, Refused, Report as Page};
 use crate::result::Timing;
 use crate::study::{TOLERANCES, study};
@@ -311,7 +311,7 @@ impl Report {
             .iter()
             .map(|(source, _)| Analysis::with(&source.scene, options))
             .collect();
-        let ending = analyses.iter().map(ExitStatus::of).max();
+        let ending = analyses.iter().map(ExitStatus::from_analysis).max();
         let names: Vec<String> = read.iter().map(|(s, _)| shown(s)).collect();
         let file = |i: usize| File {
             name: &names[i],
@@ -325,7 +325,7 @@ impl Report {
                 };
                 Some(compared([side(0, was), side(1, is)], wanted))
             }
-            [one, ..] => Some(Entry::of(file(0), one, wanted)),
+            [one, ..] => Some(Entry::new(file(0), one, wanted)),
             [] => None,
         };
         let Some(mut entry) = described(&analyses) else {
@@ -354,7 +354,7 @@ impl Report {
             let measured = study(&[scene], &TOLERANCES, &mut |_| {});
             entry.measured(&measured).map_err(|e| undone(&e))?;
         }
-        let piece = Piece::of(&entry, number, form, &self.stem()).map_err(|e| undone(&e))?;
+        let piece = Piece::new(&entry, number, form, &self.stem()).map_err(|e| undone(&e))?;
         Ok(Ok((piece, ending.unwrap_or(ExitStatus::Done))))
     }
 

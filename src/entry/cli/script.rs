@@ -20,7 +20,7 @@ pub(crate) fn warn(sources: &[Source], fonts: &Fonts, terminal: &Terminal) {
             0 => String::new(),
             more => format!(" and {more} more"),
         };
-        terminal.complain(&Page::of(&format!(
+        terminal.complain(&Page::new(&format!(
             "warning: {}: no font has {}{more}; they are told by their code points. Give a font that has them with \
              --font FILE",
             source.name(),

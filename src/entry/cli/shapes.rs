@@ -34,7 +34,7 @@ impl Shapes {
     }
 
     fn draw(&self, theme: &Theme, terminal: &Terminal) -> Result<(), CliError> {
-        let destination = Destination::of(&self.output);
+        let destination = Destination::from_path(&self.output);
         let format = destination.format(self.picture.asked())?;
         self.picture.check(format)?;
         if let (Destination::Stdout, true, Some(why)) =

@@ -185,10 +185,7 @@ fn read_one(path: &Path, tolerance: Option<f64>) -> Result<Source, CliError> {
 }
 
 /// One scene and the text it was read from.
-pub(crate) fn with_text(
-    path: &Path,
-    tolerance: Option<f64>,
-) -> Result<(Source, String), CliError> {
+pub(crate) fn with_text(path: &Path, tolerance: Option<f64>) -> Result<(Source, String), CliError> {
     let bytes = if path == Path::new("-") {
         let mut bytes = Vec::new();
         io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes)

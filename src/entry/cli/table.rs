@@ -300,7 +300,7 @@ mod tests {
     use std::path::Path;
 
     use super::*;
-    use crate::analysis::{Options};
+    use crate::analysis::Options;
     use crate::scene::format::{BlockEntry, LimitsEntry, RobotEntry, StepEntry};
 
     fn assert_fits(name: &str, analysis: &Analysis) {

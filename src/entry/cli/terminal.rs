@@ -88,7 +88,7 @@ impl Terminal {
 
     /// Says something useful in a line that is no result, unless asked to be quiet.
     pub(crate) fn note(&self, words: &str) {
-        self.notes(&Page::of(words));
+        self.notes(&Page::new(words));
     }
 
     /// Likewise, in several lines.

@@ -52,8 +52,9 @@ fn an_edge_has_its_material_on_the_left() {
 
 #[test]
 fn a_box_is_as_large_as_what_it_is_around() {
-    assert_eq!(Bounds::of([]), None);
-    let found = Bounds::of(points(&[[4.0, -1.0], [1.0, 2.0], [3.0, 3.0]])).expect("three points");
+    assert_eq!(Bounds::from_points([]), None);
+    let found =
+        Bounds::from_points(points(&[[4.0, -1.0], [1.0, 2.0], [3.0, 3.0]])).expect("three points");
     let wanted = Bounds {
         min: Point::new(1.0, -1.0),
         max: Point::new(4.0, 3.0),

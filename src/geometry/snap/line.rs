@@ -51,7 +51,7 @@ impl Fit {
 impl Lines {
     /// The lines of sides and the nodes on them; sides that share two nodes are one line where all of it is straight to
     /// within the nodes' gaps.
-    pub(super) fn of(nodes: &Nodes, on: &BTreeMap<[usize; 2], BTreeSet<usize>>) -> Lines {
+    pub(super) fn new(nodes: &Nodes, on: &BTreeMap<[usize; 2], BTreeSet<usize>>) -> Lines {
         let sides: Vec<[usize; 2]> = on.keys().copied().collect();
         let sets: Vec<BTreeSet<usize>> = on
             .iter()
@@ -88,7 +88,7 @@ impl Lines {
                 let all: BTreeSet<usize> =
                     members.iter().flat_map(|m| &sets[*m]).copied().collect();
                 let sides: Vec<[usize; 2]> = members.iter().map(|m| sides[*m]).collect();
-                Line::of(nodes, all.into_iter().collect(), &sides)
+                Line::new(nodes, all.into_iter().collect(), &sides)
             };
             match line(&members) {
                 Some(whole) => lines.push(whole),
@@ -133,7 +133,7 @@ impl Lines {
 
 impl Line {
     /// `None` where no line passes all nodes within their gaps.
-    fn of(nodes: &Nodes, members: Vec<usize>, sides: &[[usize; 2]]) -> Option<Line> {
+    fn new(nodes: &Nodes, members: Vec<usize>, sides: &[[usize; 2]]) -> Option<Line> {
         let place = |n: usize| nodes.all[n].at;
         let length = |s: &[usize; 2]| (place(s[1]) - place(s[0])).norm();
         let longest = *sides

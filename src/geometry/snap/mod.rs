@@ -12,7 +12,7 @@ mod node;
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::{Aabb, Edge, Flaw, BoxIndex, Pieces, Point, Polygon, cross, overlap};
+use super::{Aabb, BoxIndex, Edge, Flaw, Pieces, Point, Polygon, cross, overlap};
 use line::Lines;
 use node::Nodes;
 
@@ -142,7 +142,7 @@ struct Beside<'s> {
 }
 
 fn attempt<'b>(bodies: &'b [Rings], gaps: &[f64], kept: &[bool]) -> Outcome<'b> {
-    let mut nodes = Nodes::of(bodies, gaps, kept);
+    let mut nodes = Nodes::new(bodies, gaps, kept);
     let sides = sides(bodies, &nodes);
     let found = beside(&nodes, &sides, gaps, kept);
     // Where everything fits already there is nothing to draw together.
@@ -180,7 +180,7 @@ fn attempt<'b>(bodies: &'b [Rings], gaps: &[f64], kept: &[bool]) -> Outcome<'b> 
             on.entry([a.min(b), a.max(b)]).or_default().insert(node);
         }
     }
-    let lines = Lines::of(&nodes, &on);
+    let lines = Lines::new(&nodes, &on);
     lines.settle(&mut nodes);
     rebuilt(bodies, &nodes, taken, touching, gaps)
 }
@@ -188,7 +188,7 @@ fn attempt<'b>(bodies: &'b [Rings], gaps: &[f64], kept: &[bool]) -> Outcome<'b> 
 /// The nodes that lie beside sides of other bodies. Nodes are looked for about sides, and not the other way round: boxes
 /// around the sides of thin stones overlap by the hundred, and points do not.
 fn beside<'s>(nodes: &Nodes, sides: &'s [Side], gaps: &[f64], kept: &[bool]) -> Vec<Beside<'s>> {
-    let nearby = BoxIndex::of((0..nodes.all.len()).collect(), |n: &usize| {
+    let nearby = BoxIndex::new((0..nodes.all.len()).collect(), |n: &usize| {
         let at = nodes.all[*n].at.into();
         Aabb { min: at, max: at }
     });
@@ -315,14 +315,14 @@ fn spoilt(before: &[Rings], after: &[Rings], gaps: &[f64], noise: f64) -> BTreeS
     }
     let pieces: Vec<Option<Pieces>> = polygons
         .iter()
-        .map(|p| p.as_ref().map(Pieces::of))
+        .map(|p| p.as_ref().map(Pieces::new))
         .collect();
     let drawn = |body: usize| polygon(&before[body]).ok();
     let entries = polygons
         .iter()
         .enumerate()
         .filter_map(|(i, p)| p.as_ref().map(|p| (Aabb::leaning(p.outline()), i)));
-    let nearby = BoxIndex::of(entries.collect(), |entry| entry.0);
+    let nearby = BoxIndex::new(entries.collect(), |entry| entry.0);
     for (own, (_, a)) in nearby.all() {
         for (_, b) in nearby.near(*own) {
             if b <= a {
@@ -337,7 +337,7 @@ fn spoilt(before: &[Rings], after: &[Rings], gaps: &[f64], noise: f64) -> BTreeS
             };
             let then = drawn(*a)
                 .zip(drawn(*b))
-                .and_then(|(one, two)| overlap(&Pieces::of(&one), &Pieces::of(&two), 0.0))
+                .and_then(|(one, two)| overlap(&Pieces::new(&one), &Pieces::new(&two), 0.0))
                 .map_or(0.0, |o| o.depth);
             if now.depth > then + noise {
                 wrong.extend([*a, *b]);

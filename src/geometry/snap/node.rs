@@ -37,7 +37,7 @@ struct Loose {
 impl Nodes {
     /// Corners of different bodies, no farther than their gaps from each other, become one node, the nearest first. It lies
     /// at the corner of the earliest body, or of one that has to stay.
-    pub(super) fn of(bodies: &[Rings], gaps: &[f64], kept: &[bool]) -> Nodes {
+    pub(super) fn new(bodies: &[Rings], gaps: &[f64], kept: &[bool]) -> Nodes {
         let rings = bodies.iter().flatten();
         let mut corners: Vec<Loose> = Vec::with_capacity(rings.clone().map(Vec::len).sum());
         let mut first_ring = Vec::with_capacity(bodies.len());
@@ -160,7 +160,7 @@ fn joined(corners: &[Loose], gaps: &[f64], kept: &[bool]) -> Clusters {
 
 /// Pairs of corners of different bodies within their gaps of each other, the nearest first.
 fn near(corners: &[Loose], gaps: &[f64]) -> Vec<(f64, usize, usize)> {
-    let nearby = BoxIndex::of((0..corners.len()).collect(), |i: &usize| {
+    let nearby = BoxIndex::new((0..corners.len()).collect(), |i: &usize| {
         let at = corners[*i].at.into();
         Aabb { min: at, max: at }
     });

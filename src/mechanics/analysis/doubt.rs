@@ -43,7 +43,9 @@ pub enum UndecidedReason {
 impl fmt::Display for UndecidedReason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            UndecidedReason::Late => f.write_str("the time limit was reached before it was decided"),
+            UndecidedReason::Late => {
+                f.write_str("the time limit was reached before it was decided")
+            }
             UndecidedReason::Unproved { forces, motion } => {
                 if let Proof::Forces {
                     worst_imbalance, ..
@@ -65,7 +67,9 @@ impl fmt::Display for UndecidedReason {
                     _ => f.write_str("; no motion was found"),
                 }
             }
-            UndecidedReason::Gaps { words, .. } | UndecidedReason::Slivers { words, .. } => f.write_str(words),
+            UndecidedReason::Gaps { words, .. } | UndecidedReason::Slivers { words, .. } => {
+                f.write_str(words)
+            }
         }
     }
 }
@@ -76,7 +80,9 @@ impl FrameAnalysis {
         let reasons: Vec<String> = self.doubts.iter().map(UndecidedReason::to_string).collect();
         match self.doubts.as_slice() {
             // What was found until then belongs to it.
-            [UndecidedReason::Late, _, ..] => format!("{}: {}", reasons[0], reasons[1..].join("; ")),
+            [UndecidedReason::Late, _, ..] => {
+                format!("{}: {}", reasons[0], reasons[1..].join("; "))
+            }
             _ => reasons.join("; "),
         }
     }
@@ -92,7 +98,7 @@ mod tests {
     fn reasons_make_one_sentence() {
         let text = r#"{ "drystone": 1, "blocks": [{ "polygon": [[0, 0], [1, 0], [0, 1]] }] }"#;
         let scene = Scene::from_json(text).expect("sound");
-        let mut frame = Analysis::of(&scene).frames.remove(0);
+        let mut frame = Analysis::new(&scene).frames.remove(0);
         assert_eq!(frame.doubt(), "");
         let unproved = |power: Option<f64>| UndecidedReason::Unproved {
             forces: Proof::Forces {

@@ -35,7 +35,7 @@ const OFF_SCALE: f64 = 100.0;
 /// ```
 pub fn verdicts(scene: &Scene, options: &Options) -> Vec<Verdict> {
     let options = &options.verdict_only(true);
-    let found = Interfaces::of(scene);
+    let found = Interfaces::new(scene);
     if hinges_on_gaps(scene, &found) {
         let frames = Analysis::with(scene, options).frames;
         return frames.iter().map(|frame| frame.verdict).collect();
@@ -119,7 +119,7 @@ impl WarmStart {
             return None;
         }
         let scale = self.scale(assembly);
-        let program = Program::of(assembly, scale);
+        let program = Program::new(assembly, scale);
         let columns = generators(&program);
         self.move_to(assembly, columns);
         let Some(rest) = self.nearest.find(&program.loads, &self.columns) else {
@@ -127,12 +127,12 @@ impl WarmStart {
             return None;
         };
         let amounts: Amounts = self.nearest.gathered(&program, &self.columns);
-        Candidate::of(assembly, scale, options).verdict(&amounts, &rest)
+        Candidate::new(assembly, scale, options).verdict(&amounts, &rest)
     }
 
     /// The scale of the guess, or a new one and no guess where it is too far off.
     fn scale(&mut self, assembly: &Assembly) -> Scale {
-        let own = Scale::of_assembly(assembly);
+        let own = Scale::from_assembly(assembly);
         let near = |a: f64, b: f64| a <= OFF_SCALE * b && b <= OFF_SCALE * a;
         match self.scale {
             Some(scale) if near(scale.length, own.length) && near(scale.force, own.force) => scale,

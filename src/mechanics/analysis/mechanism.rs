@@ -123,7 +123,7 @@ impl Analysis {
     ) -> Vec<Motion> {
         let mut all = Vec::new();
         for part in parts(found, motions) {
-            let fall = Fall::of(scene, found, part, found.length);
+            let fall = Fall::new(scene, found, part, found.length);
             all.extend(fall.elementary().unwrap_or(fall.motions));
         }
         let fastest = all
@@ -185,7 +185,7 @@ struct Fall<'a> {
 }
 
 impl<'a> Fall<'a> {
-    fn of(
+    fn new(
         scene: &'a Scene,
         found: &'a FrameAnalysis,
         motions: Vec<Motion>,

@@ -42,15 +42,15 @@ pub use crate::proof::{Demand, Motion, Proof};
 pub use crate::resultant::Resultant;
 use crate::scene::{BlockId, BodyId, Note, RobotId, Scene};
 pub use crate::solve::Slide;
-use crate::solve::{Effort, DeadlineGuard};
+use crate::solve::{DeadlineGuard, Effort};
 pub use component::Method;
 use component::{Findings, solved};
 pub use cost::{SolveReport, Stages};
 pub use doubt::UndecidedReason;
 use frame::settle;
 use gather::{add, gathered};
-pub(crate) use judgement::{WarmStart, hinges_on_gaps};
 pub use judgement::{Source, verdicts};
+pub(crate) use judgement::{WarmStart, hinges_on_gaps};
 use margin::Part;
 pub use margin::{Margin, MarginKind, MarginKinds, Margins, RobotMargins, Sides, trials};
 pub use mechanism::Toward;
@@ -250,14 +250,14 @@ impl Analysis {
     ///     "ground": [{ "polygon": [[0, 0], [9, 0], [9, -1], [0, -1]] }],
     ///     "blocks": [{ "id": "a", "polygon": [[1, 0], [4, 0], [4, 2], [1, 2]], "weight": 6 }],
     ///     "loads": [{ "block": "a", "force": [2, 0], "at": [1, 1] }] }"#)?;
-    /// let frame = &Analysis::of(&scene).frames[0];
+    /// let frame = &Analysis::new(&scene).frames[0];
     /// assert_eq!(frame.verdict, Verdict::Stable);
     /// assert_eq!(frame.contacts[0].resultant.force.y, 6.0);
     /// // The push at half height moves the resultant a third of a metre towards the far edge.
     /// assert!((frame.contacts[0].resultant.at.x - (2.5 + 1.0 / 3.0)).abs() < 1e-9);
     /// # Ok::<(), drystone::scene::SceneError>(())
     /// ```
-    pub fn of(scene: impl Into<Arc<Scene>>) -> Analysis {
+    pub fn new(scene: impl Into<Arc<Scene>>) -> Analysis {
         Analysis::with(scene, &Options::default())
     }
 
@@ -299,7 +299,7 @@ const _: () = {
 
 /// Examines every frame of a scene with its gaps as they are.
 fn examine(scene: &Scene, options: &Options) -> (Interfaces, Vec<FrameAnalysis>) {
-    let found = Interfaces::of(scene);
+    let found = Interfaces::new(scene);
     let frames = examine_found(scene, &found, options);
     (found, frames)
 }

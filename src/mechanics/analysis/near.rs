@@ -7,7 +7,7 @@
 //! differ nobody can say which structure was meant: the frame is undecided, with the places and the tolerance that settles
 //! it. If they agree an overlap is reported beside the verdict. A tolerance that somebody gave settles it already.
 
-use super::{UndecidedReason, FrameAnalysis, Options, Verdict, examine, examine_found};
+use super::{FrameAnalysis, Options, UndecidedReason, Verdict, examine, examine_found};
 use crate::geometry::Point;
 use crate::interface::{Interface, Interfaces, Near, Touching, held_open};
 use crate::scene::{BodyId, Note, NoteCode, Penetration, Scene, ToleranceSource, size};
@@ -70,7 +70,7 @@ pub(super) fn judge(
     if found.near.is_empty() && scene.penetrations.is_empty() {
         return;
     }
-    let touching = Touching::of(&found.all);
+    let touching = Touching::new(&found.all);
     let places: Vec<Vec<Place>> = (scene.frames.iter())
         .map(|frame| {
             let mut placed = vec![false; scene.blocks.len()];
@@ -211,7 +211,7 @@ pub(super) fn notes(scene: &Scene, found: &Interfaces) -> Vec<Note> {
     if scene.healed.source == ToleranceSource::Given || scene.silences(code) {
         return notes;
     }
-    let touching = Touching::of(&found.all);
+    let touching = Touching::new(&found.all);
     let gaps: Vec<&Near> = (found.near.iter())
         .filter(|gap| {
             scene.frames.iter().any(|frame| {

@@ -4,7 +4,7 @@ use super::Motion;
 use crate::assembly::Assembly;
 use crate::geometry::Vector;
 use crate::program::Scale;
-use crate::solve::{self, Slide, SelfStress};
+use crate::solve::{self, SelfStress, Slide};
 
 /// The self-stress without which a frame does not stand.
 ///
@@ -66,7 +66,7 @@ pub struct FaceCase {
 
 impl Wedged {
     /// What a solver found of one component.
-    pub(super) fn of(assembly: &Assembly, scale: Scale, squeeze: &SelfStress) -> Wedged {
+    pub(super) fn new(assembly: &Assembly, scale: Scale, squeeze: &SelfStress) -> Wedged {
         let motion = |pure: &[f64]| {
             let bodies = assembly.bodies.iter().zip(pure.chunks_exact(3));
             let motions = bodies.map(|(body, v)| Motion {

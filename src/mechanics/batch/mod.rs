@@ -11,9 +11,9 @@
 //! use drystone::batch::{Input, Records, Capacity, in_order};
 //!
 //! let text = Cursor::new("a\nbb\n\nccc");
-//! let records = Records::of(vec![Input::lines(None, Box::new(text))]);
+//! let records = Records::new(vec![Input::lines(None, Box::new(text))]);
 //! let mut described = Vec::new();
-//! in_order(records, Capacity::of(2), |record| (record.line, record.bytes.map(|b| b.len())), |answer| {
+//! in_order(records, Capacity::new(2), |record| (record.line, record.bytes.map(|b| b.len())), |answer| {
 //!     described.extend(answer);
 //!     ControlFlow::Continue(())
 //! });
@@ -23,5 +23,5 @@
 mod queue;
 mod record;
 
-pub use queue::{Capacity, ByteSize, in_order};
+pub use queue::{ByteSize, Capacity, in_order};
 pub use record::{Input, LONGEST, Record, Records};

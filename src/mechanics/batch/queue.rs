@@ -22,7 +22,7 @@ pub struct Capacity {
 
 impl Capacity {
     /// For so many threads.
-    pub fn of(threads: usize) -> Capacity {
+    pub fn new(threads: usize) -> Capacity {
         let threads = threads.max(1);
         Capacity {
             threads,

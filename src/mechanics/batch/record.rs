@@ -84,7 +84,7 @@ impl fmt::Debug for Open {
 
 impl Records {
     /// The records of some inputs.
-    pub fn of(inputs: Vec<Input>) -> Records {
+    pub fn new(inputs: Vec<Input>) -> Records {
         Records {
             inputs: inputs.into_iter(),
             open: None,
@@ -230,7 +230,7 @@ mod tests {
     #[test]
     fn a_line_that_is_too_long_is_told_and_the_next_is_read() {
         let input = Input::lines(None, Box::new(endless(LONGEST + 5)));
-        let records: Vec<Record> = Records::of(vec![input]).collect();
+        let records: Vec<Record> = Records::new(vec![input]).collect();
         assert_eq!(records.len(), 2);
         assert!(
             records[0]
@@ -244,7 +244,7 @@ mod tests {
     #[test]
     fn ends_of_lines_are_no_part_of_them() {
         let input = Input::lines(None, Box::new(&b"a\r\n\nb"[..]));
-        let bytes: Vec<_> = Records::of(vec![input]).map(|r| r.bytes).collect();
+        let bytes: Vec<_> = Records::new(vec![input]).map(|r| r.bytes).collect();
         assert_eq!(bytes, [Ok(b"a".to_vec()), Ok(vec![]), Ok(b"b".to_vec())]);
     }
 
@@ -259,7 +259,7 @@ mod tests {
             },
             Input::lines(None, Box::new(&b"a"[..])),
         ];
-        let records: Vec<Record> = Records::of(inputs).collect();
+        let records: Vec<Record> = Records::new(inputs).collect();
         assert_eq!(records.len(), 3);
         assert!(records[0].bytes.is_err() && records[1].bytes.is_err());
         assert_eq!(records[1].file, Some(gone));

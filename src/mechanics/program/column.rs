@@ -199,7 +199,7 @@ pub struct Count {
 
 impl Count {
     /// Counts columns, `program`'s own.
-    pub fn of<'a>(program: &Program, columns: impl IntoIterator<Item = &'a Column>) -> Count {
+    pub fn new<'a>(program: &Program, columns: impl IntoIterator<Item = &'a Column>) -> Count {
         let mut count = Count::default();
         for column in columns {
             let of = match column.force {

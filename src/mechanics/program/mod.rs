@@ -70,7 +70,7 @@ pub struct GripTerm {
 
 impl Program {
     /// Poses the balance of an assembly in the units of a scale; contacts and grips stay in their order.
-    pub fn of(assembly: &Assembly, scale: Scale) -> Program {
+    pub fn new(assembly: &Assembly, scale: Scale) -> Program {
         let arms = |body: usize, points: [Point; 2]| {
             let centroid = assembly.bodies[body].centroid;
             (body, points.map(|p| (p - centroid) / scale.length))

@@ -17,15 +17,15 @@ pub struct Scale {
 
 impl Scale {
     /// The scale of an assembly: its L, and its heaviest load.
-    pub fn of_assembly(assembly: &Assembly) -> Scale {
-        Scale::of(assembly.length, assembly.heaviest())
+    pub fn from_assembly(assembly: &Assembly) -> Scale {
+        Scale::new(assembly.length, assembly.heaviest())
     }
 
     /// The heaviest load of a frame in pure units.
     pub const HEAVIEST: f64 = 300.0;
 
     /// The scale for a median interface length and a heaviest load (N). A frame without loads is scaled by 1 N.
-    pub fn of(length: f64, heaviest: f64) -> Scale {
+    pub fn new(length: f64, heaviest: f64) -> Scale {
         let heaviest = if heaviest > 0.0 { heaviest } else { 1.0 };
         Scale {
             length,

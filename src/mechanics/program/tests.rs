@@ -24,7 +24,7 @@ fn held(fx: f64, fy: f64, torque: f64) -> Program {
             arm: Vector::new(-1.0, 0.75),
             limits: [fx / 2.0, fy / 2.0, torque / 4.0],
         }],
-        scale: Scale::of(2.0, 600.0),
+        scale: Scale::new(2.0, 600.0),
     }
 }
 
@@ -89,7 +89,7 @@ fn columns_are_the_edges_of_friction_cones_and_what_robots_give() {
     let free = f64::INFINITY;
     assert_eq!(limits, [1.0, 1.0, free, free, 2.0, 2.0]);
     assert!(columns[..6].iter().all(|c| c.limit.is_infinite()));
-    let count = Count::of(&program, &columns);
+    let count = Count::new(&program, &columns);
     let expected = Count {
         contact: 2,
         friction: 4,
@@ -120,8 +120,8 @@ fn sticking_columns_pull_hold_on_and_go_beyond_limits() {
     ];
     assert_columns(&columns, &expected);
     assert!((columns.iter()).all(|c| c.force.sticks() && c.limit.is_infinite()));
-    let admissible = Count::of(&program, &super::columns(&program));
-    let all = admissible.and(Count::of(&program, &columns));
+    let admissible = Count::new(&program, &super::columns(&program));
+    let all = admissible.and(Count::new(&program, &columns));
     let sum = Count {
         sticking: 10,
         ..admissible
@@ -146,7 +146,7 @@ fn what_acts_between_two_bodies_is_opposite_on_the_other() {
             points: 1,
         }],
         grips: vec![],
-        scale: Scale::of(2.0, 600.0),
+        scale: Scale::new(2.0, 600.0),
     };
     let columns = columns(&program);
     // A corner has one point. Half of L above the joint here, three quarters below it there.
@@ -162,7 +162,7 @@ fn what_acts_between_two_bodies_is_opposite_on_the_other() {
             (2, -(THIRD + 0.75 * THIRD)),
         ],
     );
-    let counted = Count::of(&program, &columns);
+    let counted = Count::new(&program, &columns);
     assert_eq!([counted.corner_contact, counted.contact], [3, 0]);
     assert_eq!(counted.and(counted).corner_contact, 6);
 }

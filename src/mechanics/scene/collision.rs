@@ -9,7 +9,7 @@ use super::frame::Frame;
 use super::path::Trail;
 use super::problem;
 use super::{BlockId, Body, BodyId, size};
-use crate::geometry::{Aabb, Cell, Lattice, BoxIndex, Pieces, Point, Polygon, Vector, overlap};
+use crate::geometry::{Aabb, BoxIndex, Cell, Lattice, Pieces, Point, Polygon, Vector, overlap};
 
 /// So many overlaps are listed; a scene with more has one cause for them all.
 const MOST: usize = 1000;
@@ -62,7 +62,7 @@ pub struct Penetration {
 /// Notes every pair of bodies that lie in each other while both stand; those that may have been meant to touch are given
 /// back, unless somebody stated how close is close.
 pub(super) fn check(findings: &mut Findings, scene: &Comparison<'_>) -> Vec<Penetration> {
-    let presence = Presence::of(scene.names.len(), scene.frames);
+    let presence = Presence::new(scene.names.len(), scene.frames);
     let bodies: Vec<Numbered<'_>> = scene
         .bodies
         .iter()
@@ -123,7 +123,7 @@ struct Presence {
 }
 
 impl Presence {
-    fn of(blocks: usize, frames: &[Frame]) -> Presence {
+    fn new(blocks: usize, frames: &[Frame]) -> Presence {
         let mut spans: Vec<Vec<(usize, usize)>> = vec![Vec::new(); blocks];
         for (k, frame) in frames.iter().enumerate() {
             for block in &frame.placed {
@@ -198,7 +198,7 @@ fn on_lattice(bodies: &[Numbered<'_>], lattice: Lattice, presence: &Presence) ->
                 .iter()
                 .fold(Vector::zeros(), |s, c| s + lattice.cell_centre(*c).coords);
             let count = cells.len() as f64;
-            let pieces = |id: BodyId| polygons.get(&id).copied().map(Pieces::of);
+            let pieces = |id: BodyId| polygons.get(&id).copied().map(Pieces::new);
             let deep = pieces(bodies[0])
                 .zip(pieces(bodies[1]))
                 .and_then(|(a, b)| overlap(&a, &b, 0.0));
@@ -221,9 +221,9 @@ fn off_lattice(bodies: &[Numbered<'_>], presence: &Presence) -> Vec<Found> {
         .collect();
     let pieces: Vec<Pieces> = bodies
         .iter()
-        .map(|(_, body)| Pieces::of(&body.polygon))
+        .map(|(_, body)| Pieces::new(&body.polygon))
         .collect();
-    let nearby = BoxIndex::of((0..bodies.len()).collect(), |i: &usize| boxes[*i]);
+    let nearby = BoxIndex::new((0..bodies.len()).collect(), |i: &usize| boxes[*i]);
     let mut found = Vec::new();
     let mut near: Vec<usize> = Vec::new();
     for (i, (id, _)) in bodies.iter().enumerate() {
@@ -280,7 +280,7 @@ mod tests {
             frame(&[1, 2]),
             frame(&[0]),
         ];
-        let presence = Presence::of(3, &frames);
+        let presence = Presence::new(3, &frames);
         let block = |i| BodyId::Block(BlockId(i));
         assert_eq!(presence.together(block(0), block(1)), Some(1));
         assert_eq!(presence.together(block(0), block(2)), None);

@@ -139,7 +139,8 @@ pub(super) fn heal(
     for (_, size) in numbers.iter().zip(&mut sizes).filter(|(n, _)| **n < parts) {
         *size = largest;
     }
-    let gaps = |reach: HealingReach| -> Vec<f64> { sizes.iter().map(|s| reach.healing_of(*s)).collect() };
+    let gaps =
+        |reach: HealingReach| -> Vec<f64> { sizes.iter().map(|s| reach.healing_of(*s)).collect() };
     let mut kept = 0;
     let mut outlines = Cow::Borrowed(&drawn[..]);
     if reach.healing > 0.0 {

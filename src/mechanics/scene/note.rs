@@ -94,7 +94,7 @@ pub(crate) struct Lines {
 
 impl Lines {
     /// Of the file that a scene was read from.
-    pub(super) fn of(source: &Source<'_>) -> Lines {
+    pub(super) fn new(source: &Source<'_>) -> Lines {
         let list = |key| {
             let starts = source.starts(key);
             starts.map(|byte| source.line(byte)).collect()

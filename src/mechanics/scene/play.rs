@@ -52,7 +52,11 @@ pub(super) fn whole(blocks: usize, holds: Vec<Hold>) -> Frame {
 }
 
 /// One frame per step.
-pub(super) fn frames(findings: &mut Findings, steps: &[StepEntry], cast: &StepContext<'_>) -> Vec<Frame> {
+pub(super) fn frames(
+    findings: &mut Findings,
+    steps: &[StepEntry],
+    cast: &StepContext<'_>,
+) -> Vec<Frame> {
     let top = Trail::Top;
     let list = top.key("steps");
     let mut standing = Standing {

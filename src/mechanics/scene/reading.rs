@@ -10,7 +10,7 @@ mod value;
 pub(super) use self::object::KEYS;
 use self::value::Reader;
 use super::Scene;
-use super::finding::{UnreadParts, Finding};
+use super::finding::{Finding, UnreadParts};
 use super::format::SceneFile;
 use super::note::{self, Lines};
 use super::problem::SceneError;
@@ -51,7 +51,7 @@ impl Scene {
         file.contact_tolerance = tolerance.or(file.contact_tolerance);
         let all = match resolve(&file, doubt) {
             Ok(mut scene) if findings.is_empty() => {
-                scene.lines = Lines::of(&source);
+                scene.lines = Lines::new(&source);
                 scene.notes = note::of(&file, &scene, Some(&source));
                 return Ok(scene);
             }
@@ -102,7 +102,7 @@ impl Scene {
     ///     .step(StepEntry::new("The crane helps").place(["lintel"]).hold_at("crane", "lintel", [5.0, 4.0]))
     ///     .step(StepEntry::new("It lets go").release(["crane"]))
     ///     .build()?;
-    /// let verdicts = Analysis::of(&scene).frames.iter().map(|frame| frame.verdict).collect::<Vec<_>>();
+    /// let verdicts = Analysis::new(&scene).frames.iter().map(|frame| frame.verdict).collect::<Vec<_>>();
     /// assert_eq!(verdicts, [Verdict::Stable, Verdict::Stable, Verdict::Unstable]);
     ///
     /// let flat = Scene::builder().block(BlockEntry::new("a").polygon([[0.0, 0.0], [1.0, 0.0]]));
@@ -126,8 +126,8 @@ impl Scene {
     /// # Ok::<(), drystone::scene::SceneError>(())
     /// ```
     pub fn new(file: SceneFile) -> Result<Scene, SceneError> {
-        let mut scene =
-            resolve(&file, UnreadParts::default()).map_err(|findings| SceneError::place(findings, None))?;
+        let mut scene = resolve(&file, UnreadParts::default())
+            .map_err(|findings| SceneError::place(findings, None))?;
         scene.notes = note::of(&file, &scene, None);
         Ok(scene)
     }

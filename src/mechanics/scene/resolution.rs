@@ -8,7 +8,7 @@ pub(super) mod sketch;
 
 use self::body::colour;
 use super::collision::{self, Comparison};
-use super::finding::{UnreadParts, Finding, Findings};
+use super::finding::{Finding, Findings, UnreadParts};
 use super::format::{self, Pair, SceneFile};
 use super::frame::Hold;
 use super::heal::{self, Healed, HealingReach, ToleranceSource};
@@ -295,7 +295,7 @@ impl<'f> Resolution<'f> {
         };
         let around = polygons().map(Polygon::bounds).reduce(Bounds::union);
         let typical = median(polygons().map(|p| p.bounds().diagonal()).collect());
-        let usual = Tolerance::of(around.map_or(0.0, Bounds::diagonal), typical).gap;
+        let usual = Tolerance::new(around.map_or(0.0, Bounds::diagonal), typical).gap;
         let small = median(polygons().map(heal::size).collect());
         // Both ends of an edge and a corner beside it, each off in both coordinates.
         let misfit = |r: &Rounding| 3.0 * r.error;

@@ -71,13 +71,13 @@ impl Sketch {
     /// # Example
     /// ```
     /// use drystone::scene::Sketch;
-    /// let sketch = Sketch::of(br#"{ "drystone": 1, "blocks": [
+    /// let sketch = Sketch::from_bytes(br#"{ "drystone": 1, "blocks": [
     ///     { "polygon": [[0, 0], [2, 0], [2, 1], [0, 1]] },
     ///     { "polygon": [[1, 0], [4, 0], [4, 1], [1, 1]] }] }"#, None);
     /// let place = sketch.places[0].as_ref().expect("the overlap has a place");
     /// assert_eq!((place.at.x, place.at.y), (1.5, 0.5));
     /// ```
-    pub fn of(bytes: &[u8], tolerance: Option<f64>) -> Sketch {
+    pub fn from_bytes(bytes: &[u8], tolerance: Option<f64>) -> Sketch {
         let problems = Scene::from_slice_within(bytes, tolerance).err();
         let mut sketch = Sketch {
             title: String::new(),
@@ -112,7 +112,7 @@ impl Sketch {
             Some(Place::Own(at)) => body.placement.place(*at),
             Some(Place::Between(at, _)) => *at,
             None => {
-                let bounds = Bounds::of(body.rings.iter().flatten().copied())?;
+                let bounds = Bounds::from_points(body.rings.iter().flatten().copied())?;
                 nalgebra::center(&bounds.min, &bounds.max)
             }
         };
@@ -147,7 +147,7 @@ mod tests {
         // A bow tie that crosses at (1, 1), turned by a quarter and moved by (10, 0).
         let text = br#"{ "drystone": 1, "blocks": [{ "at": [10, 0], "angle": 90,
             "polygon": [[0, 0], [2, 2], [2, 0], [0, 2]] }] }"#;
-        let sketch = Sketch::of(text, None);
+        let sketch = Sketch::from_bytes(text, None);
         let spots: Vec<&Spot> = sketch.places.iter().flatten().collect();
         assert_eq!(spots.len(), 1, "{}", sketch.problems);
         assert!((spots[0].at - Point::new(9.0, 1.0)).norm() < 1e-12);
@@ -160,11 +160,11 @@ mod tests {
         let text =
             br#"{ "drystone": 1, "blocks": [{ "polygon": [[0, 0], [1, 0], [0, 1]], "wieght": 3 },
             { "id": "b", "polygon": "none" }, { "id": "c", "polygon": [[5, 5], [6, 5]] }] }"#;
-        let sketch = Sketch::of(text, None);
+        let sketch = Sketch::from_bytes(text, None);
         let names: Vec<&str> = sketch.bodies.iter().map(|b| b.name.as_str()).collect();
         assert_eq!(names, ["1", "c"]);
         assert_eq!(sketch.places.len(), sketch.problems.list.len());
-        assert!(Sketch::of(b"{", None).bodies.is_empty());
-        assert_eq!(Sketch::of(b"\xff", None).problems.list.len(), 1);
+        assert!(Sketch::from_bytes(b"{", None).bodies.is_empty());
+        assert_eq!(Sketch::from_bytes(b"\xff", None).problems.list.len(), 1);
     }
 }

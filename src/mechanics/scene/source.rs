@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::path::{Path, Segment};
-use super::tree::{Entry, SyntaxError, NodeKind, Tree, parse};
+use super::tree::{Entry, NodeKind, SyntaxError, Tree, parse};
 
 /// A text and its JSON values.
 pub(super) struct Source<'t> {

@@ -11,11 +11,11 @@ use std::collections::BTreeMap;
 
 pub use refusal::SessionError;
 
-use crate::analysis::{Analysis, WarmStart, Options, Source, Verdict, hinges_on_gaps};
+use crate::analysis::{Analysis, Options, Source, Verdict, WarmStart, hinges_on_gaps};
 use crate::geometry::{Cell, Point};
 use crate::interface::{Edges, Interfaces};
 use crate::scene::format::{BlockEntry, SceneFile};
-use crate::scene::{BlockId, BodyId, Hold, SceneError, RobotId, Scene};
+use crate::scene::{BlockId, BodyId, Hold, RobotId, Scene, SceneError};
 
 /// A structure under construction.
 ///
@@ -27,7 +27,7 @@ use crate::scene::{BlockId, BodyId, Hold, SceneError, RobotId, Scene};
 ///     BlockEntry::new(id).polygon([[x, y], [x + 3.0, y], [x + 3.0, y + 1.0], [x, y + 1.0]])
 /// };
 /// let floor = [[-9.0, -1.0], [9.0, -1.0], [9.0, 0.0], [-9.0, 0.0]];
-/// let mut session = Session::of(Scene::builder().ground(floor).robot(RobotEntry::new("crane")))?;
+/// let mut session = Session::new(Scene::builder().ground(floor).robot(RobotEntry::new("crane")))?;
 /// assert_eq!(session.place(brick("a", 0.0, 0.0))?, Verdict::Stable);
 /// assert_eq!(session.place(brick("b", 2.0, 1.0))?, Verdict::Unstable);
 /// assert_eq!(session.hold("crane", "b", None)?, Verdict::Stable);
@@ -69,7 +69,7 @@ impl Session {
     ///
     /// # Errors
     /// What is wrong with the scene; and steps, which are the session's own.
-    pub fn of(file: SceneFile) -> Result<Session, SessionError> {
+    pub fn new(file: SceneFile) -> Result<Session, SessionError> {
         Session::with(file, Options::default())
     }
 
@@ -77,7 +77,7 @@ impl Session {
     /// for all steps.
     ///
     /// # Errors
-    /// As [`Session::of`].
+    /// As [`Session::new`].
     pub fn with(file: SceneFile, options: Options) -> Result<Session, SessionError> {
         if !file.steps.is_empty() {
             return Err(SessionError::Steps);
@@ -97,8 +97,8 @@ impl Session {
                 loads: Vec::new(),
                 ..file.clone()
             },
-            lookup: Lookup::of(&scene),
-            found: Interfaces::of(&scene),
+            lookup: Lookup::new(&scene),
+            found: Interfaces::new(&scene),
             scene,
             file,
             guess: WarmStart::default(),
@@ -289,7 +289,7 @@ impl Session {
     /// Reads all blocks that stand as one scene; where something is wrong with it, all stays as it is.
     fn read_anew(&mut self) -> Result<(), SceneError> {
         let mut scene = Scene::new(self.file.clone())?;
-        self.lookup = Lookup::of(&scene);
+        self.lookup = Lookup::new(&scene);
         let grips = self.grips.iter();
         let holds = grips.filter_map(|(robot, (block, at))| {
             let block = *self.lookup.numbers.get(block)?;
@@ -300,7 +300,7 @@ impl Session {
             })
         });
         scene.frames[0].holds = holds.collect();
-        self.found = Interfaces::of(&scene);
+        self.found = Interfaces::new(&scene);
         self.scene = scene;
         Ok(())
     }
@@ -325,7 +325,7 @@ impl Session {
 }
 
 impl Lookup {
-    fn of(scene: &Scene) -> Lookup {
+    fn new(scene: &Scene) -> Lookup {
         let mut lookup = Lookup::default();
         for (number, ground) in scene.ground.iter().enumerate() {
             if let Some(cells) = &ground.body.cells {

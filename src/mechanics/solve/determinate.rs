@@ -23,7 +23,7 @@ const HAIR: f64 = 1e-14;
 /// The forces, where there is no choice and every contact can give them.
 pub fn determinate(program: &Program) -> Option<Amounts> {
     let joints = joints(program)?;
-    let split = Split::of(program, &joints)?;
+    let split = Split::new(program, &joints)?;
     let holds = |joint: &Joint| split.speeds(joint) == ([0.0; 2], 0.0);
     joints.iter().all(holds).then_some(split.forces)
 }
@@ -52,14 +52,14 @@ fn given(program: &Program, joints: &[Joint]) -> Vec<([f64; 2], f64)> {
 /// What would have to stick, and the motion that shows that it takes so much; `None` where forces have a choice.
 pub(super) fn stick(program: &Program) -> Option<Stuck> {
     let joints = joints(program)?;
-    Split::of(program, &joints)?.stuck(program, &joints)
+    Split::new(program, &joints)?.stuck(program, &joints)
 }
 
 /// The motion in which only contacts next to the ground give way, so that what lies beyond moves with them as one body, and
 /// what would have to stick; `None` where forces have a choice, and where none sticks.
 pub fn collapse(program: &Program) -> Option<(Vec<f64>, Stuck)> {
     let joints = joints(program)?;
-    let split = Split::of(program, &joints)?;
+    let split = Split::new(program, &joints)?;
     let mut moves = vec![false; program.blocks];
     let mut speeds = Vec::with_capacity(joints.len());
     for joint in &joints {
@@ -111,7 +111,7 @@ struct Split {
 }
 
 impl Split {
-    fn of(program: &Program, joints: &[Joint]) -> Option<Split> {
+    fn new(program: &Program, joints: &[Joint]) -> Option<Split> {
         let (mut forces, mut sticking) = (Amounts::none(program), Amounts::none(program));
         for (joint, ([first, second], along)) in joints.iter().zip(given(program, joints)) {
             if !(first.is_finite() && second.is_finite() && along.is_finite()) {

@@ -72,7 +72,7 @@ pub fn most(program: &Program, toward: &[f64]) -> Extreme {
     };
     let scaled = |list: &[f64], by: f64| -> Vec<f64> { list.iter().map(|v| v / by).collect() };
     let (loads, along) = (scaled(&program.loads, load), scaled(toward, size));
-    let columns = Slanted::of(&columns_in(program, load)).columns;
+    let columns = Slanted::new(&columns_in(program, load)).columns;
     let (mut conic, row_of) = most_of(&loads, &along, &columns);
     let many = program.blocks >= MANY_BLOCKS;
     let work = if many { WORK } else { 1.0 };

@@ -29,8 +29,8 @@ mod wedge;
 pub use balance::{Balance, balance, balance_at_first_look, balance_in};
 pub(crate) use conic::DeadlineGuard;
 pub use conic::{
-    Answer, Choice, Conditioning, CrossoverTolerance, ITERATIONS, SolverSettings, Status, TOLERANCE,
-    by_clarabel, solve, solve_within,
+    Answer, Choice, Conditioning, CrossoverTolerance, ITERATIONS, SolverSettings, Status,
+    TOLERANCE, by_clarabel, solve, solve_within,
 };
 pub use determinate::{collapse, determinate};
 pub use limit::{Extreme, Limit, least, most};
@@ -40,7 +40,7 @@ pub use refine::{corrected, relative};
 pub use residual::{Residual, any_balance, least_residual};
 pub use stick::{Stuck, stick, stick_in};
 pub use tangent::Tangent;
-pub use wedge::{SelfStressCheck, RuledOut, Slide, SelfStress, reach};
+pub use wedge::{RuledOut, SelfStress, SelfStressCheck, Slide, reach};
 
 use crate::geometry::{Vector, cross, quarter_turn};
 use crate::program::{Column, Conic, Force, Program, force_form, kinematic, least_squares};

@@ -47,7 +47,7 @@ struct Posed<'p> {
 }
 
 impl Posed<'_> {
-    fn of(program: &Program) -> Posed<'_> {
+    fn new(program: &Program) -> Posed<'_> {
         let load = match largest(&program.loads) {
             0.0 => 1.0,
             load => load,
@@ -57,7 +57,7 @@ impl Posed<'_> {
             program,
             load,
             loads: program.loads.iter().map(|v| v / load).collect(),
-            slanted: Slanted::of(&columns),
+            slanted: Slanted::new(&columns),
             columns,
         }
     }
@@ -75,7 +75,7 @@ impl Posed<'_> {
 
 /// Forces that balance, or a motion that shows that none do; neither forces nor motion where the solver tells neither.
 pub fn any_balance(program: &Program) -> Residual {
-    let posed = Posed::of(program);
+    let posed = Posed::new(program);
     let (loads, columns) = (&posed.loads, &posed.slanted.columns);
     let mut effort = Effort::default();
     let any = in_forces(loads, columns, Conditioning::Plain, &mut effort, |_| 0.0);
@@ -106,7 +106,7 @@ pub fn any_balance(program: &Program) -> Residual {
 /// The forces that leave least unbalanced and the motion against which that is so; `None` where the solver ends without a
 /// status.
 pub fn least_residual(program: &Program) -> Option<Residual> {
-    let posed = Posed::of(program);
+    let posed = Posed::new(program);
     let mut effort = Effort::default();
     let (conic, row_of) = least_left(&posed.loads, &posed.slanted.columns);
     let answer = solved_with_retry(&conic, Conditioning::Plain, &mut effort);

@@ -15,7 +15,7 @@ pub(super) struct Slanted {
 
 impl Slanted {
     /// Leaves out every normal force alone that two rays follow.
-    pub fn of(all: &[Column]) -> Slanted {
+    pub fn new(all: &[Column]) -> Slanted {
         let places: Vec<usize> = (0..all.len()).filter(|k| !is_middle(all, *k)).collect();
         Slanted {
             columns: places.iter().map(|k| all[*k]).collect(),

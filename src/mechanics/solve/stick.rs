@@ -12,8 +12,8 @@
 use super::limit::columns_in;
 use super::slanted::Slanted;
 use super::{
-    Amounts, Conditioning, Dual, Effort, Face, CrossoverTolerance, SolverSettings, Status, determinate, dual,
-    in_forces, largest, least_squares_amounts, of_velocities, once, refined,
+    Amounts, Conditioning, CrossoverTolerance, Dual, Effort, Face, SolverSettings, Status,
+    determinate, dual, in_forces, largest, least_squares_amounts, of_velocities, once, refined,
 };
 use crate::program::{Column, Program, kinematic, sticking_columns};
 
@@ -51,7 +51,7 @@ impl Size {
     /// From so many blocks on there are many.
     const MANY_BLOCKS: usize = 200;
 
-    fn of(program: &Program) -> Size {
+    fn new(program: &Program) -> Size {
         match program.blocks {
             0..Self::MANY_BLOCKS => Size::Few,
             _ => Size::Many,
@@ -117,7 +117,7 @@ pub fn stick_in(program: &Program, settings: SolverSettings) -> Stuck {
 /// Solves it whatever contacts there are.
 pub(super) fn by_programs(program: &Program, settings: SolverSettings) -> Stuck {
     let mut effort = Effort::default();
-    let size = Size::of(program);
+    let size = Size::new(program);
     let load = match largest(&program.loads) {
         load if size == Size::Many && load > 0.0 => load,
         _ => 1.0,
@@ -208,7 +208,7 @@ fn finer(loads: &[f64]) -> CrossoverTolerance {
 
 /// The least sticking where forces have no price.
 fn without_middles(whole: &Face, settings: SolverSettings, effort: &mut Effort) -> Dual {
-    let slanted = Slanted::of(&whole.columns);
+    let slanted = Slanted::new(&whole.columns);
     let cost = |c: &Column| f64::from(u8::from(c.force.sticks()));
     let (conic, row_of) = kinematic(&whole.loads, &slanted.columns, cost);
     let finer = SolverSettings {

@@ -26,13 +26,13 @@ pub struct Tangent {
 
 impl Tangent {
     /// Solves it; `None` where the solver ends without a status.
-    pub fn of(program: &Program) -> Option<Tangent> {
+    pub fn new(program: &Program) -> Option<Tangent> {
         let load = match largest(&program.loads) {
             0.0 => return None,
             load => load,
         };
         let loads: Vec<f64> = program.loads.iter().map(|v| v / load).collect();
-        let columns = Slanted::of(&columns_in(program, load)).columns;
+        let columns = Slanted::new(&columns_in(program, load)).columns;
         let (conic, row_of) = least_left(&loads, &columns);
         let answer = solved_with_retry(&conic, Conditioning::Plain, &mut Effort::default());
         if answer.status != Status::Solved {

@@ -65,7 +65,7 @@ pub struct Scatter {
 pub struct ChartError(String);
 
 impl ChartError {
-    fn of(error: impl fmt::Display) -> ChartError {
+    fn new(error: impl fmt::Display) -> ChartError {
         ChartError(error.to_string())
     }
 }
@@ -141,7 +141,7 @@ pub struct Growing {
 /// Where plotters refuses, which no finite and positive points make it do; and for no points.
 pub fn growth(chart: &Growth) -> Result<String, ChartError> {
     if chart.lines.iter().any(|line| line.points.is_empty()) || chart.lines.is_empty() {
-        return Err(ChartError::of("there is nothing to draw"));
+        return Err(ChartError::new("there is nothing to draw"));
     }
     plot::document(SIZE, &chart.title, |svg| plot::growth(chart, svg))
 }
@@ -203,7 +203,7 @@ impl Bars {
 /// Where plotters refuses, or there are no bars.
 pub fn bars(chart: &Bars) -> Result<String, ChartError> {
     if chart.counts.is_empty() || chart.edges.len() != chart.counts.len() + 1 {
-        return Err(ChartError::of("there is nothing to count"));
+        return Err(ChartError::new("there is nothing to count"));
     }
     plot::document(SMALL, &chart.title, |svg| plot::bars(chart, svg))
 }
@@ -228,7 +228,7 @@ pub struct Course {
 pub fn course(chart: &Course) -> Result<String, ChartError> {
     let values = chart.lines.iter().flat_map(|l| l.2.iter().flatten());
     if chart.steps.is_empty() || !values.clone().all(|v| v.is_finite()) || values.count() == 0 {
-        return Err(ChartError::of("there is nothing to draw"));
+        return Err(ChartError::new("there is nothing to draw"));
     }
     plot::document(SMALL, &chart.title, |svg| plot::course(chart, svg))
 }

@@ -8,7 +8,8 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{FontStyle, RGBColor, register_font};
 
 use super::{
-    Bars, Course, Growing, Growth, Point, SIZE, SMALL, Scatter, ChartError, power_of_ten, round_step,
+    Bars, ChartError, Course, Growing, Growth, Point, SIZE, SMALL, Scatter, power_of_ten,
+    round_step,
 };
 use crate::drawing::Face;
 use crate::text::xml;
@@ -34,11 +35,11 @@ pub(super) fn document(
         let _ = register_font(FONT, FontStyle::Bold, Face::SansBold.data());
     });
     let mut svg = String::new();
-    draw(&mut svg).map_err(ChartError::of)?;
+    draw(&mut svg).map_err(ChartError::new)?;
     let (w, h) = (width * FINE, height * FINE);
     let head = format!("width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\"");
     if !svg.contains(&head) {
-        return Err(ChartError::of("the head of the SVG is not where it was"));
+        return Err(ChartError::new("the head of the SVG is not where it was"));
     }
     let page = format!(
         "width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {w} {h}\" role=\"img\" aria-label=\"{}\"",

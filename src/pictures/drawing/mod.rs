@@ -245,7 +245,7 @@ pub struct Group {
 
 impl Group {
     /// An untitled group of a class.
-    pub fn of_class(class: &str) -> Group {
+    pub fn with_class(class: &str) -> Group {
         Group {
             class: class.to_owned(),
             ..Group::default()

@@ -93,7 +93,7 @@ impl Symbol {
 
     /// The symbol in a rectangle of its own size.
     pub fn draw(&self, rect: PageRect, size: f64, ink: Colour) -> Group {
-        let mut group = Group::of_class("symbol");
+        let mut group = Group::with_class("symbol");
         let mut at = rect.at.moved(0.0, REACH.0 * size);
         for letter in &self.letters {
             group = group.with(Text::new(

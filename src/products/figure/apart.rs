@@ -178,7 +178,7 @@ mod tests {
 
     fn spread(text: &str) -> Vec<ForceArrow> {
         let scene = Scene::from_json(text).unwrap_or_else(|problems| panic!("{problems}"));
-        let found = Analysis::of(&scene);
+        let found = Analysis::new(&scene);
         let options = Options::default();
         let largest =
             crate::figure::mark::largest(&scene, &scene.frames[0], &found.frames[0], &options);

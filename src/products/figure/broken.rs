@@ -37,7 +37,7 @@ struct Marked {
 /// # Example
 /// ```
 /// use drystone::{figure, output, scene::Sketch};
-/// let sketch = Sketch::of(br#"{ "drystone": 1, "blocks": [
+/// let sketch = Sketch::from_bytes(br#"{ "drystone": 1, "blocks": [
 ///     { "id": "a", "polygon": [[0, 0], [2, 0], [2, 1], [0, 1]] },
 ///     { "id": "b", "polygon": [[1, 0], [4, 0], [4, 1], [1, 1]] }] }"#, None);
 /// let svg = output::svg::write(&figure::broken(&sketch, &figure::Options::default()));
@@ -83,7 +83,7 @@ pub fn broken(sketch: &Sketch, options: &Options) -> Drawing {
     }
     let size = theme.sizes.reason;
     let indent = 2.0 * DISC + 10.0;
-    let mut list = Group::of_class("problems");
+    let mut list = Group::with_class("problems");
     for (number, entry) in &entries {
         let lines = wrap(entry, Face::Sans, size, room - indent);
         y += 0.6 * size;
@@ -154,7 +154,7 @@ fn marks(sketch: &Sketch) -> (Vec<Marked>, Vec<(Option<usize>, String)>) {
     let near = sketch
         .scene
         .as_ref()
-        .map(|scene| Interfaces::of(scene).near);
+        .map(|scene| Interfaces::new(scene).near);
     let near = near.unwrap_or_default();
     for (i, gap) in near.iter().enumerate().take(SHOWN) {
         let number = sketch.problems.list.len().min(SHOWN) + i + 1;
@@ -196,9 +196,9 @@ fn view(sketch: &Sketch, marks: &[Marked]) -> Option<Bounds> {
     let corners = |blocks: bool| {
         let bodies = sketch.bodies.iter();
         let bodies = bodies.filter(move |b| matches!(b.id, BodyId::Block(_)) == blocks);
-        Bounds::of(bodies.flat_map(|body| body.rings.iter().flatten().copied()))
+        Bounds::from_points(bodies.flat_map(|body| body.rings.iter().flatten().copied()))
     };
-    let places = Bounds::of(marks.iter().map(|mark| mark.at));
+    let places = Bounds::from_points(marks.iter().map(|mark| mark.at));
     let shown = [corners(true).or_else(|| corners(false)), places];
     let around = shown.into_iter().flatten().reduce(Bounds::union)?;
     let size = around.width().max(around.height());
@@ -215,7 +215,7 @@ fn structure(
     options: &Options,
 ) -> Group {
     let theme = &options.theme;
-    let mut group = Group::of_class("bodies");
+    let mut group = Group::with_class("bodies");
     group.clip = Some(rect);
     let wrong = |id: BodyId| (marks.iter()).any(|m| m.code.is_some() && m.bodies.contains(&id));
     for body in &sketch.bodies {
@@ -229,7 +229,7 @@ fn structure(
         } else {
             Stroke::new(theme.outline, 1.2)
         };
-        let shape = Group::of_class("body")
+        let shape = Group::with_class("body")
             .titled(body.name.clone())
             .with(Path::filled(outline.clone(), fill).with_opacity(0.75))
             .with(Path::stroked(outline, stroke));
@@ -272,7 +272,7 @@ fn drawn(body: &SketchedBody, camera: &Camera) -> Outline {
 /// A block's name in its middle, or below a mark that is there, where there is room.
 fn name(body: &SketchedBody, marks: &[Marked], camera: &Camera, options: &Options) -> Option<Text> {
     let theme = &options.theme;
-    let bounds = Bounds::of(body.rings.iter().flatten().copied())?;
+    let bounds = Bounds::from_points(body.rings.iter().flatten().copied())?;
     let (size, rect) = (theme.sizes.name, camera.rect(bounds));
     if width(&body.name, Face::Sans, size) > 0.9 * rect.width || size > 0.8 * rect.height {
         return None;
@@ -314,7 +314,7 @@ fn shared(a: &[[PagePoint; 2]], b: &[[PagePoint; 2]]) -> Vec<[PagePoint; 2]> {
 /// The numbers, each in a disc beside its place and clear of the others.
 fn numbers(marks: &[Marked], camera: &Camera, options: &Options) -> Group {
     let theme = &options.theme;
-    let mut group = Group::of_class("marks");
+    let mut group = Group::with_class("marks");
     let mut taken: Vec<PagePoint> = Vec::new();
     for mark in marks {
         let place = camera.place(mark.at);
@@ -336,7 +336,7 @@ fn numbers(marks: &[Marked], camera: &Camera, options: &Options) -> Group {
         let at = beside(place, &taken);
         taken.push(at);
         let leader = Outline::line([place, at]);
-        let ring = Group::of_class("mark")
+        let ring = Group::with_class("mark")
             .titled(format!("mark {}", mark.number))
             .with(Path::stroked(leader, Stroke::new(colour, 0.8)))
             .with(sign)
@@ -384,7 +384,7 @@ fn disc(number: usize, at: PagePoint, options: &Options) -> Group {
         size,
         theme.ink,
     );
-    Group::of_class("number")
+    Group::with_class("number")
         .with(
             Path::filled(Outline::circle(at, DISC), theme.page)
                 .with_stroke(Stroke::new(theme.ink, 1.2)),

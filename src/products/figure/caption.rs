@@ -12,7 +12,7 @@ use crate::wording::verdict::lacks;
 /// let scene = Scene::from_json(r#"{ "drystone": 1, "title": "An overhang",
 ///     "ground": [{ "polygon": [[0, 0], [2, 0], [2, -1], [0, -1]] }],
 ///     "blocks": [{ "id": "plank", "polygon": [[1, 0], [5, 0], [5, 1], [1, 1]], "weight": 8 }] }"#)?;
-/// let words = figure::caption(&Analysis::of(&scene));
+/// let words = figure::caption(&Analysis::new(&scene));
 /// assert_eq!(words, "An overhang. It falls: block plank would have to stick to the ground with 8 N.");
 /// # Ok::<(), drystone::scene::SceneError>(())
 /// ```

@@ -105,8 +105,13 @@ pub(crate) fn reach(analysis: &Analysis, frame: usize) -> Option<Bounds> {
 }
 
 /// What the camera sees of a frame and of what changed.
-pub(crate) fn picture(stage: &FigureContext<'_>, frame: usize, view: Bounds, camera: &Camera) -> Group {
-    let pen = Pen::of(stage, frame, camera);
+pub(crate) fn picture(
+    stage: &FigureContext<'_>,
+    frame: usize,
+    view: Bounds,
+    camera: &Camera,
+) -> Group {
+    let pen = Pen::new(stage, frame, camera);
     let (scene, theme) = (&stage.analysis.scene, &stage.options.theme);
     let mut ink = label::ink(&pen);
     let outlines = |ids: &[BlockId]| {
@@ -119,15 +124,15 @@ pub(crate) fn picture(stage: &FigureContext<'_>, frame: usize, view: Bounds, cam
     let [came, went] = blocks(stage.analysis, frame);
     let mut parts = Vec::new();
     if !went.is_empty() {
-        let gone = Group::of_class("gone").titled("Blocks that are gone");
+        let gone = Group::with_class("gone").titled("Blocks that are gone");
         parts.push(gone.with(gone_path(outlines(&went), theme)));
     }
     if !came.is_empty() {
-        let new = Group::of_class("new").titled("Blocks that are new");
+        let new = Group::with_class("new").titled("Blocks that are new");
         parts.push(new.with(new_path(outlines(&came), theme)));
     }
-    let mut before = Group::of_class("before");
-    let mut changed = Group::of_class("changed");
+    let mut before = Group::with_class("before");
+    let mut changed = Group::with_class("changed");
     let metres = stage.unit / stage.marks[frame].newtons_per_unit.max(f64::MIN_POSITIVE);
     let (share, least, most) = RING;
     let newtons = stage.marks[frame].newtons_per_unit;
@@ -142,7 +147,7 @@ pub(crate) fn picture(stage: &FigureContext<'_>, frame: usize, view: Bounds, cam
         ink.disc(at, radius + 1.0);
         let stroke = Stroke::new(theme.motion, 1.6);
         let ring = Path::stroked(Outline::circle(at, radius), stroke);
-        let drawn = Group::of_class("change").titled(title);
+        let drawn = Group::with_class("change").titled(title);
         changed.items.push(drawn.with(ring).into());
         let bodies = between(change.now);
         for (body, other, sign) in [(bodies[0], bodies[1], 1.0), (bodies[1], bodies[0], -1.0)] {

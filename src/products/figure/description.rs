@@ -8,7 +8,12 @@ use crate::scene::{Block, BodyId, Scene};
 pub(crate) use crate::wording::failure::{named, pair};
 
 /// A block's numbers in words.
-pub(crate) fn block(stage: &FigureContext<'_>, frame: usize, place: usize, block: &Block) -> String {
+pub(crate) fn block(
+    stage: &FigureContext<'_>,
+    frame: usize,
+    place: usize,
+    block: &Block,
+) -> String {
     let weight = quantity(block.weight, "N");
     if !stage.tells_amplitudes {
         return format!("weight {weight}");

@@ -15,8 +15,13 @@ pub(crate) const ASIDE: f64 = 58.0;
 const TICK: f64 = 4.0;
 
 /// The lines of a frame's picture, of what lies in `view`; nothing for a frame without blocks.
-pub(crate) fn lines(stage: &FigureContext<'_>, frame: usize, view: Bounds, camera: &Camera) -> Group {
-    let group = Group::of_class("dimensions");
+pub(crate) fn lines(
+    stage: &FigureContext<'_>,
+    frame: usize,
+    view: Bounds,
+    camera: &Camera,
+) -> Group {
+    let group = Group::with_class("dimensions");
     let scene = &stage.analysis.scene;
     // Of a neighbourhood it is the block in its middle that is measured.
     let meant = |id: &&BlockId| stage.options.zoom.is_none_or(|zoomed| zoomed == **id);

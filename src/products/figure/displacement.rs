@@ -37,7 +37,7 @@ impl Displacement {
     /// `amplitude`·velocity where it does not turn.
     ///
     /// Units: `amplitude` is the way in metres of a point of speed 1.
-    pub fn of(motion: &Motion, centroid: Point, amplitude: f64) -> Displacement {
+    pub fn new(motion: &Motion, centroid: Point, amplitude: f64) -> Displacement {
         let angle = amplitude * motion.spin;
         let (sin, cos) = (libm::sin(angle), libm::cos(angle));
         // The rotation about the instantaneous centre, written as one about the centroid and the centroid's way along
@@ -122,7 +122,7 @@ fn dips(analysis: &Analysis, frame: usize, heap: &[Motion], way: f64) -> bool {
         let Some(motion) = moves(body) else {
             return Some(polygon.clone());
         };
-        let moved = Displacement::of(motion, scene.blocks[id.0].centroid, way);
+        let moved = Displacement::new(motion, scene.blocks[id.0].centroid, way);
         let ring = |ring: &Vec<Point>| ring.iter().map(|p| moved.moved(*p)).collect();
         let mut rings = polygon.rings().iter().map(ring);
         Polygon::new(rings.next()?, rings.collect()).ok()
@@ -136,7 +136,7 @@ fn dips(analysis: &Analysis, frame: usize, heap: &[Motion], way: f64) -> bool {
             return false;
         };
         let smaller = a.area().min(b.area());
-        let shared = overlap(&Pieces::of(&a), &Pieces::of(&b), 0.0);
+        let shared = overlap(&Pieces::new(&a), &Pieces::new(&b), 0.0);
         shared.is_some_and(|o| o.area > SHARED * smaller)
     })
 }
@@ -173,7 +173,7 @@ fn followed(
         let amplitude = amplitude(&heap);
         for motion in heap {
             let centroid = scene.blocks[motion.block.0].centroid;
-            displacements[motion.block.0] = Some(Displacement::of(&motion, centroid, amplitude));
+            displacements[motion.block.0] = Some(Displacement::new(&motion, centroid, amplitude));
         }
     }
     displacements
@@ -252,7 +252,7 @@ mod tests {
     #[test]
     fn displaced_blocks_keep_their_areas_and_sides() {
         for scene in falling() {
-            let analysis = Analysis::of(&scene);
+            let analysis = Analysis::new(&scene);
             let displaced = displacements(&analysis, 0, unit(&scene, None), 1.0);
             let mut count = 0;
             for (block, displacement) in scene.blocks.iter().zip(&displaced) {
@@ -283,7 +283,7 @@ mod tests {
         let mut area = 0.0;
         for (i, a) in blocks.iter().enumerate() {
             for b in &blocks[..i] {
-                area += overlap(&Pieces::of(a), &Pieces::of(b), 0.0).map_or(0.0, |o| o.area);
+                area += overlap(&Pieces::new(a), &Pieces::new(b), 0.0).map_or(0.0, |o| o.area);
             }
         }
         area
@@ -293,7 +293,7 @@ mod tests {
     fn displaced_blocks_lie_in_each_other_by_no_more_than_the_square_of_their_way() {
         // A kernel lets blocks turn about points within an interface, so that what lies beyond dips in at once.
         for scene in falling().into_iter().filter(|s| s.kernel == 0.0) {
-            let analysis = Analysis::of(&scene);
+            let analysis = Analysis::new(&scene);
             let heaps = together(&analysis, 0, |_| true);
             assert_eq!(heaps.len(), 1);
             let amplitude = amplitude(&analysis, &heaps[0], unit(&scene, None));
@@ -325,7 +325,7 @@ mod tests {
                 velocity,
                 spin,
             };
-            let moved = Displacement::of(&motion, centroid, 0.6);
+            let moved = Displacement::new(&motion, centroid, 0.6);
             if spin != 0.0 {
                 assert!((moved.moved(corner) - corner).norm() < 1e-12);
             } else {
@@ -364,7 +364,7 @@ mod tests {
             brick("small", 200.0, 0.3)
         );
         let scene = Scene::from_json(&text).unwrap_or_else(|problems| panic!("{problems}"));
-        let displaced = displacements(&Analysis::of(&scene), 0, unit(&scene, None), 1.0);
+        let displaced = displacements(&Analysis::new(&scene), 0, unit(&scene, None), 1.0);
         for (block, displacement) in scene.blocks.iter().zip(displaced) {
             let displacement = displacement.expect("it tips");
             let turned = displacement.turned(Vector::new(1.0, 0.0));

@@ -69,7 +69,7 @@ pub fn split(analysis: &Analysis, kind: Kind, options: &Options, high: f64) -> V
 pub fn least_size(analysis: &Analysis, kind: Kind, options: &Options) -> (f64, f64) {
     let options = kind.options(options);
     let stage = kind.stage(analysis, &options);
-    Layout::of(&stage, analysis.frames.len()).least(&stage)
+    Layout::new(&stage, analysis.frames.len()).least(&stage)
 }
 
 /// The pages of a mechanism: each frame that falls in steps along its way, each other frame once.

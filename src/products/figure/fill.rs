@@ -37,7 +37,7 @@ pub(crate) struct Fills {
 
 impl Fills {
     /// The shares of every frame.
-    pub fn of(analysis: &Analysis, rule: Fill) -> Fills {
+    pub fn new(analysis: &Analysis, rule: Fill) -> Fills {
         let scene = &analysis.scene;
         let each = |amount: fn(&Scene, &Frame, &FrameAnalysis) -> Vec<f64>| -> Vec<Vec<f64>> {
             let frames = scene.frames.iter().zip(&analysis.frames);

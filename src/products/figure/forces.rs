@@ -21,7 +21,7 @@ use crate::drawing::Drawing;
 ///          "ground": [ { "polygon": [[-1, -1], [3, -1], [3, 0], [-1, 0]] } ],
 ///          "blocks": [ { "id": "brick", "polygon": [[0, 0], [2, 0], [2, 1], [0, 1]], "weight": 6 } ] }"#,
 /// )?;
-/// let drawing = figure::forces(&Analysis::of(&scene), &figure::Options::default());
+/// let drawing = figure::forces(&Analysis::new(&scene), &figure::Options::default());
 /// let svg = output::svg::write(&drawing);
 /// assert!(svg.contains("Weight of block brick: 6 N at 270°"));
 /// let png = output::png::render(&svg, output::png::Size::Width(800))?;

@@ -155,14 +155,14 @@ fn plate(name: &'static str, subject: &Subject, theme: &Theme) -> Plate {
                 corners: Corners::All,
                 ..options
             };
-            let drawing = freebody(&Analysis::of(&scene), 0, id, &options);
+            let drawing = freebody(&Analysis::new(&scene), 0, id, &options);
             let drawing = drawing.expect("the block is placed in our own scene");
             let caption = format!("{}. Block {block} cut free.", scene.title);
             (drawing, caption)
         }
         Subject::Forces(text) => {
             let scene = read(text);
-            let found = Analysis::of(&scene);
+            let found = Analysis::new(&scene);
             (draw(&found, Kind::Forces, &options), caption(&found))
         }
         Subject::Plate {
@@ -172,7 +172,7 @@ fn plate(name: &'static str, subject: &Subject, theme: &Theme) -> Plate {
             panels,
         } => {
             let scenes: Vec<Scene> = scenes.iter().map(|text| read(text)).collect();
-            let found: Vec<Analysis> = scenes.iter().map(Analysis::of).collect();
+            let found: Vec<Analysis> = scenes.iter().map(Analysis::new).collect();
             let captions: Vec<String> = found.iter().map(caption).collect();
             let drawing = super::plate::plate(&found, panels, title, *columns, &options);
             (drawing, captions.join(" "))

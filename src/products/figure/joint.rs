@@ -126,7 +126,7 @@ mod tests {
 
     fn of(text: &str) -> (Scene, Vec<Joint>) {
         let scene = Scene::from_json(text).unwrap_or_else(|problems| panic!("{problems}"));
-        let joints = joints(&Analysis::of(&scene), 0);
+        let joints = joints(&Analysis::new(&scene), 0);
         (scene, joints)
     }
 

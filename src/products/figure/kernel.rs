@@ -21,8 +21,13 @@ const BEYOND: f64 = 1.0 + 1e-6;
 const BOLD: (f64, f64, f64) = (0.085, 1.6, 4.6);
 
 /// What the camera sees of a frame, its safe stretches and where resultants sit.
-pub(crate) fn picture(stage: &FigureContext<'_>, frame: usize, view: Bounds, camera: &Camera) -> Group {
-    let pen = Pen::of(stage, frame, camera);
+pub(crate) fn picture(
+    stage: &FigureContext<'_>,
+    frame: usize,
+    view: Bounds,
+    camera: &Camera,
+) -> Group {
+    let pen = Pen::new(stage, frame, camera);
     let found = &stage.analysis.frames[frame];
     let bold = bold(pen.unit());
     let mut ink = label::ink(&pen);
@@ -137,7 +142,7 @@ fn rest(theme: &Theme, bold: f64) -> Stroke {
 fn stretches(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
     let (scene, theme) = (&pen.stage.analysis.scene, &pen.stage.options.theme);
     let bold = bold(pen.unit());
-    let mut group = Group::of_class("interfaces");
+    let mut group = Group::with_class("interfaces");
     let (mut all_safe, mut all_rests) = (Outline::default(), Outline::default());
     let casing = |outline: Outline| {
         Path::stroked(outline, Stroke::new(theme.page, 0.45 * bold + 2.0)).with_opacity(0.8)
@@ -164,7 +169,7 @@ fn stretches(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
             quantity((1.0 - scene.kernel) * length, "m"),
             quantity(length, "m")
         );
-        let mut drawn = Group::of_class("interface").titled(title);
+        let mut drawn = Group::with_class("interface").titled(title);
         if !rests.segments.is_empty() {
             drawn = drawn
                 .with(casing(rests.clone()))
@@ -193,7 +198,7 @@ fn stretches(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
 /// A mark where each resultant sits, in a frame that stands.
 fn dots(pen: &Pen<'_>, found: &FrameAnalysis, ink: &mut dyn FnMut(PagePoint)) -> Group {
     let (scene, theme) = (&pen.stage.analysis.scene, &pen.stage.options.theme);
-    let mut group = Group::of_class("resultants");
+    let mut group = Group::with_class("resultants");
     if found.verdict != Verdict::Stable {
         return group;
     }
@@ -218,7 +223,7 @@ fn dots(pen: &Pen<'_>, found: &FrameAnalysis, ink: &mut dyn FnMut(PagePoint)) ->
         let path = Path::filled(outline, fill).cased(theme.page, 0.28 * radius);
         group
             .items
-            .push(Group::of_class("resultant").titled(title).with(path).into());
+            .push(Group::with_class("resultant").titled(title).with(path).into());
     }
     group.items.extend(joined.paths(None));
     group

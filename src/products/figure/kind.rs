@@ -91,7 +91,11 @@ impl Kind {
     }
 
     /// What all panels of a figure of this kind share.
-    pub(crate) fn stage<'a>(self, analysis: &'a Analysis, options: &'a Options) -> FigureContext<'a> {
+    pub(crate) fn stage<'a>(
+        self,
+        analysis: &'a Analysis,
+        options: &'a Options,
+    ) -> FigureContext<'a> {
         let content = Content {
             tells_amplitudes: self.tells_amplitudes(),
             draws_forces: self.draws_forces(),
@@ -101,7 +105,7 @@ impl Kind {
             reach: &|frame, unit, marks| self.reach(analysis, frame, unit, marks, options),
             displaced: &|frame, unit| self.displacements(analysis, frame, unit, options.way),
         };
-        let mut stage = FigureContext::of(analysis, options, &content);
+        let mut stage = FigureContext::new(analysis, options, &content);
         let frames = 0..analysis.frames.len();
         stage.statements = frames.map(|frame| self.reason(&stage, frame)).collect();
         stage

@@ -18,7 +18,7 @@ use super::pen::{DOT, Pen};
 use super::stage::FigureContext;
 use super::view;
 use super::words::{counted, listed, quantity};
-use crate::drawing::placement::{Ink, Placed, LabelRequest, nearest, place_where};
+use crate::drawing::placement::{Ink, LabelRequest, Placed, nearest, place_where};
 use crate::drawing::{
     Anchor, Colour, Face, Group, Outline, PagePoint, PageRect, Path, Stroke, Text, text,
 };
@@ -73,7 +73,7 @@ pub(crate) const CLASS: &str = "labels";
 
 /// The labels of a frame, clear of all `ink`, which is asked for where there are any.
 pub(crate) fn labels(pen: &Pen<'_>, view: Bounds, ink: impl FnOnce() -> Ink) -> Group {
-    let mut group = Group::of_class(CLASS);
+    let mut group = Group::with_class(CLASS);
     let labels = wanted(pen, view);
     if labels.is_empty() {
         return group;
@@ -81,7 +81,7 @@ pub(crate) fn labels(pen: &Pen<'_>, view: Bounds, ink: impl FnOnce() -> Ink) -> 
     let mut ink = ink();
     let page = pen.camera.rect(view);
     let wishes: Vec<LabelRequest> = labels.iter().map(|l| l.wish.clone()).collect();
-    let solids = Solids::of(pen);
+    let solids = Solids::new(pen);
     let abroad = |number: usize, rect: PageRect| {
         let own: Option<BlockId> = labels[number].of;
         own.is_some_and(|own| solids.other(pen, own, rect))
@@ -435,7 +435,7 @@ fn inside(polygon: &Polygon, middle: Point, view: Option<Bounds>) -> Vec<Point> 
 
 fn drawn(pen: &Pen<'_>, label: &Label, placed: Placed) -> Group {
     let theme = &pen.stage.options.theme;
-    let mut group = Group::of_class(label.class);
+    let mut group = Group::with_class(label.class);
     if let Some(leader) = placed.leader {
         // A thin grey line on a dark fill would be lost: a seam of the page's colour carries it.
         let seam = Path::stroked(Outline::line(leader), Stroke::new(theme.page, 2.0));
@@ -453,7 +453,7 @@ fn drawn(pen: &Pen<'_>, label: &Label, placed: Placed) -> Group {
 fn over(pen: &Pen<'_>, label: &Label) -> Group {
     let below = pen.below(label.wish.anchor);
     let colour = pen.stage.options.theme.letters_on(below, label.colour);
-    let group = Group::of_class(label.class);
+    let group = Group::with_class(label.class);
     lettered(group, label, label.wish.anchor, colour, Some(below))
 }
 

@@ -55,7 +55,7 @@ pub(crate) struct Layout {
 
 impl Layout {
     /// For `count` panels, so that all fit on a page if they can.
-    pub fn of(stage: &FigureContext<'_>, count: usize) -> Layout {
+    pub fn new(stage: &FigureContext<'_>, count: usize) -> Layout {
         Layout::with(stage, count, Fit::Page)
     }
 

@@ -460,7 +460,7 @@ pub(crate) fn draw(
             _ => lines.push((width, vec![entry])),
         }
     }
-    let mut group = Group::of_class("key");
+    let mut group = Group::with_class("key");
     for (number, (width, line)) in lines.iter().enumerate() {
         let mut at = PagePoint::new(
             middle - width / 2.0,

@@ -111,13 +111,18 @@ pub(crate) fn reach(
     let (displaced, edge) = gone(analysis, frame, unit, options.toward)?;
     let ghosts = mechanism::reach(analysis, &displaced);
     let gravity = gravity(analysis, frame, edge, options.toward)
-        .and_then(|g| Some(Bounds::of([g.from, g.now, g.there])?.grown(0.1 * unit)));
+        .and_then(|g| Some(Bounds::from_points([g.from, g.now, g.there])?.grown(0.1 * unit)));
     ghosts.into_iter().chain(gravity).reduce(Bounds::union)
 }
 
 /// What the camera sees of a frame, its ghost and gravity.
-pub(crate) fn picture(stage: &FigureContext<'_>, frame: usize, view: Bounds, camera: &Camera) -> Group {
-    let pen = Pen::of(stage, frame, camera);
+pub(crate) fn picture(
+    stage: &FigureContext<'_>,
+    frame: usize,
+    view: Bounds,
+    camera: &Camera,
+) -> Group {
+    let pen = Pen::new(stage, frame, camera);
     let mut ink = label::ink(&pen);
     let (scene, theme) = (&stage.analysis.scene, &stage.options.theme);
     let mut parts = Vec::new();
@@ -133,13 +138,13 @@ pub(crate) fn picture(stage: &FigureContext<'_>, frame: usize, view: Bounds, cam
                 outline.extend(Outline::ring(corners));
             }
         }
-        let ghosts = Group::of_class("ghosts").titled("How it would begin to fall");
+        let ghosts = Group::with_class("ghosts").titled("How it would begin to fall");
         parts.push(ghosts.with(ghost_path(outline, pen.line, theme)));
         if let Some(gravity) = gravity(stage.analysis, frame, edge, toward) {
             let [from, now, there] =
                 [gravity.from, gravity.now, gravity.there].map(|p| camera.place(p));
             let along = (there.x - from.x, there.y - from.y);
-            let group = Group::of_class("gravity").titled(match toward {
+            let group = Group::with_class("gravity").titled(match toward {
                 Toward::HorizontalLoad => {
                     format!("Beside gravity {} of it across", percent_of(edge))
                 }

@@ -34,15 +34,20 @@ const BARB: f64 = 0.34;
 pub(crate) fn reach(analysis: &Analysis, displaced: &[Option<Displacement>]) -> Option<Bounds> {
     let blocks = displaced.iter().zip(&analysis.scene.blocks);
     let moved = blocks.filter_map(|(displacement, block)| Some((displacement.as_ref()?, block)));
-    Bounds::of(moved.flat_map(|(displacement, block)| {
+    Bounds::from_points(moved.flat_map(|(displacement, block)| {
         let outline = block.body.polygon.outline().iter();
         outline.map(|p| displacement.moved(*p))
     }))
 }
 
 /// What the camera sees of a frame and its mechanism.
-pub(crate) fn picture(stage: &FigureContext<'_>, frame: usize, view: Bounds, camera: &Camera) -> Group {
-    let pen = Pen::of(stage, frame, camera);
+pub(crate) fn picture(
+    stage: &FigureContext<'_>,
+    frame: usize,
+    view: Bounds,
+    camera: &Camera,
+) -> Group {
+    let pen = Pen::new(stage, frame, camera);
     let mut ink = label::ink(&pen);
     let mut blocks = pen.blocks();
     blocks.items.extend(ghosts(&pen));
@@ -53,8 +58,8 @@ pub(crate) fn picture(stage: &FigureContext<'_>, frame: usize, view: Bounds, cam
             ink.line(from, to, pen.line);
         }
     }
-    let mut slips = Group::of_class("slips");
-    let mut hinges = Group::of_class("hinges");
+    let mut slips = Group::with_class("slips");
+    let mut hinges = Group::with_class("hinges");
     if stage.analysis.frames[frame].verdict == Verdict::Unstable {
         for joint in joints(stage.analysis, frame) {
             let contact = &stage.analysis.frames[frame].contacts[joint.contact];
@@ -91,7 +96,7 @@ fn joined(marks: Group) -> Group {
     }
     Group {
         items: paths.into_iter().map(Item::from).collect(),
-        ..Group::of_class(&marks.class)
+        ..Group::with_class(&marks.class)
     }
 }
 
@@ -146,7 +151,7 @@ fn ghosts(pen: &Pen<'_>) -> Option<Item> {
     // Many small outlines are a texture that must not drown what moves.
     let opacity = if pen.unit() < TEXTURE { 0.6 } else { 1.0 };
     let path = Path::stroked(outline, stroke).with_opacity(opacity);
-    let ghosts = Group::of_class("ghosts").titled("Where the blocks that move stand now");
+    let ghosts = Group::with_class("ghosts").titled("Where the blocks that move stand now");
     (!path.outline.segments.is_empty()).then(|| ghosts.with(path).into())
 }
 
@@ -172,13 +177,13 @@ fn displaced(pen: &Pen<'_>) -> Vec<Item> {
         for (id, _) in moved(pen) {
             all.extend(outline(id));
         }
-        let group = Group::of_class("displaced").titled("The blocks that move");
+        let group = Group::with_class("displaced").titled("The blocks that move");
         return vec![drawn(group, all)];
     }
     moved(pen)
         .map(|(id, motion)| {
             let title = description::motion(scene, motion);
-            let mut group = Group::of_class("displaced").titled(title);
+            let mut group = Group::with_class("displaced").titled(title);
             let weight = quantity(scene.blocks[id.0].weight, "N");
             group.description = format!("weight {weight}");
             drawn(group, outline(id))
@@ -213,7 +218,7 @@ fn hinge(pen: &Pen<'_>, contact: &Contact, at: Point, ink: &mut Ink) -> Item {
     );
     ink.disc(centre, radius + 1.0);
     let pair = description::pair(scene, contact.interface.bodies);
-    Group::of_class("hinge")
+    Group::with_class("hinge")
         .titled(format!("Hinge between {pair}"))
         .with(ring(centre, radius, theme))
         .into()
@@ -234,7 +239,7 @@ fn slip(pen: &Pen<'_>, contact: &Contact, joint: &Joint, ink: &mut Ink) -> Item 
         _ => ARROW.0 * unit,
     };
     let pair = description::pair(scene, interface.bodies);
-    let mut group = Group::of_class("slip").titled(format!("Slip between {pair}"));
+    let mut group = Group::with_class("slip").titled(format!("Slip between {pair}"));
     for (side, body) in [1.0, -1.0].into_iter().zip(interface.bodies) {
         let turned = |v: Vector| match body {
             BodyId::Block(id) => pen.displacement(id).map_or(v, |d| d.turned(v)),

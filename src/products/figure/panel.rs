@@ -8,13 +8,18 @@ use crate::drawing::{Camera, Group, Item};
 use crate::geometry::Bounds;
 
 /// The forces of a frame: what the camera sees of frame `number`; ground is cut at the edge of `view`.
-pub(crate) fn picture(stage: &FigureContext<'_>, number: usize, view: Bounds, camera: &Camera) -> Group {
-    let pen = Pen::of(stage, number, camera);
+pub(crate) fn picture(
+    stage: &FigureContext<'_>,
+    number: usize,
+    view: Bounds,
+    camera: &Camera,
+) -> Group {
+    let pen = Pen::new(stage, number, camera);
     let many = pen.many();
     let mut group = Group {
         camera: Some(*camera),
         clip: stage.options.zoom.map(|_| camera.rect(view)),
-        ..Group::of_class("picture")
+        ..Group::with_class("picture")
     };
     group.items.push(pen.ground(view).into());
     group.items.push(pen.blocks().into());
@@ -55,7 +60,7 @@ pub(crate) fn composed(
     let mut group = Group {
         camera: Some(*pen.camera),
         clip: pen.stage.options.zoom.map(|_| pen.camera.rect(view)),
-        ..Group::of_class("picture")
+        ..Group::with_class("picture")
     };
     let parts = [pen.ground(view), blocks, pen.plans(), pen.discs()];
     let parts = parts.into_iter().chain(marks);

@@ -6,7 +6,7 @@ use super::arrow::ForceArrow;
 use super::by_colour::ByColour;
 use super::description;
 use super::displacement::Displacement;
-use super::stage::{MANY, FigureContext};
+use super::stage::{FigureContext, MANY};
 use crate::drawing::{Camera, Colour, Group, Outline, PagePoint, Path, Stroke};
 use crate::geometry::{Bounds, Lattice, Point};
 use crate::scene::{BlockId, Body, Rgb};
@@ -72,7 +72,7 @@ pub(crate) struct Pen<'a> {
 }
 
 impl<'a> Pen<'a> {
-    pub(crate) fn of(stage: &'a FigureContext<'a>, number: usize, camera: &'a Camera) -> Pen<'a> {
+    pub(crate) fn new(stage: &'a FigureContext<'a>, number: usize, camera: &'a Camera) -> Pen<'a> {
         let unit = camera.length(stage.unit);
         let (scene, widths) = (&stage.analysis.scene, &stage.options.theme.widths);
         let mut places = vec![None; scene.blocks.len()];
@@ -103,7 +103,7 @@ impl<'a> Pen<'a> {
     pub(crate) fn ground(&self, view: Bounds) -> Group {
         let theme = &self.stage.options.theme;
         let scene = &self.stage.analysis.scene;
-        let mut group = Group::of_class("ground").titled("Ground");
+        let mut group = Group::with_class("ground").titled("Ground");
         if scene.ground.is_empty() {
             return group;
         }
@@ -195,7 +195,7 @@ impl<'a> Pen<'a> {
         }
         let (scene, theme) = (&self.stage.analysis.scene, &self.stage.options.theme);
         let frame = &scene.frames[self.number];
-        let mut group = Group::of_class("blocks");
+        let mut group = Group::with_class("blocks");
         for (place, id) in frame.placed.iter().enumerate() {
             if self.displacement(*id).is_some() {
                 continue;
@@ -203,7 +203,7 @@ impl<'a> Pen<'a> {
             let block = &scene.blocks[id.0];
             let fill = self.fill(place, *id);
             let outline = self.camera.polygon(&block.body.polygon);
-            let mut body = Group::of_class("block").titled(format!("Block {}", block.id));
+            let mut body = Group::with_class("block").titled(format!("Block {}", block.id));
             body.description = description::block(self.stage, self.number, place, block);
             body = body.with(Path::filled(outline.clone(), fill));
             let seams = seams(&block.body, scene.lattice, self.camera);
@@ -223,7 +223,7 @@ impl<'a> Pen<'a> {
     fn blocks_by_colour(&self) -> Group {
         let (scene, theme) = (&self.stage.analysis.scene, &self.stage.options.theme);
         let frame = &scene.frames[self.number];
-        let mut group = Group::of_class("blocks").titled(format!("{} blocks", frame.placed.len()));
+        let mut group = Group::with_class("blocks").titled(format!("{} blocks", frame.placed.len()));
         let mut colours = ByColour::default();
         for (place, id) in frame.placed.iter().enumerate() {
             if self.displacement(*id).is_some() {
@@ -240,14 +240,14 @@ impl<'a> Pen<'a> {
 
     pub(crate) fn plans(&self) -> Group {
         let scene = &self.stage.analysis.scene;
-        let mut group = Group::of_class("plans");
+        let mut group = Group::with_class("plans");
         for plan in &scene.frames[self.number].plans {
             let (block, robot) = (&scene.blocks[plan.block.0], &scene.robots[plan.robot.0]);
             let ink = self.stage.options.theme.robot(plan.robot.0);
             let title = format!("Block {}, planned by robot {}", block.id, robot.id);
             let seams = seams(&block.body, scene.lattice, self.camera);
             let outline = self.camera.polygon(&block.body.polygon);
-            let planned = Group::of_class("plan")
+            let planned = Group::with_class("plan")
                 .titled(title)
                 .with(Path::stroked(seams, Stroke::new(ink, 0.9 * self.line)))
                 .with(Path::stroked(outline, Stroke::new(ink, 1.8 * self.line)));
@@ -258,7 +258,7 @@ impl<'a> Pen<'a> {
 
     pub(crate) fn discs(&self) -> Group {
         let (scene, theme) = (&self.stage.analysis.scene, &self.stage.options.theme);
-        let mut group = Group::of_class("robots");
+        let mut group = Group::with_class("robots");
         for hold in &scene.frames[self.number].holds {
             let at = self.moved(hold.block, hold.at);
             let disc = Outline::circle(self.camera.place(at), self.disc());
@@ -271,7 +271,7 @@ impl<'a> Pen<'a> {
                 .with_stroke(Stroke::new(edge, 0.7 * self.line));
             group
                 .items
-                .push(Group::of_class("robot").titled(title).with(path).into());
+                .push(Group::with_class("robot").titled(title).with(path).into());
         }
         group
     }

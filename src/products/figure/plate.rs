@@ -37,7 +37,7 @@ pub(crate) fn plate(
         .collect();
     let layouts: Vec<Layout> = stages
         .iter()
-        .map(|stage| Layout::of(stage, panels.len()))
+        .map(|stage| Layout::new(stage, panels.len()))
         .collect();
     let Some(layout) = layouts.iter().copied().reduce(Layout::both) else {
         return Drawing::default();

@@ -119,7 +119,7 @@ fn chain(analysis: &Analysis, frame: usize, marks: &Marks) -> Option<Chain> {
         at += arrow.vector;
         corners.push(at);
     }
-    let own = Bounds::of(corners.iter().copied()).filter(|_| corners.len() > 2)?;
+    let own = Bounds::from_points(corners.iter().copied()).filter(|_| corners.len() > 2)?;
     let size = own.width().max(own.height());
     if size.is_nan() || size <= 0.0 {
         return None;
@@ -178,16 +178,21 @@ fn larger(times: f64) -> String {
 /// A box around the polygon of a frame, arrows of so many newtons per unit edge.
 pub(crate) fn reach(analysis: &Analysis, frame: usize, marks: &Marks) -> Option<Bounds> {
     let chain = chain(analysis, frame, marks)?;
-    let own = Bounds::of(chain.sides.into_iter().flatten())?;
+    let own = Bounds::from_points(chain.sides.into_iter().flatten())?;
     Some(own.grown(0.3 * unit(&analysis.scene, None)))
 }
 
 /// What the camera sees of a frame: the structure with the forces on it from outside, and their polygon.
-pub(crate) fn picture(stage: &FigureContext<'_>, frame: usize, view: Bounds, camera: &Camera) -> Group {
-    let pen = Pen::of(stage, frame, camera);
+pub(crate) fn picture(
+    stage: &FigureContext<'_>,
+    frame: usize,
+    view: Bounds,
+    camera: &Camera,
+) -> Group {
+    let pen = Pen::new(stage, frame, camera);
     let marks = &stage.marks[frame];
     let mut ink = label::ink(&pen);
-    let mut polygon = Group::of_class("polygon").titled("Force polygon");
+    let mut polygon = Group::with_class("polygon").titled("Force polygon");
     if let Some(chain) = chain(stage.analysis, frame, marks) {
         let theme = &stage.options.theme;
         for (arrow, ends) in outer(marks).zip(&chain.sides) {
@@ -201,7 +206,7 @@ pub(crate) fn picture(stage: &FigureContext<'_>, frame: usize, view: Bounds, cam
                 Path::filled(outline, arrow.colour)
             };
             let title = description::arrow(stage, arrow);
-            let drawn = Group::of_class("force").titled(title).with(path);
+            let drawn = Group::with_class("force").titled(title).with(path);
             polygon.items.push(drawn.into());
         }
         let closed = closed(marks);
@@ -214,7 +219,7 @@ pub(crate) fn picture(stage: &FigureContext<'_>, frame: usize, view: Bounds, cam
         for join in joins {
             let line = Outline::line(join.map(|p| camera.place(p)));
             let stroke = Stroke::new(theme.faint, 0.8).dashed([2.0, 2.0]);
-            let drawn = Group::of_class("join").titled("One place, drawn as two");
+            let drawn = Group::with_class("join").titled("One place, drawn as two");
             polygon
                 .items
                 .push(drawn.with(Path::stroked(line, stroke)).into());
@@ -222,7 +227,7 @@ pub(crate) fn picture(stage: &FigureContext<'_>, frame: usize, view: Bounds, cam
         if let ([Some(last), Some(first)], false) = (ends, closed) {
             let gap = Outline::line([last, first].map(|p| camera.place(p)));
             let stroke = Stroke::new(theme.failure, 1.4).dashed([5.0, 4.0]);
-            let drawn = Group::of_class("gap").titled("What is missing for a balance");
+            let drawn = Group::with_class("gap").titled("What is missing for a balance");
             polygon
                 .items
                 .push(drawn.with(Path::stroked(gap, stroke)).into());

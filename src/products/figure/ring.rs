@@ -41,7 +41,7 @@ pub fn ring(theme: &Theme) -> Drawing {
             ink,
         );
         items.push(
-            Group::of_class("sector")
+            Group::with_class("sector")
                 .titled(format!("Blocks {blocks} wear {}", colour.css()))
                 .with(sector)
                 .with(words.anchored(Anchor::Middle))
@@ -68,7 +68,7 @@ pub fn ring(theme: &Theme) -> Drawing {
         let disc = Path::filled(Outline::circle(PagePoint::new(x, y), 13.0), *colour)
             .with_stroke(Stroke::new(colour.mixed(theme.ink, 0.35), 0.8));
         let robot =
-            Group::of_class("robot").titled(format!("Robot {number} wears {}", colour.css()));
+            Group::with_class("robot").titled(format!("Robot {number} wears {}", colour.css()));
         items.push(robot.with(disc).into());
     }
     y += 32.0;
@@ -76,7 +76,7 @@ pub fn ring(theme: &Theme) -> Drawing {
     y += 30.0;
     let arrow = straight(PagePoint::new(centre.x - 34.0, y), (67.0, 0.0), 5.6);
     let failure =
-        Group::of_class("failure").titled(format!("What fails wears {}", theme.failure.css()));
+        Group::with_class("failure").titled(format!("What fails wears {}", theme.failure.css()));
     items.push(failure.with(Path::filled(arrow, theme.failure)).into());
     y += 28.0;
     items.push(line(y, "what would have to stick or be given"));

@@ -74,7 +74,7 @@ fn sheet(lattice: Lattice, named: &[(&str, Vec<Cell>)], theme: &Theme) -> Drawin
         let mut cross = arm(5.0, 0.0);
         cross.extend(arm(0.0, 5.0));
         let caption = PagePoint::new(x + width / 2.0, y + tallest + 26.0);
-        let shape = Group::of_class("shape")
+        let shape = Group::with_class("shape")
             .titled(format!(
                 "{name}: {} cells",
                 body.cells.as_ref().map_or(0, Vec::len)

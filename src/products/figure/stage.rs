@@ -67,7 +67,11 @@ pub(crate) struct Content<'c> {
 }
 
 impl<'a> FigureContext<'a> {
-    pub fn of(analysis: &'a Analysis, options: &'a Options, content: &Content<'_>) -> FigureContext<'a> {
+    pub fn new(
+        analysis: &'a Analysis,
+        options: &'a Options,
+        content: &Content<'_>,
+    ) -> FigureContext<'a> {
         let scene = &analysis.scene;
         let frames = 0..analysis.frames.len();
         let own: Vec<f64> = frames.clone().map(content.largest).collect();
@@ -119,7 +123,7 @@ impl<'a> FigureContext<'a> {
             unit,
             shown,
             view,
-            fills: Fills::of(analysis, options.fill),
+            fills: Fills::new(analysis, options.fill),
             marks,
             displaced: frames
                 .map(|frame| (content.displaced)(frame, unit))

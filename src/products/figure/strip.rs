@@ -34,7 +34,7 @@ pub(crate) fn strip(analysis: &Analysis, kind: Kind, options: &Options) -> Drawi
     let stage = kind.stage(analysis, options);
     let count = analysis.frames.len();
     let drawn = |stage: &FigureContext<'_>| {
-        let layout = Layout::of(stage, count);
+        let layout = Layout::new(stage, count);
         let strip = Strip {
             kind,
             stage,
@@ -71,7 +71,7 @@ pub(crate) fn pages(
         let strip = Strip {
             kind,
             stage: &stage,
-            layout: Layout::of(&stage, 1),
+            layout: Layout::new(&stage, 1),
             captions: None,
             alike: true,
         };
@@ -291,7 +291,7 @@ impl Strip<'_> {
         let camera = Camera::new(view, at.moved(aside, 0.0), layout.scale);
         let mut group = Group {
             id: Some(format!("frame-{}", frame + 1)),
-            ..Group::of_class("frame")
+            ..Group::with_class("frame")
         };
         group.title = self.labelled(frame, ": ", verdict::word(found.verdict));
         let picture = self.kind.picture(stage, frame, view, &camera);

@@ -32,8 +32,13 @@ const STEPS: f64 = 8.0;
 const FAINT: f64 = 0.35;
 
 /// What the camera sees of a frame and its line of thrust.
-pub(crate) fn picture(stage: &FigureContext<'_>, frame: usize, view: Bounds, camera: &Camera) -> Group {
-    let pen = Pen::of(stage, frame, camera);
+pub(crate) fn picture(
+    stage: &FigureContext<'_>,
+    frame: usize,
+    view: Bounds,
+    camera: &Camera,
+) -> Group {
+    let pen = Pen::new(stage, frame, camera);
     let scene = &stage.analysis.scene;
     let found = &stage.analysis.frames[frame];
     let stretches = stretches(scene, &scene.frames[frame], found, stage.unit);
@@ -171,7 +176,7 @@ fn seams(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
         ));
     }
     let stroke = Stroke::new(theme.outline.mixed(theme.ink, 0.4), 1.3 * pen.line);
-    let seams = Group::of_class("interfaces").titled("Interfaces");
+    let seams = Group::with_class("interfaces").titled("Interfaces");
     if outline.segments.is_empty() {
         return Group::default();
     }
@@ -184,7 +189,7 @@ fn lines(pen: &Pen<'_>, scene: &Scene, found: &FrameAnalysis, stretches: &[Stret
         Verdict::Stable => 1.0,
         _ => FAINT,
     };
-    let mut group = Group::of_class("thrust");
+    let mut group = Group::with_class("thrust");
     let line = |s: &Stretch| Outline::line([s.from, s.to].map(|p| pen.camera.place(p)));
     let path = |outline, width| {
         let stroke = Stroke::new(colour(theme), width);
@@ -218,7 +223,7 @@ fn lines(pen: &Pen<'_>, scene: &Scene, found: &FrameAnalysis, stretches: &[Stret
             Giver::Resultant => "a joint and its loads together".to_owned(),
         };
         let title = format!("Force on block {on} from {by}: {}", force(stretch.force));
-        let drawn = Group::of_class("force").titled(title);
+        let drawn = Group::with_class("force").titled(title);
         let drawn = drawn.with(path(line(stretch), width(pen, stretch)));
         group.items.push(drawn.into());
     }
@@ -229,7 +234,7 @@ fn lines(pen: &Pen<'_>, scene: &Scene, found: &FrameAnalysis, stretches: &[Stret
 fn dots(pen: &Pen<'_>, found: &FrameAnalysis, ink: &mut dyn FnMut(PagePoint, f64)) -> Group {
     let (scene, theme) = (&pen.stage.analysis.scene, &pen.stage.options.theme);
     let radius = (0.06 * pen.unit()).clamp(1.1, 3.6);
-    let mut group = Group::of_class("resultants");
+    let mut group = Group::with_class("resultants");
     let mut joined = ByColour::default();
     for (contact, bearing) in found.contacts.iter().zip(bearings(scene, found)) {
         if bearing.is_none() {
@@ -243,7 +248,7 @@ fn dots(pen: &Pen<'_>, found: &FrameAnalysis, ink: &mut dyn FnMut(PagePoint, f64
         }
         let pair = description::pair(scene, contact.interface.bodies);
         let amount = quantity(contact.resultant.force.norm(), "N");
-        let dot = Group::of_class("resultant").titled(format!("Between {pair}: {amount}"));
+        let dot = Group::with_class("resultant").titled(format!("Between {pair}: {amount}"));
         group.items.push(dot.with(dot_at(at, radius, theme)).into());
     }
     group.items.extend(joined.paths(None));

@@ -23,8 +23,13 @@ const BOLD: (f64, f64, f64) = (0.11, 1.8, 6.0);
 const BAR: f64 = 3.2;
 
 /// What the camera sees of a frame and how its friction is used.
-pub(crate) fn picture(stage: &FigureContext<'_>, frame: usize, view: Bounds, camera: &Camera) -> Group {
-    let pen = Pen::of(stage, frame, camera);
+pub(crate) fn picture(
+    stage: &FigureContext<'_>,
+    frame: usize,
+    view: Bounds,
+    camera: &Camera,
+) -> Group {
+    let pen = Pen::new(stage, frame, camera);
     let found = &stage.analysis.frames[frame];
     let bold = bold(pen.unit());
     let mut ink = label::ink(&pen);
@@ -185,7 +190,7 @@ fn idle_stroke(theme: &Theme, bold: f64) -> Stroke {
 fn interfaces(pen: &Pen<'_>, found: &FrameAnalysis) -> (Group, Group) {
     let (scene, theme) = (&pen.stage.analysis.scene, &pen.stage.options.theme);
     let bold = bold(pen.unit());
-    let (mut idle, mut used) = (Group::of_class("idle"), Group::of_class("interfaces"));
+    let (mut idle, mut used) = (Group::with_class("idle"), Group::with_class("interfaces"));
     let mut lines = ByColour::default();
     let (mut edges, mut bars, mut dashes) =
         (Outline::default(), Outline::default(), Outline::default());
@@ -198,7 +203,7 @@ fn interfaces(pen: &Pen<'_>, found: &FrameAnalysis) -> (Group, Group) {
                 dashes.extend(line);
             } else {
                 let drawn =
-                    Group::of_class("interface").titled(format!("Between {pair}: no force"));
+                    Group::with_class("interface").titled(format!("Between {pair}: no force"));
                 let path = Path::stroked(line, idle_stroke(theme, bold));
                 idle.items.push(drawn.with(path).into());
             }
@@ -220,7 +225,7 @@ fn interfaces(pen: &Pen<'_>, found: &FrameAnalysis) -> (Group, Group) {
             ),
             None => format!("Between {pair}: {pressed}, no friction available"),
         };
-        let mut drawn = Group::of_class("interface")
+        let mut drawn = Group::with_class("interface")
             .titled(title)
             .with(rimmed(line.clone(), bold, rim, theme))
             .with(Path::stroked(
@@ -271,7 +276,7 @@ fn across(pen: &Pen<'_>, contact: &Contact) -> [PagePoint; 2] {
 /// The discs of robots with limits once more, filled by how far those are used.
 fn robots(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
     let (scene, theme) = (&pen.stage.analysis.scene, &pen.stage.options.theme);
-    let mut group = Group::of_class("limits");
+    let mut group = Group::with_class("limits");
     for robot in found.robots.iter().filter(|r| limited(scene, r.robot.0)) {
         let at = pen.camera.place(robot.at);
         let radius = 0.64 * pen.disc();
@@ -285,7 +290,7 @@ fn robots(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
             Outline::circle(at, radius),
             theme.amplitude(robot.limit_used),
         );
-        let mut drawn = Group::of_class("limit")
+        let mut drawn = Group::with_class("limit")
             .titled(title)
             .with(disc.with_stroke(rim));
         if robot.limit_used >= ALL {

@@ -18,7 +18,7 @@ pub(crate) fn mark(verdict: Verdict, centre: PagePoint, r: f64, theme: &Theme) -
     let at = |x: f64, y: f64| centre.moved(x * r, y * r);
     let pen = || Stroke::new(theme.page, 0.24 * r);
     let disc = Path::filled(Outline::circle(centre, r), colour(verdict, theme));
-    let group = Group::of_class("verdict").with(disc);
+    let group = Group::with_class("verdict").with(disc);
     match verdict {
         Verdict::Stable => group.with(Path::stroked(
             Outline::line([at(-0.45, 0.04), at(-0.13, 0.38), at(0.46, -0.34)]),

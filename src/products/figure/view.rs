@@ -27,7 +27,7 @@ pub(crate) fn shown(
     let frame = |((frame, marks), reach): ((&Frame, &Marks), &Option<Bounds>)| {
         let blocks = blocks(scene, frame).map(|id| scene.blocks[id.0].body.polygon.bounds());
         let arrows = marks.arrows.iter().filter_map(|arrow| {
-            let ends = Bounds::of([arrow.at, arrow.at + arrow.reach()]);
+            let ends = Bounds::from_points([arrow.at, arrow.at + arrow.reach()]);
             ends.map(|b| b.grown(HEAD_WIDTH * arrow.width / 2.0))
         });
         let turns = marks.turns.iter().map(|turn| near(turn.at, 0.7 * unit));

@@ -12,7 +12,7 @@ use std::fmt::Write as _;
 use maud::{DOCTYPE, PreEscaped, html};
 
 use crate::analysis::{Accuracy, Verdict};
-use crate::chart::{Point, Scatter, Series, ChartError, scatter};
+use crate::chart::{ChartError, Point, Scatter, Series, scatter};
 use crate::result::word;
 use crate::study::{Case, Mark, Method, Run, Study, Summary, summary};
 use crate::text;

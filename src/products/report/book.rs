@@ -199,7 +199,7 @@ fn figure(words: &str, body: &str, chapter: &Path) -> Result<String, String> {
         };
         format!("{whose}:\n{problems}")
     })?;
-    let analysis = Analysis::of(&scene);
+    let analysis = Analysis::new(&scene);
     let drawing = drawing(&analysis, &wanted)?;
     let words = svg::Options {
         // A reader's machine need not have our fonts, and letters as outlines look alike on all.

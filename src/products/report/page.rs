@@ -94,7 +94,7 @@ impl Piece {
     ///
     /// # Errors
     /// Where a figure's words cannot be laid out.
-    pub fn of(entry: &Entry, number: usize, form: Form, stem: &str) -> Result<Piece, ReportError> {
+    pub fn new(entry: &Entry, number: usize, form: Form, stem: &str) -> Result<Piece, ReportError> {
         let body = match form {
             Form::Html | Form::Split => Body::Text(html::section(entry, number)),
             Form::Markdown => {

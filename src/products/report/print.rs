@@ -476,7 +476,7 @@ mod tests {
             name: "lintel.json",
             text,
         };
-        let entry = Entry::of(file, &Analysis::of(&scene), &ReportOptions::default());
+        let entry = Entry::new(file, &Analysis::new(&scene), &ReportOptions::default());
         let mut headings = 0;
         for page in section(&entry) {
             for item in &page.items {

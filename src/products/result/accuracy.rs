@@ -39,7 +39,7 @@ struct Run {
 }
 
 impl<'a> Frame<'a> {
-    fn of(case: &'a Case) -> Frame<'a> {
+    fn new(case: &'a Case) -> Frame<'a> {
         let number = |v: Option<f64>| v.map(Number);
         let runs = case.runs.iter().map(|run| Run {
             method: run.method.name(),
@@ -75,7 +75,7 @@ impl<'a> Frame<'a> {
 pub fn accuracy_json(study: &Study) -> String {
     let page = Page {
         drystone: env!("CARGO_PKG_VERSION"),
-        frames: study.cases.iter().map(Frame::of).collect(),
+        frames: study.cases.iter().map(Frame::new).collect(),
     };
     let mut text = serde_json::to_string_pretty(&page)
         .expect("plain structures with text keys always serialise into memory");

@@ -115,7 +115,7 @@ pub enum PictureOutcome {
 /// use drystone::{Analysis, Scene, result::{Fields, PictureOutcome, Origin, line_of}};
 /// let scene = Scene::from_json(r#"{ "drystone": 1, "title": "A dart", "blocks": [{ "polygon": [[0, 0], [3, 0], [0, 2]] }] }"#)?;
 /// let origin = Origin { line: Some(7), ..Origin::default() };
-/// let line = line_of(&origin, &Analysis::of(&scene), &PictureOutcome::NotAsked, &Fields::default());
+/// let line = line_of(&origin, &Analysis::new(&scene), &PictureOutcome::NotAsked, &Fields::default());
 /// assert_eq!(line, "{\"line\":7,\"scene\":\"A dart\",\"verdict\":\"unstable\"}\n");
 /// # Ok::<(), drystone::scene::SceneError>(())
 /// ```
@@ -140,7 +140,7 @@ pub fn line_of(
             true => Timing::Included,
             false => Timing::LeftOut,
         };
-        let whole = serde_json::to_value(Result::of(analysis, timing)).unwrap_or_default();
+        let whole = serde_json::to_value(Result::new(analysis, timing)).unwrap_or_default();
         for name in NAMES.iter() {
             let chosen = below(&fields.chosen, name.word);
             match name.word {

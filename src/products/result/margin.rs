@@ -81,10 +81,10 @@ impl<T: Serialize> Serialize for Named<'_, T> {
 }
 
 impl<'a> Margins<'a> {
-    pub(super) fn of(scene: &'a Scene, found: &Found) -> Margins<'a> {
+    pub(super) fn new(scene: &'a Scene, found: &Found) -> Margins<'a> {
         let motions = |margin: &Margin| match margin {
             Margin::Value { mechanism, .. } => {
-                mechanism.iter().map(|m| Motion::of(scene, m)).collect()
+                mechanism.iter().map(|m| Motion::new(scene, m)).collect()
             }
             _ => Vec::new(),
         };

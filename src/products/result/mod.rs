@@ -82,17 +82,17 @@ pub enum Layout {
 /// use drystone::scene::Scene;
 ///
 /// let scene = Scene::from_json(r#"{ "drystone": 1, "blocks": [{ "id": "a", "polygon": [[0, 0], [3, 0], [0, 2]] }] }"#)?;
-/// let json = to_json(&Analysis::of(&scene), Timing::LeftOut, Layout::OneLine);
+/// let json = to_json(&Analysis::new(&scene), Timing::LeftOut, Layout::OneLine);
 /// assert!(json.contains(r#""verdict":"unstable""#), "nothing holds it");
 /// # Ok::<(), drystone::scene::SceneError>(())
 /// ```
 pub fn to_json(analysis: &Analysis, timing: Timing, layout: Layout) -> String {
-    written(&Result::of(analysis, timing), layout)
+    written(&Result::new(analysis, timing), layout)
 }
 
 /// Likewise, with the `file` that the scene was read from, as it was given.
 pub fn to_json_of(file: &str, analysis: &Analysis, timing: Timing, layout: Layout) -> String {
-    let mut result = Result::of(analysis, timing);
+    let mut result = Result::new(analysis, timing);
     result.file = Some(file);
     written(&result, layout)
 }
@@ -260,24 +260,24 @@ fn arrow(v: Vector) -> Pair {
 }
 
 impl<'a> Result<'a> {
-    fn of(analysis: &'a Analysis, timing: Timing) -> Result<'a> {
+    fn new(analysis: &'a Analysis, timing: Timing) -> Result<'a> {
         let scene = &analysis.scene;
         let frames = scene.frames.iter().zip(&analysis.frames);
         Result {
             drystone: env!("CARGO_PKG_VERSION"),
             file: None,
             scene: &scene.title,
-            contact_tolerance: Tolerance::of(scene),
-            notes: analysis.notes.iter().map(note::Entry::of).collect(),
+            contact_tolerance: Tolerance::new(scene),
+            notes: analysis.notes.iter().map(note::Entry::new).collect(),
             frames: frames
-                .map(|(step, frame)| Frame::of(scene, &step.title, frame, timing))
+                .map(|(step, frame)| Frame::new(scene, &step.title, frame, timing))
                 .collect(),
         }
     }
 }
 
 impl Tolerance {
-    fn of(scene: &Scene) -> Tolerance {
+    fn new(scene: &Scene) -> Tolerance {
         let (from, digits) = match scene.healed.source {
             ToleranceSource::Lattice => ("lattice", None),
             ToleranceSource::Given => ("given", None),
@@ -299,7 +299,12 @@ impl Tolerance {
 }
 
 impl<'a> Frame<'a> {
-    fn of(scene: &'a Scene, title: &'a str, frame: &'a FrameAnalysis, timing: Timing) -> Frame<'a> {
+    fn new(
+        scene: &'a Scene,
+        title: &'a str,
+        frame: &'a FrameAnalysis,
+        timing: Timing,
+    ) -> Frame<'a> {
         let block = |id: BlockId| scene.blocks[id.0].id.as_str();
         Frame {
             title,
@@ -314,23 +319,23 @@ impl<'a> Frame<'a> {
             interfaces: frame
                 .contacts
                 .iter()
-                .map(|c| Interface::of(scene, c))
+                .map(|c| Interface::new(scene, c))
                 .collect(),
-            robots: frame.robots.iter().map(|r| Robot::of(scene, r)).collect(),
+            robots: frame.robots.iter().map(|r| Robot::new(scene, r)).collect(),
             failures: frame
                 .failures
                 .iter()
-                .map(|f| Missing::of(scene, f))
+                .map(|f| Missing::new(scene, f))
                 .collect(),
             unsupported: frame.unsupported.iter().map(|id| block(*id)).collect(),
             mechanism: frame
                 .mechanism
                 .iter()
-                .map(|m| Motion::of(scene, m))
+                .map(|m| Motion::new(scene, m))
                 .collect(),
-            margins: frame.margins.as_ref().map(|m| Margins::of(scene, m)),
+            margins: frame.margins.as_ref().map(|m| Margins::new(scene, m)),
             only_by_wedging: looked_at(frame, EffectName::Wedging).then_some(frame.only_by_wedging),
-            wedging: (frame.wedged.as_ref()).map(|w| Wedging::of(scene, frame, w)),
+            wedging: (frame.wedged.as_ref()).map(|w| Wedging::new(scene, frame, w)),
             effects: frame
                 .effects
                 .iter()
@@ -341,8 +346,8 @@ impl<'a> Frame<'a> {
                     unknowns: e.unknowns,
                 })
                 .collect(),
-            proof: ProofNumbers::of(frame.proof),
-            solve: Solve::of(&frame.solve, timing),
+            proof: ProofNumbers::new(frame.proof),
+            solve: Solve::new(&frame.solve, timing),
             notices: &frame.notices,
         }
     }
@@ -357,7 +362,7 @@ fn looked_at(frame: &FrameAnalysis, effect: EffectName) -> bool {
 }
 
 impl<'a> Motion<'a> {
-    fn of(scene: &'a Scene, motion: &Moved) -> Motion<'a> {
+    fn new(scene: &'a Scene, motion: &Moved) -> Motion<'a> {
         Motion {
             block: &scene.blocks[motion.block.0].id,
             velocity: arrow(motion.velocity),
@@ -367,7 +372,7 @@ impl<'a> Motion<'a> {
 }
 
 impl<'a> Interface<'a> {
-    fn of(scene: &'a Scene, contact: &Contact) -> Interface<'a> {
+    fn new(scene: &'a Scene, contact: &Contact) -> Interface<'a> {
         let interface = &contact.interface;
         Interface {
             bodies: interface.bodies.map(|b| scene.name(b)),
@@ -388,7 +393,7 @@ impl<'a> Interface<'a> {
 }
 
 impl<'a> Robot<'a> {
-    fn of(scene: &'a Scene, robot: &RobotForce) -> Robot<'a> {
+    fn new(scene: &'a Scene, robot: &RobotForce) -> Robot<'a> {
         Robot {
             id: &scene.robots[robot.robot.0].id,
             holds: &scene.blocks[robot.block.0].id,
@@ -401,7 +406,7 @@ impl<'a> Robot<'a> {
 }
 
 impl<'a> Missing<'a> {
-    fn of(scene: &'a Scene, failure: &Failure) -> Missing<'a> {
+    fn new(scene: &'a Scene, failure: &Failure) -> Missing<'a> {
         let contact = |kind, bodies: [BodyId; 2], at, force: Vector| Missing {
             kind,
             bodies: Some(bodies.map(|b| scene.name(b))),

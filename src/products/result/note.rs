@@ -14,7 +14,7 @@ pub(super) struct Entry<'a> {
 }
 
 impl<'a> Entry<'a> {
-    pub(super) fn of(note: &'a Note) -> Entry<'a> {
+    pub(super) fn new(note: &'a Note) -> Entry<'a> {
         Entry {
             code: note.code.word(),
             path: &note.path,

@@ -30,7 +30,7 @@ pub(super) enum Below {
 }
 
 impl ProofNumbers {
-    pub(super) fn of(proof: Proof) -> ProofNumbers {
+    pub(super) fn new(proof: Proof) -> ProofNumbers {
         match proof {
             Proof::Forces {
                 worst_imbalance,

@@ -27,7 +27,7 @@ struct StageSeconds {
 }
 
 impl Solve {
-    pub(super) fn of(solve: &SolveReport, timing: Timing) -> Solve {
+    pub(super) fn new(solve: &SolveReport, timing: Timing) -> Solve {
         let timed = timing == Timing::Included;
         let of = |stages: Stages| StageSeconds {
             assembly: Number(stages.assembly),

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::analysis::{
-    UndecidedReason, EffectName, EffectReport, Proof, Resultant as Sum, SolveReport, Verdict,
+    EffectName, EffectReport, Proof, Resultant as Sum, SolveReport, UndecidedReason, Verdict,
 };
 use crate::geometry::{Polygon, Tolerance as Closeness};
 use crate::scene::{Block, Body, Frame as Step, Healed, Limits, Robot as Arm};
@@ -35,7 +35,7 @@ fn scene() -> Scene {
         kernel: 0.0,
         lattice: None,
         exact: false,
-        tolerance: Closeness::of(3.0, 3.0),
+        tolerance: Closeness::new(3.0, 3.0),
         healed: Healed::default(),
         penetrations: Vec::new(),
         ground: vec![],

@@ -64,7 +64,7 @@ struct Moving<'a> {
 }
 
 impl Case {
-    fn of(case: &RuledOut) -> Case {
+    fn new(case: &RuledOut) -> Case {
         let points = case.points.iter().map(|p| PointCase {
             interface: p.interface,
             point: p.point,
@@ -86,7 +86,7 @@ impl Case {
 }
 
 impl<'a> Wedging<'a> {
-    pub(super) fn of(scene: &'a Scene, frame: &FrameAnalysis, wedged: &Wedged) -> Wedging<'a> {
+    pub(super) fn new(scene: &'a Scene, frame: &FrameAnalysis, wedged: &Wedged) -> Wedging<'a> {
         let motion = |motions: &[Motion]| {
             let moving = motions.iter().map(|motion| {
                 let block = &scene.blocks[motion.block.0];
@@ -114,7 +114,7 @@ impl<'a> Wedging<'a> {
             gives_way: motion(&wedged.gives_way),
             presses_nothing: wedged.presses_nothing,
             cases: wedged.ruled_out.len(),
-            ruled_out: wedged.ruled_out.iter().map(Case::of).collect(),
+            ruled_out: wedged.ruled_out.iter().map(Case::new).collect(),
         }
     }
 }

@@ -58,7 +58,7 @@ macro_rules! assert_scenes {
 /// #[test]
 /// fn the_thrust_line_is_drawn_as_it_was() {
 ///     let scene = Scene::from_json(&std::fs::read_to_string("scenes/arch.json").unwrap()).unwrap();
-///     let drawing = figure::draw(&Analysis::of(&scene), figure::Kind::Thrust, &figure::Options::default());
+///     let drawing = figure::draw(&Analysis::new(&scene), figure::Kind::Thrust, &figure::Options::default());
 ///     assert_figure!("thrust in an arch", &drawing);
 /// }
 /// ```
@@ -189,7 +189,12 @@ fn usage() -> Use {
 fn scenes_at(places: &[PathBuf], what: &str) {
     let found = match discover(places, None) {
         Ok(found) => found,
-        Err(faults) => fail(&faults.iter().map(DiscoveryError::to_string).collect::<Vec<_>>()),
+        Err(faults) => fail(
+            &faults
+                .iter()
+                .map(DiscoveryError::to_string)
+                .collect::<Vec<_>>(),
+        ),
     };
     if found.jobs.is_empty() {
         fail(&[format!("there is no scene at {what}")]);

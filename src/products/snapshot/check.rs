@@ -155,12 +155,12 @@ pub fn check(found: Found, done: &(dyn Fn(&str) + Sync)) -> CheckOutcome {
 }
 
 fn of_scene(job: &Job) -> Vec<Finding> {
-    let analysis = Analysis::of(Arc::clone(&job.scene));
+    let analysis = Analysis::new(Arc::clone(&job.scene));
     let mut findings = Vec::new();
     let mut drawn: Option<(&Part, String)> = None;
     for part in &job.parts {
         if part.layer == Layer::Facts {
-            let facts = Facts::of(&analysis, job.settings.digits);
+            let facts = Facts::new(&analysis, job.settings.digits);
             findings.extend(facts_finding(part, &facts));
             continue;
         }
@@ -313,7 +313,7 @@ fn pixels_finding(
             });
         }
     };
-    let difference = Difference::of(&expected, &found, settings.tolerance);
+    let difference = Difference::new(&expected, &found, settings.tolerance);
     if difference.is_none() {
         let panels = text.matches("class=\"frame\"").count().max(1) as u64;
         let most = settings

@@ -9,7 +9,7 @@ use super::check::Layer;
 use super::setting::{self, FILE, Settings, fits};
 use super::store;
 use crate::figure::Kind;
-use crate::scene::{SceneError, Scene};
+use crate::scene::{Scene, SceneError};
 
 /// Input that is wrong.
 #[derive(Debug, thiserror::Error)]
@@ -333,10 +333,13 @@ impl Search {
                 }
                 Ok(text) => Settings::read(&text)
                     .map_err(|problems| {
-                        let described = problems.into_iter().map(|problem| DiscoveryError::Settings {
-                            path: path.clone(),
-                            problem,
-                        });
+                        let described =
+                            problems
+                                .into_iter()
+                                .map(|problem| DiscoveryError::Settings {
+                                    path: path.clone(),
+                                    problem,
+                                });
                         self.faults.extend(described);
                     })
                     .ok(),

@@ -127,7 +127,7 @@ fn certified(program: &Program, face: &[Column], axes: &[Axis], total: Double) -
     let terms = axes
         .iter()
         .map(|axis| (one / axis.square, axis.entries.as_slice()));
-    let matrix = Skyline::of(program.loads.len(), terms);
+    let matrix = Skyline::new(program.loads.len(), terms);
     let loads: Vec<Double> = program.loads.iter().map(|v| Double::from(*v)).collect();
     let mut w = vec![Double::ZERO; loads.len()];
     let mut rest = loads.clone();

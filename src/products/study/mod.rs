@@ -115,7 +115,7 @@ pub fn study(scenes: &[Scene], tolerances: &[f64], tick: &mut dyn FnMut(&str)) -
         for (number, frame) in scene.frames.iter().enumerate() {
             let name = name(scene, frame, number);
             tick(&name);
-            let task = Task::of(scene, frame);
+            let task = Task::new(scene, frame);
             cases.push(case(name, frame.placed.len(), &task, tolerances));
         }
     }
@@ -137,10 +137,10 @@ fn name(scene: &Scene, frame: &Frame, number: usize) -> String {
 
 impl Task {
     /// The programs of a frame, as `Analysis` poses them.
-    fn of(scene: &Scene, frame: &Frame) -> Task {
+    fn new(scene: &Scene, frame: &Frame) -> Task {
         let mut scene = scene.clone();
         scene.frames = vec![frame.clone()];
-        let found = Interfaces::of(&scene);
+        let found = Interfaces::new(&scene);
         let interfaces = found.in_frame(&scene, frame);
         let (assembly, _) = effect::assemble(&FrameContext {
             scene: &scene,
@@ -151,7 +151,7 @@ impl Task {
             .split()
             .iter()
             .filter(|component| component.heaviest() > 0.0)
-            .map(|component| Program::of(component, Scale::of_assembly(component)))
+            .map(|component| Program::new(component, Scale::from_assembly(component)))
             .collect();
         Task { scene, programs }
     }
@@ -159,7 +159,7 @@ impl Task {
 
 fn truth(programs: &[Program]) -> Truth {
     let references: Vec<(&Program, Reference)> =
-        programs.iter().map(|p| (p, Reference::of(p))).collect();
+        programs.iter().map(|p| (p, Reference::new(p))).collect();
     let verdict = references
         .iter()
         .map(|r| r.1.verdict)

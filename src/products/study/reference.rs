@@ -49,7 +49,7 @@ const MARGINS: [f64; 5] = [1.0, 1e3, 1e-3, 1e6, 1e-6];
 
 impl Reference {
     /// Finds out what is true of a program.
-    pub fn of(program: &Program) -> Reference {
+    pub fn new(program: &Program) -> Reference {
         let unknown = Reference {
             verdict: Verdict::Undecided,
             total: None,
@@ -191,7 +191,7 @@ impl Guess<'_> {
             .iter()
             .zip(&face)
             .map(|(w, j)| (*w, self.sparse[*j].as_slice()));
-        let matrix = Skyline::of(loads.len(), terms);
+        let matrix = Skyline::new(loads.len(), terms);
         let mut x: Vec<Double> = face
             .iter()
             .map(|j| Double::from(self.amounts[*j]))

@@ -17,7 +17,7 @@ pub(super) struct Skyline {
 
 impl Skyline {
     /// Factors the sum of weight · v vᵀ over sparse vectors v.
-    pub(super) fn of<'a>(
+    pub(super) fn new<'a>(
         size: usize,
         terms: impl Iterator<Item = (Double, &'a [(usize, Double)])> + Clone,
     ) -> Skyline {
@@ -119,7 +119,7 @@ mod tests {
             .map(|v| v.iter().map(|x| Double::from(*x)).enumerate().collect())
             .collect();
         let one = Double::from(1.0);
-        let skyline = Skyline::of(3, vectors.iter().map(|v| (one, v.as_slice())));
+        let skyline = Skyline::new(3, vectors.iter().map(|v| (one, v.as_slice())));
         // The right side 3·first + 7·second lies in the span.
         let right: Vec<Double> = [17.0, 34.0, 16.0].map(Double::from).to_vec();
         let w = skyline.solve(&right);

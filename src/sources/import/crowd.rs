@@ -25,7 +25,7 @@ pub(super) fn problem(outlines: &Outlines) -> Option<Remark> {
     let boxes = |kind: Role| -> Vec<Bounds> {
         let bodies = outlines.bodies.iter().filter(|b| b.kind == kind);
         bodies
-            .filter_map(|b| Bounds::of(b.rings.iter().flatten().map(|c| c.at)))
+            .filter_map(|b| Bounds::from_points(b.rings.iter().flatten().map(|c| c.at)))
             .collect()
     };
     let most = MOST_PAIRS + PAIRS_EACH * count;
@@ -54,7 +54,7 @@ pub(super) fn too_many(count: usize) -> Remark {
 pub(super) fn is_tangle(rings: &[Vec<Corner>]) -> bool {
     let mut boxes: Vec<(Bounds, usize)> = rings
         .iter()
-        .filter_map(|r| Some((Bounds::of(r.iter().map(|c| c.at))?, r.len())))
+        .filter_map(|r| Some((Bounds::from_points(r.iter().map(|c| c.at))?, r.len())))
         .collect();
     boxes.sort_by(|a, b| a.0.min.x.total_cmp(&b.0.min.x));
     let mut work = 0_usize;

@@ -74,7 +74,7 @@ pub(super) struct Values {
 
 impl Role {
     /// What a name asks for by its beginning, in upper or lower case.
-    pub(super) fn of(name: &str) -> Option<Role> {
+    pub(super) fn from_name(name: &str) -> Option<Role> {
         let begins = |with: &str| {
             name.get(..with.len())
                 .is_some_and(|start| start.eq_ignore_ascii_case(with))
@@ -122,7 +122,7 @@ mod tests {
             ("gröund", None),
             ("", None),
         ] {
-            assert_eq!(Role::of(name), kind, "{name}");
+            assert_eq!(Role::from_name(name), kind, "{name}");
         }
     }
 }

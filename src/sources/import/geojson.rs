@@ -129,14 +129,14 @@ impl Reader {
             .or_else(|| text(feature.get("id")))
             .unwrap_or_default();
         let mut about = About {
-            kind: Role::of(&name),
+            kind: Role::from_name(&name),
             name,
             ..About::default()
         };
         let word = properties.get("kind").and_then(Value::as_str);
         match word.map(str::to_ascii_lowercase).as_deref() {
             Some("block") => about.kind = Some(Role::Block),
-            Some(word) => match Role::of(word) {
+            Some(word) => match Role::from_name(word) {
                 Some(kind) => about.kind = Some(kind),
                 None => {
                     let why = format!(

@@ -202,7 +202,7 @@ fn made(mut draft: Draft, options: &Options) -> Result<Imported, DrawingProblems
         draft.notes.push(format!("curves are cut into chords, {} m from them at most", entry::short(flatten)));
     }
     let title = std::mem::take(&mut draft.title);
-    let mut outlines = Outlines::of(&mut draft, flatten, close);
+    let mut outlines = Outlines::new(&mut draft, flatten, close);
     if !outlines.bodies.iter().any(|b| b.kind == Role::Block) {
         let empty = Remark {
             element: String::new(),

@@ -56,7 +56,7 @@ pub(super) fn size(draft: &mut Draft) -> f64 {
             .all(|p| p.x.abs() <= FARTHEST && p.y.abs() <= FARTHEST)
         {
             if part.kind == Role::Block {
-                let own = Bounds::of(hull);
+                let own = Bounds::from_points(hull);
                 around = around.into_iter().chain(own).reduce(Bounds::union);
             }
             kept.push(part);
@@ -74,7 +74,7 @@ pub(super) fn size(draft: &mut Draft) -> f64 {
 
 impl Outlines {
     /// Takes the parts of a draft.
-    pub(super) fn of(draft: &mut Draft, flatten: f64, close: f64) -> Outlines {
+    pub(super) fn new(draft: &mut Draft, flatten: f64, close: f64) -> Outlines {
         let mut outlines = Outlines {
             bodies: Vec::new(),
             robots: Vec::new(),
@@ -192,13 +192,13 @@ impl Outlines {
     fn tolerance(&self) -> f64 {
         let blocks = self.bodies.iter().filter(|b| b.kind == Role::Block);
         let boxes: Vec<Bounds> = blocks
-            .filter_map(|b| Bounds::of(b.rings.iter().flatten().map(|c| c.at)))
+            .filter_map(|b| Bounds::from_points(b.rings.iter().flatten().map(|c| c.at)))
             .collect();
         let mut sizes: Vec<f64> = boxes.iter().map(|b| b.diagonal()).collect();
         sizes.sort_by(f64::total_cmp);
         let typical = sizes.get(sizes.len() / 2).copied().unwrap_or(0.0);
         let all = boxes.into_iter().reduce(Bounds::union);
-        Tolerance::of(all.map_or(0.0, Bounds::diagonal), typical).gap
+        Tolerance::new(all.map_or(0.0, Bounds::diagonal), typical).gap
     }
 
     /// The parts of the ground.

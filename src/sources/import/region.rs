@@ -13,7 +13,7 @@ pub(super) fn regions(rings: Vec<Vec<Corner>>, rule: Rule) -> Vec<Rings> {
     let areas: Vec<f64> = rings.iter().map(|r| area(r)).collect();
     let boxes: Vec<Option<Bounds>> = rings
         .iter()
-        .map(|r| Bounds::of(r.iter().map(|c| c.at)))
+        .map(|r| Bounds::from_points(r.iter().map(|c| c.at)))
         .collect();
     // The larger ring comes first, so that what holds a ring stands before it.
     let mut order: Vec<usize> = (0..rings.len()).collect();

@@ -21,7 +21,7 @@ pub(super) fn read(text: &str, scale: f64) -> Draft {
         if !name.is_empty() {
             element = format!("{element} \"{name}\"");
         }
-        let kind = Role::of(name);
+        let kind = Role::from_name(name);
         if kind == Some(Role::Ignored) {
             draft
                 .notes

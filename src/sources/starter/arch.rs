@@ -12,8 +12,8 @@ use crate::scene::format::{Pair, SceneFile};
 /// ```
 /// use drystone::{Analysis, Scene, analysis::Verdict, starter::Arch};
 /// let arch = |thickness| Scene::new(Arch { thickness, ..Arch::default() }.scene());
-/// assert_eq!(Analysis::of(&arch(0.4)?).verdict(), Verdict::Stable);
-/// assert_eq!(Analysis::of(&arch(0.15)?).verdict(), Verdict::Unstable);
+/// assert_eq!(Analysis::new(&arch(0.4)?).verdict(), Verdict::Stable);
+/// assert_eq!(Analysis::new(&arch(0.15)?).verdict(), Verdict::Unstable);
 /// # Ok::<(), drystone::scene::SceneError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -37,8 +37,8 @@ impl LatticePile {
     /// use drystone::{Analysis, Scene, analysis::Verdict, starter::LatticePile};
     /// let pile = |friction| Scene::new(LatticePile { friction, ..LatticePile::default() }.scene());
     /// assert_eq!(pile(0.7)?.blocks().len(), 9);
-    /// assert_eq!(Analysis::of(&pile(0.7)?).verdict(), Verdict::Stable);
-    /// assert_eq!(Analysis::of(&pile(0.05)?).verdict(), Verdict::Unstable);
+    /// assert_eq!(Analysis::new(&pile(0.7)?).verdict(), Verdict::Stable);
+    /// assert_eq!(Analysis::new(&pile(0.05)?).verdict(), Verdict::Unstable);
     /// # Ok::<(), drystone::scene::SceneError>(())
     /// ```
     pub fn scene(&self) -> SceneFile {

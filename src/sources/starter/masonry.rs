@@ -39,7 +39,7 @@ impl Wall {
     /// use drystone::{Analysis, Scene, analysis::Verdict, starter::Wall};
     /// let wall = Scene::new(Wall::default().scene())?;
     /// assert_eq!(wall.blocks().len(), 3 * 5 + 3 * 6);
-    /// assert_eq!(Analysis::of(&wall).verdict(), Verdict::Stable);
+    /// assert_eq!(Analysis::new(&wall).verdict(), Verdict::Stable);
     /// # Ok::<(), drystone::scene::SceneError>(())
     /// ```
     pub fn scene(&self) -> SceneFile {
@@ -111,8 +111,8 @@ impl Tower {
     /// ```
     /// use drystone::{Analysis, Scene, analysis::Verdict, starter::Tower};
     /// let tower = |lean| Scene::new(Tower { lean, ..Tower::default() }.scene());
-    /// assert_eq!(Analysis::of(&tower(0.12)?).verdict(), Verdict::Stable);
-    /// assert_eq!(Analysis::of(&tower(0.13)?).verdict(), Verdict::Unstable);
+    /// assert_eq!(Analysis::new(&tower(0.12)?).verdict(), Verdict::Stable);
+    /// assert_eq!(Analysis::new(&tower(0.13)?).verdict(), Verdict::Unstable);
     /// # Ok::<(), drystone::scene::SceneError>(())
     /// ```
     pub fn scene(&self) -> SceneFile {
@@ -182,7 +182,7 @@ impl Doorway {
     /// ```
     /// use drystone::{Analysis, Scene, analysis::Verdict, starter::Doorway};
     /// let doorway = Scene::new(Doorway::default().scene())?;
-    /// let analysis = Analysis::of(&doorway);
+    /// let analysis = Analysis::new(&doorway);
     /// assert_eq!(analysis.frames.len(), 3);
     /// assert_eq!(analysis.verdict(), Verdict::Stable);
     /// # Ok::<(), drystone::scene::SceneError>(())

@@ -32,7 +32,7 @@ fn margins_are_borne_out_by_verdicts_on_either_side() {
             };
             for (share, inside) in [(1.0 - 1e-4, more_is_worse), (1.0 + 1e-4, !more_is_worse)] {
                 let changed = change(at * share);
-                let verdict = Analysis::of(scene(&changed)).frames[0].verdict;
+                let verdict = Analysis::new(scene(&changed)).frames[0].verdict;
                 let expected = if inside {
                     Verdict::Stable
                 } else {

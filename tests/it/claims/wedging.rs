@@ -1,6 +1,6 @@
 //! What is told of structures that stand only by wedging.
 
-use drystone::analysis::{Options};
+use drystone::analysis::Options;
 use serde_json::{Value, json};
 
 use super::{Told, list, number, told, told_with};

@@ -76,7 +76,7 @@ fn compared(scene: &Scene, exact: bool, with_forces: bool) -> (Standing, Option<
     } else {
         touch::as_found(scene)
     };
-    let analysis = Analysis::of(scene);
+    let analysis = Analysis::new(scene);
     let frame = &analysis.frames[0];
     if touches.len() != frame.contacts.len() {
         return (Standing::TouchesElsewhere, None, None);
@@ -180,7 +180,7 @@ fn what_a_slight_push_needs_is_no_more_than_the_least() {
         assert_eq!(found.standing, Standing::Agrees(Verdict::Stable));
         assert!(found.error.is_some_and(|e| e < 1e-8), "{:?}", found.error);
         let scene = Scene::from_json(&found.file.to_string()).expect("a sound scene");
-        let analysis = Analysis::of(&scene);
+        let analysis = Analysis::new(&scene);
         assert!(analysis.frames[0].least_force, "{number}");
     }
 }
@@ -273,7 +273,7 @@ fn the_smallest_stone_is_judged_as_an_exact_program_does() {
                 Ok(scene) if !scene.penetrations().is_empty() => (Standing::Refused, String::new()),
                 Ok(scene) => {
                     let touches = touch::touches(&scene);
-                    let analysis = Analysis::of(&scene);
+                    let analysis = Analysis::new(&scene);
                     let frame = &analysis.frames[0];
                     let standing = match touches.len() == frame.contacts.len() {
                         true => judged(&scene, &touches, frame, false).0,

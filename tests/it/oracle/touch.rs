@@ -98,7 +98,7 @@ pub fn as_found(scene: &Scene) -> Vec<Touch> {
         BodyId::Block(BlockId(k)) => Some(k),
         BodyId::Ground(_) => None,
     };
-    let all = Interfaces::of(scene).all;
+    let all = Interfaces::new(scene).all;
     all.iter()
         .map(|i| Touch {
             on: number(i.bodies[0]).expect("the first body is a block"),

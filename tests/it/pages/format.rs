@@ -73,7 +73,7 @@ fn hold(claims: Vec<Claim>) {
         assert!(page.contains(said), "the page does not say: {said}");
         match (Scene::from_json(&file.to_string()), shown) {
             (Ok(scene), Result(pointer, expected)) => {
-                let json = to_json(&Analysis::of(&scene), Timing::LeftOut, Layout::OneLine);
+                let json = to_json(&Analysis::new(&scene), Timing::LeftOut, Layout::OneLine);
                 let result: Value = serde_json::from_str(&json).expect("JSON");
                 let found = result.pointer(pointer).unwrap_or(&Value::Null);
                 assert!(is_near(found, &expected), "{said}\n{file}\n{found}");

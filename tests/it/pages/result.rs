@@ -274,7 +274,7 @@ fn what_is_asked_for_is_there_and_the_rest_is_not() {
     let plain = Options::default();
     let some = Options::default()
         .margins(true)
-        .margin_kinds(MarginKinds::of(&[MarginKind::Friction]));
+        .margin_kinds(MarginKinds::new(&[MarginKind::Friction]));
     let all = Options::default().margins(true).wedging(true);
     let stands = on_floor(0.7, vec![block("a", rectangle(0.0, 0.0, 1.0, 1.0), 1.0)]);
     let mut narrow = stands.clone();

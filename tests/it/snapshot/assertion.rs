@@ -22,7 +22,7 @@ fn a_scene_a_folder_and_a_figure() {
     let text = std::fs::read_to_string(folder.join("scenes/arch.json")).expect("there");
     let scene = Scene::from_json(&text).expect("sound");
     let drawing = figure::draw(
-        &Analysis::of(&scene),
+        &Analysis::new(&scene),
         figure::Kind::Thrust,
         &figure::Options::default(),
     );

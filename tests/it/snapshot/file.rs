@@ -1,7 +1,7 @@
 //! Files of every sort in the place of references: compared, or refused in words of their own; never a panic.
 
 use drystone::output::png as ours;
-use drystone::snapshot::picture::{Difference, Picture, PixelTolerance, Subject, PictureError};
+use drystone::snapshot::picture::{Difference, Picture, PictureError, PixelTolerance, Subject};
 
 /// A picture with a few colours and a ramp.
 fn sample() -> Picture {
@@ -122,7 +122,7 @@ fn every_sort_of_png_is_read_as_the_same_pixels() {
     }
     let clear = foreign(Rgba, Eight, None, None, &[9, 9, 9, 0].repeat(8));
     let also = Picture::decode(&foreign(Rgba, Eight, None, None, &[200, 3, 3, 0].repeat(8)));
-    let difference = Difference::of(
+    let difference = Difference::new(
         &Picture::decode(&clear).expect("read"),
         &also.expect("read"),
         PixelTolerance::default(),
@@ -249,7 +249,7 @@ fn every_beginning_and_every_damaged_byte_is_refused_or_read_without_a_panic() {
 fn pictures_of_another_size_are_told_by_their_sizes() {
     let one = sample();
     let other = Picture::new(20, 24, vec![[255; 4]; 480]);
-    let difference = Difference::of(&one, &other, PixelTolerance::default());
+    let difference = Difference::new(&one, &other, PixelTolerance::default());
     assert!(
         difference
             .words()
@@ -266,7 +266,7 @@ fn pictures_of_another_size_are_told_by_their_sizes() {
     );
     // A page that grew by a strip of its own white is another page all the same.
     let white = |w, h| Picture::new(w, h, vec![[255; 4]; (w * h) as usize]);
-    let grown = Difference::of(&white(9, 9), &white(9, 10), PixelTolerance::default());
+    let grown = Difference::new(&white(9, 9), &white(9, 10), PixelTolerance::default());
     assert_eq!(
         (grown.is_none(), grown.words().as_str()),
         (false, "9 × 9 pixels expected, 9 × 10 found")

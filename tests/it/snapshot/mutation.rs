@@ -23,7 +23,7 @@ impl Take {
         let svg = svg::write(drawing);
         let raster = png::rgba(&svg, png::Size::Natural).expect("a picture");
         Take {
-            facts: Facts::of(analysis, DIGITS),
+            facts: Facts::new(analysis, DIGITS),
             picture: Picture::new(raster.width, raster.height, raster.rgba),
             svg,
         }
@@ -31,7 +31,7 @@ impl Take {
 
     fn drawn(text: &str, change: impl FnOnce(&mut Drawing)) -> Take {
         let scene = Scene::from_json(text).expect("sound");
-        let analysis = Analysis::of(&scene);
+        let analysis = Analysis::new(&scene);
         let mut drawing = figure::forces(&analysis, &Options::default());
         change(&mut drawing);
         Take::of(&analysis, &drawing)
@@ -51,7 +51,7 @@ fn said(expected: &Take, found: &Take) -> [Vec<String>; 3] {
         .encode(Some(Subject::Scene))
         .expect("packed");
     let packed = Picture::decode(&packed).expect("what was packed is read");
-    let difference = Difference::of(&packed, &found.picture, PixelTolerance::default());
+    let difference = Difference::new(&packed, &found.picture, PixelTolerance::default());
     let pixels = if difference.is_none() {
         vec![]
     } else {
@@ -353,10 +353,10 @@ fn forces_off_by_a_billionth_are_no_change_in_facts_or_drawing() {
     let scenes = gallery();
     assert!(scenes.len() >= 30, "{}", scenes.len());
     for (name, scene) in &scenes {
-        let analysis = Analysis::of(scene);
+        let analysis = Analysis::new(scene);
         let mut other = analysis.clone();
         jittered(&mut other, &mut state);
-        let facts = |a: &Analysis| Facts::read(&Facts::of(a, DIGITS).text()).expect("read back");
+        let facts = |a: &Analysis| Facts::read(&Facts::new(a, DIGITS).text()).expect("read back");
         let changes = facts(&analysis).changes(&facts(&other));
         assert!(changes.is_empty(), "{name}: {changes:#?}");
         let drawn = |a: &Analysis| svg::write(&figure::forces(a, &Options::default()));
@@ -386,9 +386,9 @@ fn pixels_off_by_one_are_no_change_and_by_two_are() {
             pixels.collect(),
         )
     };
-    let by_one = Difference::of(&packed, &off(1), PixelTolerance::default());
+    let by_one = Difference::new(&packed, &off(1), PixelTolerance::default());
     assert!(by_one.is_none(), "{}", by_one.words());
-    let by_two = Difference::of(&packed, &off(2), PixelTolerance::default());
+    let by_two = Difference::new(&packed, &off(2), PixelTolerance::default());
     assert!(by_two.changed > by_two.of / 2, "{}", by_two.words());
 }
 
@@ -400,7 +400,7 @@ fn one_pixel_is_enough() {
     // A pixel of the white page, where no rounding is.
     pixels[5 * expected.width as usize + 9] = [252, 255, 255, 255];
     let found = Picture::new(expected.width, expected.height, pixels);
-    let difference = Difference::of(&packed, &found, PixelTolerance::default());
+    let difference = Difference::new(&packed, &found, PixelTolerance::default());
     assert_eq!(
         (difference.changed, difference.largest, difference.bounds),
         (1, 3, Some([9, 5, 1, 1]))
@@ -414,8 +414,8 @@ fn one_pixel_is_enough() {
 #[test]
 fn facts_are_read_back_as_they_were_written() {
     for (name, scene) in gallery() {
-        let analysis = Analysis::of(&scene);
-        let facts = Facts::of(&analysis, DIGITS);
+        let analysis = Analysis::new(&scene);
+        let facts = Facts::new(&analysis, DIGITS);
         let text = facts.text();
         assert_eq!(Facts::read(&text).as_ref(), Ok(&facts), "{name}");
         assert_eq!(
@@ -427,9 +427,9 @@ fn facts_are_read_back_as_they_were_written() {
     let nasty =
         lintel("a \"b\" \\ c: d, e 5 N\n\u{1b}", 1.0).replace("\"left\"", r#""x\": 1 N, \"y\\""#);
     let scene = Scene::from_json(&nasty).expect("sound");
-    let analysis = Analysis::of(&scene);
+    let analysis = Analysis::new(&scene);
     assert_eq!(analysis.verdict(), Verdict::Stable);
-    let facts = Facts::of(&analysis, DIGITS);
+    let facts = Facts::new(&analysis, DIGITS);
     assert_eq!(Facts::read(&facts.text()), Ok(facts));
     assert!(output::svg::write(&figure::forces(&analysis, &Options::default())).contains("y\\"));
 }

@@ -40,7 +40,7 @@ fn counts_are_those_of_pixelmatch() {
     let base = disc(31.7, 30.2, 17.3);
     for (other, threshold, changed, smoothed) in PIXELMATCH {
         let [x, y, r] = *other;
-        let found = Difference::of(&base, &disc(x, y, r), perceptual(*threshold));
+        let found = Difference::new(&base, &disc(x, y, r), perceptual(*threshold));
         assert_eq!(
             (found.changed, found.smoothed),
             (*changed, *smoothed),
@@ -52,10 +52,10 @@ fn counts_are_those_of_pixelmatch() {
 #[test]
 fn another_smoothing_of_the_same_edge_is_let_pass_only_on_request() {
     let (one, other) = (disc(32.0, 32.0, 16.0), disc(32.2, 32.1, 16.0));
-    let strict = Difference::of(&one, &other, PixelTolerance::default());
+    let strict = Difference::new(&one, &other, PixelTolerance::default());
     assert!(strict.changed > 80, "{}", strict.words());
-    let seen = Difference::of(&one, &other, perceptual(0.1));
+    let seen = Difference::new(&one, &other, perceptual(0.1));
     assert!(seen.is_none() && seen.smoothed > 0, "{}", seen.words());
-    let moved = Difference::of(&one, &disc(35.0, 32.0, 16.0), perceptual(0.1));
+    let moved = Difference::new(&one, &disc(35.0, 32.0, 16.0), perceptual(0.1));
     assert!(moved.changed > 50, "{}", moved.words());
 }

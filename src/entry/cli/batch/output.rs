@@ -19,11 +19,7 @@ pub(super) struct Output {
 
 impl Output {
     /// Standard output, or a file: a new one, or where it is to be gone on with, behind its last whole line.
-    pub fn open(
-        path: Option<&Path>,
-        resume: bool,
-        inputs: &[PathBuf],
-    ) -> Result<Output, CliError> {
+    pub fn open(path: Option<&Path>, resume: bool, inputs: &[PathBuf]) -> Result<Output, CliError> {
         let Some(path) = path else {
             return Ok(Output {
                 stream: BufWriter::new(Box::new(io::stdout())),

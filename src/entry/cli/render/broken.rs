@@ -43,7 +43,7 @@ impl Render {
                     why: error.to_string(),
                 })
             })?;
-            let sketch = Sketch::of(&bytes, self.level.contact_tolerance);
+            let sketch = Sketch::from_bytes(&bytes, self.level.contact_tolerance);
             let drawing = figure::broken(&sketch, &options);
             let picture = self.picture.bytes(drawing, format, fonts).map_err(one)?;
             pictures.push(picture);

@@ -62,7 +62,7 @@ impl Render {
         let drawing = figure::draw(&joined, figure::Kind::Compare, options);
         Ok(Rendered {
             bytes: vec![self.picture.bytes(drawing, format, fonts)?],
-            ending: ExitStatus::of(&joined),
+            ending: ExitStatus::from_analysis(&joined),
             summary: summary(&joined),
         })
     }

@@ -10,7 +10,7 @@ fn nodes(places: &[[f64; 2]], gap: f64) -> Nodes {
         curved: false,
     };
     let ring = places.iter().map(corner).collect();
-    Nodes::of(&[vec![ring]], &[gap], &[false])
+    Nodes::new(&[vec![ring]], &[gap], &[false])
 }
 
 fn transposed(places: &[[f64; 2]]) -> Vec<[f64; 2]> {
@@ -26,7 +26,7 @@ fn tilted(places: &[[f64; 2]]) -> Vec<[f64; 2]> {
 /// The course of all of some places, the sides given by their numbers.
 fn course(places: &[[f64; 2]], gap: f64, sides: &[[usize; 2]]) -> Option<String> {
     let nodes = nodes(places, gap);
-    let line = Line::of(&nodes, (0..places.len()).collect(), sides)?;
+    let line = Line::new(&nodes, (0..places.len()).collect(), sides)?;
     assert_eq!(line.nodes.len(), places.len());
     Some(match line.course {
         Course::Side(ends) => format!("{ends:?}"),
@@ -248,7 +248,7 @@ fn lines_of(nodes: &Nodes, sides: &[([usize; 2], &[usize])]) -> Vec<Vec<usize>> 
     let on = sides
         .iter()
         .map(|(ends, on)| (*ends, on.iter().copied().collect()));
-    let Lines(lines) = Lines::of(nodes, &on.collect());
+    let Lines(lines) = Lines::new(nodes, &on.collect());
     lines.into_iter().map(|line| line.nodes).collect()
 }
 
@@ -282,7 +282,7 @@ fn settled(mut nodes: Nodes, sides: &[([usize; 2], &[usize])]) -> Vec<Point> {
     let on = sides
         .iter()
         .map(|(ends, on)| (*ends, on.iter().copied().collect()));
-    Lines::of(&nodes, &on.collect()).settle(&mut nodes);
+    Lines::new(&nodes, &on.collect()).settle(&mut nodes);
     nodes.all.iter().map(|node| node.at).collect()
 }
 

@@ -17,11 +17,11 @@ pub(in crate::mechanics::analysis) struct Candidate<'a> {
 
 impl<'a> Candidate<'a> {
     /// For an assembly whose amounts and velocities are in the numbers of a scale.
-    pub fn of(assembly: &'a Assembly, scale: Scale, options: Options) -> Candidate<'a> {
+    pub fn new(assembly: &'a Assembly, scale: Scale, options: Options) -> Candidate<'a> {
         Candidate {
             case: Case {
                 scale,
-                ..Case::of(assembly, options)
+                ..Case::new(assembly, options)
             },
             options,
         }
@@ -44,7 +44,7 @@ impl<'a> Candidate<'a> {
         for component in assembly.split() {
             let case = Case {
                 scale: self.case.scale,
-                ..Case::of(&component, self.options)
+                ..Case::new(&component, self.options)
             };
             let own = component.bodies.iter();
             let own: Vec<Motion> = own.map(|b| of_block(&motions, b.block)).collect();

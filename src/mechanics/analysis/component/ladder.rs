@@ -53,7 +53,7 @@ impl Case<'_> {
             no_status |= rung.is_least() && attempt.forces.is_none() && attempt.motion.is_none();
             let decision = Decision {
                 no_status,
-                ..Decision::of(program, rung.method())
+                ..Decision::new(program, rung.method())
             };
             if let Some(amounts) = &attempt.forces {
                 let proof = self.carried(amounts).proof;
@@ -137,7 +137,7 @@ impl Case<'_> {
     ) -> Decision {
         let (decision, attempt) = match last {
             Some((decision, attempt)) => (decision, Some(attempt)),
-            None => (Decision::of(program, Method::LeastForce), None),
+            None => (Decision::new(program, Method::LeastForce), None),
         };
         let decision = Decision { effort, ..decision };
         if let Some((mechanism, proof)) = weak {
@@ -169,7 +169,7 @@ impl Case<'_> {
 
 impl Decision {
     /// A frame for a decision by a method: stable, by no forces, proved by nothing.
-    pub fn of(program: &Program, method: Method) -> Decision {
+    pub fn new(program: &Program, method: Method) -> Decision {
         Decision {
             verdict: Verdict::Stable,
             doubt: None,

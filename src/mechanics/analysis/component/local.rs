@@ -113,7 +113,7 @@ impl Case<'_> {
     fn part_made_good(&self, part: &Part, amounts: &Amounts, effort: &mut Effort) -> PartOutcome {
         let case = Case {
             assembly: &part.assembly,
-            scale: Scale::of_assembly(&part.assembly),
+            scale: Scale::from_assembly(&part.assembly),
             settings: self.settings.clone(),
             demand: self.demand,
             described: self.described,
@@ -124,7 +124,7 @@ impl Case<'_> {
         if !case.scale.force.is_normal() || !ratio.is_normal() {
             return PartOutcome::Open;
         }
-        let program = Program::of(&part.assembly, case.scale);
+        let program = Program::new(&part.assembly, case.scale);
         let given = self.taken(amounts, part, case.scale);
         let off = |amounts: &Amounts| {
             let off = proof::imbalances(&part.assembly, &case.carried(amounts).forces);

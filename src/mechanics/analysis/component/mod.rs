@@ -20,7 +20,7 @@ pub(super) use candidate::Candidate;
 pub(super) use guess::ProofCache;
 pub(super) use question::{Ends, guessed, judged, learn, only_by_wedging};
 
-use super::{UndecidedReason, Failure, Options, Verdict};
+use super::{Failure, Options, UndecidedReason, Verdict};
 use crate::assembly::Assembly;
 use crate::program::{Count, Program, Scale, columns, sticking_columns};
 use crate::proof::{Demand, Forces, Motion, Proof, fastest};
@@ -64,10 +64,10 @@ struct Case<'a> {
 
 /// Solves one component, proves its verdict, and finds what belongs to it.
 pub(super) fn solved(assembly: &Assembly, options: Options) -> Findings {
-    let case = Case::of(assembly, options);
-    let program = Program::of(assembly, case.scale);
-    let count = Count::of(&program, &columns(&program))
-        .and(Count::of(&program, &sticking_columns(&program)));
+    let case = Case::new(assembly, options);
+    let program = Program::new(assembly, case.scale);
+    let count = Count::new(&program, &columns(&program))
+        .and(Count::new(&program, &sticking_columns(&program)));
     if let Some(found) = case.in_closed_form(&program) {
         return Findings { count, ..found };
     }
@@ -90,10 +90,10 @@ pub(super) fn solved(assembly: &Assembly, options: Options) -> Findings {
 
 impl<'a> Case<'a> {
     /// A component in its own scale.
-    fn of(assembly: &'a Assembly, options: Options) -> Case<'a> {
+    fn new(assembly: &'a Assembly, options: Options) -> Case<'a> {
         Case {
             assembly,
-            scale: Scale::of_assembly(assembly),
+            scale: Scale::from_assembly(assembly),
             settings: options.solver_settings(),
             demand: options.accuracy.demand(),
             described: !options.verdict_only,

@@ -34,7 +34,7 @@ impl Case<'_> {
             if joined.bodies.is_empty() || FEWEST * joined.bodies.len() > motion.len() {
                 return None;
             }
-            let program = Program::of(&joined, self.scale);
+            let program = Program::new(&joined, self.scale);
             let mean = mean_velocities(&piece, motion, joined.bodies.len(), self.scale.length);
             let y = polished(&program, &mean, effort)?;
             let parted = self.parted(&joined, &piece, &y);

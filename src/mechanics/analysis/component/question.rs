@@ -1,14 +1,14 @@
 //! Questions about a component beside what [`solved`](super::solved) finds out.
 
 use super::ladder::Decision;
-use super::{Case, Findings, ProofCache, Place};
+use super::{Case, Findings, Place, ProofCache};
 use crate::analysis::{Options, Verdict, Wedged};
 use crate::assembly::Assembly;
 use crate::effect::wedging::Wedging;
 use crate::program::Program;
 use crate::proof::{Forces, Motion};
 use crate::scene::Scene;
-use crate::solve::{Amounts, Effort, SelfStressCheck, SelfStress, reach};
+use crate::solve::{Amounts, Effort, SelfStress, SelfStressCheck, reach};
 
 /// Whether a component stands, and how it begins to move where it falls: the verdict of [`solved`](super::solved) without
 /// the rest. What is found is remembered among the guesses; where one of them is a proof already, no program is solved.
@@ -23,9 +23,9 @@ pub(in crate::mechanics::analysis) fn judged(
     }
     let case = Case {
         place,
-        ..Case::of(assembly, ALONE)
+        ..Case::new(assembly, ALONE)
     };
-    let program = Program::of(assembly, case.scale);
+    let program = Program::new(assembly, case.scale);
     if let Some(found) = case.in_closed_form(&program) {
         return (found.verdict, found.mechanism);
     }
@@ -43,7 +43,7 @@ pub(in crate::mechanics::analysis) fn guessed(
     assembly: &Assembly,
     guesses: &ProofCache,
 ) -> (Verdict, Vec<Motion>) {
-    let case = Case::of(assembly, ALONE);
+    let case = Case::new(assembly, ALONE);
     if guesses.balances(&case) {
         return (Verdict::Stable, Vec::new());
     }
@@ -85,10 +85,13 @@ pub(in crate::mechanics::analysis) struct Ends<'a> {
 }
 
 /// Remembers what a program found at the edge; the forces in newtons are returned.
-pub(in crate::mechanics::analysis) fn learn(ends: &Ends, guesses: &mut ProofCache) -> Option<Forces> {
+pub(in crate::mechanics::analysis) fn learn(
+    ends: &Ends,
+    guesses: &mut ProofCache,
+) -> Option<Forces> {
     let case = |assembly| Case {
         scale: ends.program.scale,
-        ..Case::of(assembly, ALONE)
+        ..Case::new(assembly, ALONE)
     };
     if let Some((y, assembly)) = ends.motion {
         let mut effort = Effort::default();
@@ -111,8 +114,8 @@ pub(in crate::mechanics::analysis) fn only_by_wedging<'a>(
 ) -> (Option<bool>, Wedging, Option<Wedged>) {
     let mut answer = (Some(false), Wedging::FromRest, None);
     for (assembly, found) in components {
-        let case = Case::of(assembly, Options::default());
-        let program = Program::of(assembly, case.scale);
+        let case = Case::new(assembly, Options::default());
+        let program = Program::new(assembly, case.scale);
         let given: Vec<[f64; 3]> = found
             .forces
             .grips
@@ -131,10 +134,12 @@ pub(in crate::mechanics::analysis) fn only_by_wedging<'a>(
             SelfStressCheck::FromRest => {}
             SelfStressCheck::OnlyWedged(squeeze) => {
                 let shown = shown(&squeeze, case.scale.force, body, face);
-                let wedged = Wedged::of(assembly, case.scale, &squeeze);
+                let wedged = Wedged::new(assembly, case.scale, &squeeze);
                 return (Some(true), Wedging::Only(shown), Some(wedged));
             }
-            SelfStressCheck::Undecided(doubt) => answer = (None, Wedging::Open(doubt.to_string()), None),
+            SelfStressCheck::Undecided(doubt) => {
+                answer = (None, Wedging::Open(doubt.to_string()), None)
+            }
         }
     }
     answer

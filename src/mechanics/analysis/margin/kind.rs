@@ -29,7 +29,7 @@ impl MarginKinds {
     pub const ALL: MarginKinds = MarginKinds { bits: 0b11_1111 };
 
     /// Those of a list.
-    pub fn of(list: &[MarginKind]) -> MarginKinds {
+    pub fn new(list: &[MarginKind]) -> MarginKinds {
         let bits = list.iter().fold(0, |bits, kind| bits | bit(*kind));
         MarginKinds { bits }
     }

@@ -160,7 +160,7 @@ pub(super) fn of(
     let found: Vec<(Key, Margins, usize)> = each
         .map(|part| {
             let forces = part.stands().then_some(&part.found.forces);
-            let mut trial = Trial::of(part.component, forces);
+            let mut trial = Trial::new(part.component, forces);
             let margins = of_component(&mut trial, part.stands(), kinds);
             (part.key.clone(), margins, trial.judged)
         })

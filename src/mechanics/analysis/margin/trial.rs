@@ -6,7 +6,7 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::analysis::Verdict;
-use crate::analysis::component::{Ends, ProofCache, Place, guessed, judged, learn};
+use crate::analysis::component::{Ends, Place, ProofCache, guessed, judged, learn};
 use crate::assembly::{Assembly, LoadVector};
 use crate::geometry::quarter_turn;
 use crate::program::{Program, Scale};
@@ -82,7 +82,7 @@ pub(super) struct Trial<'a> {
 
 impl<'a> Trial<'a> {
     /// A component, with the forces that balance it where it stands.
-    pub fn of(given: &'a Assembly, forces: Option<&'a Forces>) -> Trial<'a> {
+    pub fn new(given: &'a Assembly, forces: Option<&'a Forces>) -> Trial<'a> {
         let mut guesses = ProofCache::default();
         if let Some(forces) = forces {
             guesses.add_forces(given, forces.clone());
@@ -136,7 +136,7 @@ impl<'a> Trial<'a> {
     /// The least that forces leave unbalanced of the changed component, and how it changes.
     pub fn tangent(&mut self, setting: &Setting) -> Option<Tangent> {
         self.count();
-        Tangent::of(&self.program(setting))
+        Tangent::new(&self.program(setting))
     }
 
     fn count(&mut self) {
@@ -158,7 +158,7 @@ impl<'a> Trial<'a> {
     /// Remembers the forces and the motion of a tangent, those of a standing and this of a falling setting.
     pub fn learn_tangent(&mut self, tangent: &Tangent, setting: &Setting, verdict: Verdict) {
         let changed = self.changed(setting);
-        let program = Program::of(&changed, Scale::of_assembly(&changed));
+        let program = Program::new(&changed, Scale::from_assembly(&changed));
         let (forces, motion) = (tangent.forces(&program), tangent.motion());
         let ends = Ends {
             program: &program,
@@ -232,15 +232,15 @@ impl<'a> Trial<'a> {
     /// The changed component's program.
     pub fn program(&self, setting: &Setting) -> Program {
         let changed = self.changed(setting);
-        Program::of(&changed, Scale::of_assembly(&changed))
+        Program::new(&changed, Scale::from_assembly(&changed))
     }
 
     /// The program at one setting, and what must be added to its load vector for another.
     pub fn direction(&self, from: &Setting, to: &Setting) -> (Program, Vec<f64>) {
         let [here, there] = [from, to].map(|setting| self.changed(setting));
         let heaviest = here.heaviest().max(there.heaviest());
-        let scale = Scale::of(self.given.length, heaviest);
-        let [here, there] = [here, there].map(|assembly| Program::of(&assembly, scale));
+        let scale = Scale::new(self.given.length, heaviest);
+        let [here, there] = [here, there].map(|assembly| Program::new(&assembly, scale));
         let toward = there.loads.iter().zip(&here.loads).map(|(a, b)| a - b);
         let toward = toward.collect();
         (here, toward)

@@ -29,19 +29,19 @@ fn stacked() -> Program {
             arm: Vector::new(-0.5, 0.25),
             limits: [10.0, 25.0, 8.0],
         }],
-        scale: Scale::of(4.0, 600.0),
+        scale: Scale::new(4.0, 600.0),
     }
 }
 
 #[test]
 fn a_scale_counts_by_lengths_and_by_the_heaviest_load() {
-    let scale = Scale::of(5.0, 3.0);
+    let scale = Scale::new(5.0, 3.0);
     assert_eq!(
         (scale.length, scale.force, scale.moment()),
         (5.0, 0.01, 0.05)
     );
     // Without loads a unit is a three hundredth of a newton.
-    assert_eq!(Scale::of(2.0, 0.0).force, 1.0 / 300.0);
+    assert_eq!(Scale::new(2.0, 0.0).force, 1.0 / 300.0);
 }
 
 /// Smooth joints have no friction, and what passes by a centroid does not turn its block.

@@ -8,7 +8,7 @@ use super::{
     HoldEntry, LimitsEntry, LoadEntry, MaterialEntry, Pair, RobotEntry, SceneFile, ShapeEntry,
     StepEntry,
 };
-use crate::scene::{NoteCode, SceneError, Scene};
+use crate::scene::{NoteCode, Scene, SceneError};
 
 /// Methods that set a key whose value is words.
 macro_rules! words {

@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use super::super::finding::{UnreadParts, Findings};
+use super::super::finding::{Findings, UnreadParts};
 use super::super::format::{Map, Pair};
 use super::super::path::Trail;
 use super::super::problem::{self, Wording};

@@ -3,7 +3,7 @@
 use super::Resolution;
 use super::body::BodyEntry;
 use crate::geometry::{Cell, Half, Point, Vector, sin_cos_degrees};
-use crate::scene::finding::{UnreadParts, Findings};
+use crate::scene::finding::{Findings, UnreadParts};
 use crate::scene::format::{CellEntry, CellHalf, SceneFile};
 use crate::scene::number::LARGEST;
 use crate::scene::sketch::{Placement, SketchedBody};

@@ -45,8 +45,8 @@ fn packed_size(rows: usize) -> usize {
 
 impl Cholesky {
     /// Finds the order of elimination, and numbers the unknowns of the columns in it; `None` where there is none.
-    pub fn of(elements: &mut Elements) -> Option<Cholesky> {
-        let panels = Supernodes::of(elements)?;
+    pub fn new(elements: &mut Elements) -> Option<Cholesky> {
+        let panels = Supernodes::new(elements)?;
         elements.renumber(&panels.position);
         let mut begin = vec![0];
         let mut of_column = vec![0; elements.unknowns()];

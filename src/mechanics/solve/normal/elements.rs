@@ -36,12 +36,12 @@ pub(super) struct Family<'a> {
 impl Elements {
     /// From (column, unknown, value) entries, where bodies have three unknowns each. A column joins the one before it where one
     /// of the two touches no body that the other does not.
-    pub fn of(
+    pub fn new(
         unknowns: usize,
         columns: usize,
         entries: impl Iterator<Item = (usize, usize, f64)> + Clone,
     ) -> Elements {
-        let sparse = Sparse::of(columns, entries);
+        let sparse = Sparse::new(columns, entries);
         let mut families: Vec<Range<usize>> = Vec::new();
         let (mut bodies, mut own): (Vec<u32>, Vec<u32>) = Default::default();
         for k in 0..columns {
@@ -67,7 +67,7 @@ impl Elements {
         entries: impl Iterator<Item = (usize, usize, f64)> + Clone,
     ) -> Elements {
         let columns = families.last().map_or(0, |family| family.end);
-        Sparse::of(columns, entries).gathered(unknowns, families)
+        Sparse::new(columns, entries).gathered(unknowns, families)
     }
 
     pub fn unknowns(&self) -> usize {
@@ -240,7 +240,7 @@ struct Sparse {
 }
 
 impl Sparse {
-    fn of(columns: usize, entries: impl Iterator<Item = (usize, usize, f64)> + Clone) -> Sparse {
+    fn new(columns: usize, entries: impl Iterator<Item = (usize, usize, f64)> + Clone) -> Sparse {
         let mut start = vec![0; columns + 1];
         for (column, _, _) in entries.clone() {
             start[column + 1] += 1;

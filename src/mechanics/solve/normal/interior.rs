@@ -77,12 +77,12 @@ const FEW: usize = 3;
 const SHORTEST: f64 = 1e-6;
 
 pub(super) fn solve(posed: Posed, factor: &mut Cholesky, limits: Limits) -> Optimum {
-    let mut run = Run::of(&posed, factor);
+    let mut run = Run::new(&posed, factor);
     let (mut iterations, mut restored) = (0, 0);
     let finest = limits.finer.map_or(1.0, |finer| finer.by) * limits.tolerance;
     let mut trend = Trend::default();
     let ended = loop {
-        let residual = Residual::of(&posed, &run.at, &mut run.left);
+        let residual = Residual::new(&posed, &run.at, &mut run.left);
         if let Some(ended) = residual.ended(&posed, finest) {
             break Some(ended);
         }
@@ -156,7 +156,7 @@ struct Residual {
 }
 
 impl Residual {
-    fn of(posed: &Posed, at: &Point, left: &mut Left) -> Residual {
+    fn new(posed: &Posed, at: &Point, left: &mut Left) -> Residual {
         left.balance.fill(0.0);
         posed.elements.add(&at.f, &mut left.balance);
         let balanced = largest(&left.balance);
@@ -256,7 +256,7 @@ struct Change {
 }
 
 impl Run {
-    fn of(posed: &Posed, factor: &mut Cholesky) -> Run {
+    fn new(posed: &Posed, factor: &mut Cholesky) -> Run {
         let (columns, unknowns) = (posed.cost.len(), posed.loads.len());
         Run {
             at: Point::first(posed, factor),
@@ -304,9 +304,9 @@ impl Run {
                 *f = 0.0;
             }
         }
-        Residual::of(posed, &self.at, &mut self.left);
+        Residual::new(posed, &self.at, &mut self.left);
         self.restore(posed, factor);
-        let residual = Residual::of(posed, &self.at, &mut self.left);
+        let residual = Residual::new(posed, &self.at, &mut self.left);
         if residual.within(posed, tolerance) != (true, true) {
             self.at.f = before;
         }

@@ -84,7 +84,7 @@ pub(super) fn is_squares(problem: &Conic) -> bool {
 
 /// The same of every size; a chain's factor takes fewer operations for an unknown than so many.
 fn solve_where(problem: &Conic, limits: Limits, least_work: f64) -> Option<Answer> {
-    let Some(form) = Form::of(problem) else {
+    let Some(form) = Form::new(problem) else {
         return is_squares(problem)
             .then(|| squares::solve(problem, limits))
             .flatten();
@@ -93,7 +93,7 @@ fn solve_where(problem: &Conic, limits: Limits, least_work: f64) -> Option<Answe
     if elements.widest() > MOST_ENTRIES {
         return None;
     }
-    let mut factor = Cholesky::of(&mut elements)?;
+    let mut factor = Cholesky::new(&mut elements)?;
     let is_chain = factor.operations() < least_work * elements.unknowns() as f64;
     let loads = factor.in_order(&loads);
     if form == Form::Smallest {
@@ -170,7 +170,7 @@ enum Form {
 }
 
 impl Form {
-    fn of(problem: &Conic) -> Option<Form> {
+    fn new(problem: &Conic) -> Option<Form> {
         let squares = problem.quadratic.iter().enumerate();
         let all_squared = problem.quadratic.len() == problem.unknowns
             && squares.clone().all(|(k, entry)| *entry == (k, k, 1.0));
@@ -205,7 +205,7 @@ impl Form {
     fn posed(self, problem: &Conic) -> (Elements, Vec<f64>, Vec<f64>) {
         match self {
             Form::Kinematic | Form::Shortest => (
-                Elements::of(
+                Elements::new(
                     problem.unknowns,
                     problem.bound.len(),
                     problem.matrix.iter().copied(),
@@ -214,7 +214,7 @@ impl Form {
                 problem.linear.iter().map(|v| -v).collect(),
             ),
             Form::Forces | Form::Smallest => (
-                Elements::of(
+                Elements::new(
                     problem.equalities,
                     problem.unknowns,
                     problem

@@ -33,8 +33,8 @@ pub(super) struct Supernodes {
 
 impl Supernodes {
     /// Of Σ weight·column·columnᵀ; `None` where no order is found.
-    pub fn of(elements: &Elements) -> Option<Supernodes> {
-        let graph = Graph::of(elements);
+    pub fn new(elements: &Elements) -> Option<Supernodes> {
+        let graph = Graph::new(elements);
         let count = i32::try_from(graph.count()).ok()?;
         let (starts, list) = graph.as_i32()?;
         let (order, _, _) = amd::order(count, &starts, &list, &amd::Control::default()).ok()?;
@@ -73,7 +73,7 @@ struct Graph {
 }
 
 impl Graph {
-    fn of(elements: &Elements) -> Graph {
+    fn new(elements: &Elements) -> Graph {
         let n = elements.unknowns();
         let mut begin = vec![0; n + 1];
         let families = || (0..elements.families()).map(|k| elements.family(k).places);

@@ -39,8 +39,8 @@ const IDLE_STEPS: usize = 3;
 /// Chains are welcome: of an arch of 10 000 stones clarabel calls the least squares infeasible, whose forces are thousands of
 /// loads.
 pub(super) fn solve(problem: &Conic, limits: Limits) -> Option<Answer> {
-    let squares = Squares::of(problem)?;
-    let mut run = Run::of(squares, problem)?;
+    let squares = Squares::new(problem)?;
+    let mut run = Run::new(squares, problem)?;
     run.start();
     let (mut iterations, mut idle) = (0, 0);
     while !run.is_optimal(limits.tolerance, FINER * limits.tolerance) {
@@ -82,7 +82,7 @@ struct Squares {
 
 impl Squares {
     /// `None` where columns are coupled across more than a few, or floors are not the only inequalities.
-    fn of(problem: &Conic) -> Option<Squares> {
+    fn new(problem: &Conic) -> Option<Squares> {
         let n = problem.unknowns;
         let is_floor = |(row, column, value): &(usize, usize, f64)| {
             *row - problem.equalities == *column && *value == -1.0
@@ -188,7 +188,7 @@ struct Direction {
 }
 
 impl Run {
-    fn of(squares: Squares, problem: &Conic) -> Option<Run> {
+    fn new(squares: Squares, problem: &Conic) -> Option<Run> {
         let n = problem.unknowns;
         let balance = problem
             .matrix
@@ -199,7 +199,7 @@ impl Run {
         if given.widest() > super::MOST_ENTRIES {
             return None;
         }
-        let factor = Cholesky::of(&mut given)?;
+        let factor = Cholesky::new(&mut given)?;
         let (loads, floor) = problem.bound.split_at(problem.equalities);
         Some(Run {
             lower: vec![0.0; squares.entries.len()],

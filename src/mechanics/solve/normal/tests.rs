@@ -31,7 +31,7 @@ fn lattice(wide: usize, high: usize, numbers: &mut Numbers) -> (usize, Vec<Vec<(
 fn elements(unknowns: usize, columns: &[Vec<(usize, f64)>]) -> Elements {
     let entries = columns.iter().enumerate();
     let entries = entries.flat_map(|(k, column)| column.iter().map(move |(i, v)| (k, *i, *v)));
-    Elements::of(unknowns, columns.len(), entries)
+    Elements::new(unknowns, columns.len(), entries)
 }
 
 /// max loadsᵀy  s.t.  columnᵀy ≤ cost.
@@ -106,7 +106,7 @@ fn a_factor_solves_what_it_factored_for_one_right_hand_side_and_for_two() {
         let (unknowns, columns) = lattice(wide, high, &mut numbers);
         let mut posed = elements(unknowns, &columns);
         let plain = posed.clone();
-        let mut factor = Cholesky::of(&mut posed).expect("an order");
+        let mut factor = Cholesky::new(&mut posed).expect("an order");
         let weights: Vec<f64> = columns.iter().map(|_| 1.5 + numbers.next()).collect();
         let mut doubled = weights.clone();
         doubled.iter_mut().for_each(|w| *w *= 2.0);
@@ -154,7 +154,7 @@ fn what_nothing_holds_does_not_move() {
         vec![(6, 1.0), (0, 1.0)],
     ];
     let mut posed = elements(9, &columns);
-    let mut factor = Cholesky::of(&mut posed).expect("an order");
+    let mut factor = Cholesky::new(&mut posed).expect("an order");
     factor.factor(&posed, &[1.0; 4], 0.0);
     let mut x: Vec<[f64; 1]> = factor.in_order(&[1.0; 9]).iter().map(|v| [*v]).collect();
     factor.solve(&mut x);

@@ -38,7 +38,7 @@ struct Case {
 /// Looks at every case.
 pub(super) fn search(program: &Program) -> Search {
     let springs = Springs::new(program, 1.0);
-    let layout = Layout::of(&springs);
+    let layout = Layout::new(&springs);
     let rough = |k: usize| program.contacts[k].friction > 0.0;
     let mut cases = vec![Case {
         pressed: vec![None; springs.points.len()],
@@ -196,7 +196,7 @@ impl Rows {
 }
 
 impl Layout {
-    fn of(springs: &Springs) -> Layout {
+    fn new(springs: &Springs) -> Layout {
         let points = springs.program.loads.len();
         let faces = points + springs.points.len();
         let grips = faces + springs.tangents.len();

@@ -13,7 +13,9 @@ pub fn called_for(situation: &FrameContext) -> Applicability {
     let kinds = situation.interfaces.iter().map(|i| i.kind);
     let count = kinds.filter(|kind| *kind == ContactKind::Corner).count();
     match count {
-        _ if !situation.scene.corner_contacts => Applicability::not("not asked for; tips are unreliable"),
+        _ if !situation.scene.corner_contacts => {
+            Applicability::not("not asked for; tips are unreliable")
+        }
         0 => Applicability::not("no tip touches another body"),
         1 => Applicability::For("1 tip touches another body".to_owned()),
         n => Applicability::For(format!("{n} tips touch another body")),

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::held::{FLAT, propped};
 use super::{ContactKind, Interface, Interfaces, Near, bodies, ordered};
-use crate::geometry::{Aabb, Edge, BoxIndex, Point, Tolerance, Vector, cross, quarter_turn};
+use crate::geometry::{Aabb, BoxIndex, Edge, Point, Tolerance, Vector, cross, quarter_turn};
 use crate::scene::{BodyId, Scene, size};
 
 /// Edges farther apart than this many gaps are not worth a notice.
@@ -109,7 +109,7 @@ pub(super) fn find(scene: &Scene) -> Interfaces {
             near,
         }));
     }
-    let nearby = BoxIndex::of(sides, Side::around);
+    let nearby = BoxIndex::new(sides, Side::around);
     // With the bodies and the numbers of the two edges, whose order is that of the interfaces.
     let mut met: Vec<([BodyId; 2], [usize; 2], Meeting)> =
         Vec::with_capacity(2 * scene.blocks.len());
@@ -255,7 +255,7 @@ fn square_to(ends: [Point; 2]) -> Vector {
 /// Stretches of one pair that continue each other along one line, joined: a corner set into a straight edge changes nothing.
 fn joined(stretches: Vec<Interface>, tolerance: Tolerance) -> Vec<Interface> {
     let reach = 4.0 * tolerance.gap;
-    let mut left = Ends::of(stretches, reach);
+    let mut left = Ends::new(stretches, reach);
     let mut done = Vec::new();
     while let Some(mut one) = left.last() {
         while let Some(other) = left.next_to(&one) {
@@ -285,7 +285,7 @@ struct Ends {
 type Square = (i64, i64);
 
 impl Ends {
-    fn of(stretches: Vec<Interface>, reach: f64) -> Ends {
+    fn new(stretches: Vec<Interface>, reach: f64) -> Ends {
         let mut ends = Ends {
             stretches: Vec::with_capacity(stretches.len()),
             begin: BTreeMap::new(),

@@ -10,7 +10,7 @@ pub(crate) struct Touching<'a>(BTreeMap<BodyId, Vec<&'a Interface>>);
 
 impl<'a> Touching<'a> {
     /// Of these interfaces.
-    pub(crate) fn of(all: &'a [Interface]) -> Touching<'a> {
+    pub(crate) fn new(all: &'a [Interface]) -> Touching<'a> {
         let mut touching: BTreeMap<BodyId, Vec<&Interface>> = BTreeMap::new();
         for interface in all {
             for body in interface.bodies {
@@ -63,7 +63,7 @@ pub(super) fn propped(scene: &Scene, all: &[Interface], narrow: &[Near]) -> Vec<
     if narrow.is_empty() {
         return Vec::new();
     }
-    let touching = Touching::of(all);
+    let touching = Touching::new(all);
     let held = narrow.iter().filter_map(|gap| {
         let flat = |body: &BodyId| size(&scene.body(*body).polygon) <= FLAT * gap.distance;
         let stone = held_open(gap, &touching, flat, 0.0)?;

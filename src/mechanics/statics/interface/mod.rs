@@ -133,7 +133,7 @@ impl Interfaces {
     ///
     /// Edges make an interface where they are collinear, face each other and overlap. Corner contacts are looked for
     /// only where the scene asks for them.
-    pub fn of(scene: &Scene) -> Interfaces {
+    pub fn new(scene: &Scene) -> Interfaces {
         let mut found = match (&scene.lattice, scene.exact) {
             (Some(lattice), true) => Interfaces {
                 all: lattice::find(scene, lattice),

@@ -70,7 +70,7 @@ fn a_tip_touches_an_edge_on_any_side_within_the_tolerance_and_no_farther() {
         };
         let gap = gap(&at(0.0), BodyId::Ground(0));
         for (apart, touches) in [(0.0, true), (0.9 * gap, true), (1.2 * gap, false)] {
-            let found = Interfaces::of(&at(apart)).all;
+            let found = Interfaces::new(&at(apart)).all;
             assert_eq!(found.len(), usize::from(touches), "{outward:?} {apart}");
             for corner in found {
                 assert_eq!(corner.kind, ContactKind::Corner);
@@ -94,7 +94,7 @@ fn tips_that_meet_press_along_their_bisector() {
             vec![rectangle(-2.0, -1.0, 2.0, 1.0)],
             vec![rectangle(x, 0.0, 1.0, 1.0)],
         );
-        let found = Interfaces::of(&scene).all;
+        let found = Interfaces::new(&scene).all;
         assert_eq!(found.len(), 1, "{found:?}");
         assert!(near(found[0].normal, [normal, normal.abs()]), "{found:?}");
     }
@@ -103,7 +103,7 @@ fn tips_that_meet_press_along_their_bisector() {
 #[test]
 fn corners_of_an_edge_that_touches_are_no_contacts_of_their_own_and_others_are() {
     let floor = || vec![rectangle(-20.0, -1.0, 40.0, 1.0)];
-    let alone = Interfaces::of(&scene(floor(), vec![rectangle(0.0, 0.0, 2.0, 1.0)])).all;
+    let alone = Interfaces::new(&scene(floor(), vec![rectangle(0.0, 0.0, 2.0, 1.0)])).all;
     let kinds: Vec<ContactKind> = alone.iter().map(|i| i.kind).collect();
     assert_eq!(kinds, [ContactKind::Edge]);
     // A table with a flat leg and a pointed one, 2 m away from it.
@@ -116,7 +116,7 @@ fn corners_of_an_edge_that_touches_are_no_contacts_of_their_own_and_others_are()
         [3.5, 3.0],
         [0.0, 3.0],
     ]);
-    let mut found = Interfaces::of(&scene(floor(), vec![table])).all;
+    let mut found = Interfaces::new(&scene(floor(), vec![table])).all;
     found.sort_by_key(|i| i.kind == ContactKind::Corner);
     assert_eq!(found.len(), 2, "{found:?}");
     assert_eq!(found[0].kind, ContactKind::Edge);
@@ -143,7 +143,7 @@ fn interfaces_stand_in_the_order_of_bodies_and_of_places() {
         .collect();
     blocks.push(odd(&outline));
     let scene = scene(vec![rectangle(-5.0, -1.0, 40.0, 1.0)], blocks);
-    let found = Interfaces::of(&scene).all;
+    let found = Interfaces::new(&scene).all;
     assert_eq!(found.len(), 15);
     let order = |i: &Interface| (i.bodies, i.ends[0].x);
     assert!(found.windows(2).all(|w| order(&w[0]) < order(&w[1])));
@@ -164,7 +164,7 @@ fn edges_meet_within_the_tolerance_and_beyond_it_are_told_apart() {
         scene([ground, vec![under]].concat(), vec![block, other])
     };
     let gap = gap(&at(0.0, 0.0), BodyId::Ground(0));
-    let found = Interfaces::of(&at(0.9 * gap, 0.0));
+    let found = Interfaces::new(&at(0.9 * gap, 0.0));
     assert_eq!((found.all.len(), found.near.len()), (2, 0));
     assert!(found.notices.is_empty(), "{:?}", found.notices);
     // The shared stretch, from x = −0.75 to 1, half way up the gap.
@@ -173,7 +173,7 @@ fn edges_meet_within_the_tolerance_and_beyond_it_are_told_apart() {
     assert!((stretch.middle().x - 0.125 * ODD).abs() < 1e-9);
     assert!((stretch.middle().y - 0.45 * gap).abs() < 1e-12);
 
-    let apart = Interfaces::of(&at(29.0 * gap, 0.0));
+    let apart = Interfaces::new(&at(29.0 * gap, 0.0));
     assert_eq!((apart.all.len(), apart.near.len()), (1, 1));
     let miss = apart.near[0];
     assert_eq!(miss.bodies, [FIRST, BodyId::Ground(0)]);
@@ -185,17 +185,17 @@ fn edges_meet_within_the_tolerance_and_beyond_it_are_told_apart() {
     );
     assert_eq!(apart.notices.len(), 1);
     assert_eq!(apart.notices[0], words);
-    let both = Interfaces::of(&at(29.0 * gap, 20.0 * gap));
+    let both = Interfaces::new(&at(29.0 * gap, 20.0 * gap));
     assert_eq!(
         both.notices,
         [words + ", and so do 1 other pair(s) of edges"]
     );
     // Farther apart is told without a notice, and beyond a hundredth of the block not at all.
-    let apart = Interfaces::of(&at(31.0 * gap, 0.0));
+    let apart = Interfaces::new(&at(31.0 * gap, 0.0));
     assert_eq!((apart.near.len(), apart.notices.len()), (1, 0));
     let size = crate::scene::size(&at(0.0, 0.0).body(FIRST).polygon);
     for (share, seen) in [(0.0099, 1), (0.0101, 0)] {
-        assert_eq!(Interfaces::of(&at(share * size, 0.0)).near.len(), seen);
+        assert_eq!(Interfaces::new(&at(share * size, 0.0)).near.len(), seen);
     }
 }
 
@@ -211,7 +211,7 @@ fn a_stretch_too_short_to_count_is_told_with_its_length() {
         ],
     );
     let limit = scene.tolerance_between(FIRST, SECOND).stretch;
-    let found = Interfaces::of(&scene);
+    let found = Interfaces::new(&scene);
     let short = format!(
         "1 contact(s) up to 1.0e-7 m long are shorter than {limit:.1e} m and count as touching corners, which carry no force"
     );
@@ -234,7 +234,7 @@ fn short_edges_face_each_other_askew_and_long_ones_do_not() {
     };
     let gap = gap(&at(0.5, 0.0), BodyId::Ground(0));
     let edges = |scene: &Scene| {
-        let all = Interfaces::of(scene).all;
+        let all = Interfaces::new(scene).all;
         all.iter().filter(|i| i.kind == ContactKind::Edge).count()
     };
     for width in [0.5, 0.01] {
@@ -255,7 +255,7 @@ fn a_corner_set_into_a_straight_edge_changes_nothing() {
         [-5.0, 0.0],
     ]);
     let scene = scene(vec![floor], vec![rectangle(0.0, 0.0, 2.0, 1.0)]);
-    let found = Interfaces::of(&scene).all;
+    let found = Interfaces::new(&scene).all;
     assert_eq!(found.len(), 1, "{found:?}");
     assert!((found[0].length() - 2.0 * ODD).abs() < 1e-9);
     assert!(near(found[0].normal, [0.0, 1.0]));
@@ -275,7 +275,7 @@ fn runs_of_unit_edges_of_a_lattice_are_one_interface_each() {
         .block(BlockEntry::new("beside").cells(cells([(2.0, 5.0), (2.0, 6.0), (3.0, 6.0)])))
         .build()
         .expect("a sound scene");
-    let found = Interfaces::of(&scene).all;
+    let found = Interfaces::new(&scene).all;
     let block = |n: usize| BodyId::Block(BlockId(n));
     let expected = [
         ([block(0), BodyId::Ground(0)], 6.0, [0.0, 1.0], [9.0, 10.0]),

@@ -50,7 +50,7 @@ impl Ink {
         }
         for (i, corner) in own.iter().enumerate() {
             let next = own.get(i + 1).copied().unwrap_or(start);
-            self.sides.push(Side::of(*corner, next, own));
+            self.sides.push(Side::new(*corner, next, own));
         }
         let piece = Piece {
             is_label,
@@ -68,7 +68,7 @@ impl Ink {
     /// Sorts the pieces into a raster, so that the many questions of [`place`](super::place) look at those nearby alone.
     pub fn index(&mut self) {
         if self.raster.is_none() {
-            self.raster = Some(Raster::of(&self.pieces));
+            self.raster = Some(Raster::new(&self.pieces));
         }
     }
 
@@ -214,7 +214,7 @@ struct Side {
 }
 
 impl Side {
-    fn of(from: PagePoint, to: PagePoint, piece: &[PagePoint]) -> Side {
+    fn new(from: PagePoint, to: PagePoint, piece: &[PagePoint]) -> Side {
         let along = (to.x - from.x, to.y - from.y);
         let side = Side {
             from,
@@ -274,7 +274,7 @@ impl Side {
 pub(super) fn parted(piece: &[PagePoint], others: &[PagePoint]) -> bool {
     (0..piece.len()).any(|i| {
         let next = piece[(i + 1) % piece.len()];
-        Side::of(piece[i], next, piece).parts(others)
+        Side::new(piece[i], next, piece).parts(others)
     })
 }
 
@@ -310,7 +310,7 @@ struct Fields {
 }
 
 impl Raster {
-    fn of(pieces: &[Piece]) -> Raster {
+    fn new(pieces: &[Piece]) -> Raster {
         // A page has some thousand pixels; what lies far beyond it shares the last fields.
         let field = |v: f64| (v / FIELD).floor().clamp(-20.0, 200.0);
         let ends =

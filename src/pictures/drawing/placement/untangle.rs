@@ -4,7 +4,7 @@
 //! their neighbours.
 
 use super::ink::parted;
-use super::{Ink, Placed, ROOM, LabelRequest, around, corners, nearest, within};
+use super::{Ink, LabelRequest, Placed, ROOM, around, corners, nearest, within};
 use crate::drawing::{PagePoint, PageRect};
 
 /// Rounds over all pairs.

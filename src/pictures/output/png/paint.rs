@@ -219,7 +219,7 @@ fn through(
     transform: Transform,
     pixels: &mut PixmapMut<'_>,
 ) -> Option<()> {
-    let layer = Layer::of(extent(shape)?.to_non_zero_rect()?, most, transform)?;
+    let layer = Layer::new(extent(shape)?.to_non_zero_rect()?, most, transform)?;
     let mut apart = layer.pixels()?;
     ink(shape, layer.transform, &mut apart.as_mut());
     layer.join(&apart, shape.opacity, pixels);
@@ -235,7 +235,7 @@ fn part(
     pixels: &mut PixmapMut<'_>,
 ) -> Option<()> {
     let clip = rectangle(clip)?;
-    let layer = Layer::of(seen(within, clip)?, most, transform)?;
+    let layer = Layer::new(seen(within, clip)?, most, transform)?;
     let mut apart = layer.pixels()?;
     put(within, most, layer.transform, &mut apart.as_mut());
     let mut mask = Mask::new(apart.width(), apart.height())?;
@@ -291,7 +291,7 @@ struct Layer {
 
 impl Layer {
     /// For what lies within an extent; two pixels more on every side hold the edges that are covered in part.
-    fn of(extent: NonZeroRect, most: IntRect, transform: Transform) -> Option<Layer> {
+    fn new(extent: NonZeroRect, most: IntRect, transform: Transform) -> Option<Layer> {
         let extent = extent.transform(transform)?;
         let place = IntRect::from_xywh(
             (extent.x().floor() as i32).checked_sub(2)?,

@@ -176,7 +176,7 @@ fn shapes() -> Vec<Item> {
                 14.0,
             ))
             .into(),
-        Group::of_class("labels")
+        Group::with_class("labels")
             .with(
                 words(70.0, 20.0, "Größe 12.5 kN · AVATAR", Face::Sans, 12.5)
                     .with_halo(Colour::WHITE, 2.0),

@@ -38,7 +38,7 @@ fn hostile_words_stay_words() {
     );
     let group = Group {
         id: Some(nasty.into()),
-        ..Group::of_class(nasty)
+        ..Group::with_class(nasty)
     }
     .titled(nasty)
     .with(text);

@@ -17,14 +17,14 @@ impl Sheet<'_> {
     pub(super) fn table(&self) -> Table {
         let body = &self.analysis.scene.blocks[self.block.0];
         let size = body.body.polygon.bounds().diagonal();
-        Table::of(&self.forces, body.centroid, size)
+        Table::new(&self.forces, body.centroid, size)
     }
 
     /// The verdict, the scale, what is left out, and what everything amounts to, from `top` down; and where it ends.
     pub(super) fn values(&self, top: f64, nameless: usize) -> (Group, f64) {
         let theme = &self.options.theme;
         let (scene, found) = (&self.analysis.scene, &self.analysis.frames[self.frame]);
-        let mut group = Group::of_class("values");
+        let mut group = Group::with_class("values");
         if !self.options.keys {
             return (group, top);
         }

@@ -67,7 +67,7 @@ const HATCH: f64 = 7.0;
 /// let scene = Scene::from_json(r#"{ "drystone": 1, "friction": 0.6,
 ///     "ground": [{ "polygon": [[0, 0], [9, 3], [9, -1], [0, -1]] }],
 ///     "blocks": [{ "id": "a", "polygon": [[3, 1], [6, 2], [6, 4], [3, 3]], "weight": 6 }] }"#)?;
-/// let analysis = Analysis::of(&scene);
+/// let analysis = Analysis::new(&scene);
 /// let drawing = figure::freebody(&analysis, 0, BlockId(0), &figure::Options::default()).expect("block a stands there");
 /// let svg = output::svg::write(&drawing);
 /// assert!(svg.contains("Normal force F_s1 on block a: 2.85 N at 108°"));
@@ -83,7 +83,7 @@ pub fn freebody(
     if !placed.contains(&block) {
         return None;
     }
-    let sheet = Sheet::of(analysis, frame, block, options);
+    let sheet = Sheet::new(analysis, frame, block, options);
     Some(sheet.drawing())
 }
 
@@ -107,7 +107,12 @@ struct Sheet<'a> {
 }
 
 impl<'a> Sheet<'a> {
-    fn of(analysis: &'a Analysis, frame: usize, block: BlockId, options: &'a Options) -> Sheet<'a> {
+    fn new(
+        analysis: &'a Analysis,
+        frame: usize,
+        block: BlockId,
+        options: &'a Options,
+    ) -> Sheet<'a> {
         let found = &analysis.frames[frame];
         let touches = |c: &&Contact| c.interface.bodies.contains(&BodyId::Block(block));
         let contacts: Vec<&Contact> = found.contacts.iter().filter(touches).collect();
@@ -211,13 +216,13 @@ impl<'a> Sheet<'a> {
     /// The bodies the block touches, ground hatched.
     fn neighbours(&self, ink: &mut Ink) -> Group {
         let (scene, theme) = (&self.analysis.scene, &self.options.theme);
-        let mut group = Group::of_class("neighbours");
+        let mut group = Group::with_class("neighbours");
         let page = self.camera.rect(self.view);
         group.clip = Some(page);
         for body in neighbours(&self.contacts, self.block) {
             let polygon = &scene.body(body).polygon;
             let outline = self.camera.polygon(polygon);
-            let mut drawn = Group::of_class("body").titled(match body {
+            let mut drawn = Group::with_class("body").titled(match body {
                 BodyId::Ground(_) => "Ground".to_owned(),
                 BodyId::Block(_) => format!("Block {}", scene.name(body)),
             });
@@ -244,7 +249,7 @@ impl<'a> Sheet<'a> {
         let theme = &self.options.theme;
         self.bar(ink, self.polygon(), self.camera.rect(self.view));
         let outline = self.camera.polygon(self.polygon());
-        Group::of_class("block")
+        Group::with_class("block")
             .titled(format!("Block {}", self.name()))
             .with(Path::filled(outline, theme.page).with_stroke(Stroke::new(theme.ink, 1.8)))
     }
@@ -262,7 +267,7 @@ impl<'a> Sheet<'a> {
     /// Dashed lines from the application points and the centroid to the edges of the picture, and names for their ends.
     fn guide_lines(&self, ink: &mut Ink, wishes: &mut Vec<(Symbol, LabelRequest)>) -> Group {
         let theme = &self.options.theme;
-        let mut group = Group::of_class("guides");
+        let mut group = Group::with_class("guides");
         let mut described = vec![(
             "c",
             String::new(),
@@ -317,7 +322,7 @@ impl<'a> Sheet<'a> {
 
     fn drawn(&self, ink: &mut Ink, wishes: &mut Vec<(Symbol, LabelRequest)>) -> Group {
         let theme = &self.options.theme;
-        let mut group = Group::of_class("forces");
+        let mut group = Group::with_class("forces");
         for arrow in self.arrows.iter().filter(|a| Sheet::seen(a)) {
             let from = self.camera.place(arrow.at);
             let path = match arrow.turn {
@@ -337,7 +342,7 @@ impl<'a> Sheet<'a> {
             } else {
                 Path::filled(path, arrow.colour)
             };
-            let drawn = Group::of_class("force")
+            let drawn = Group::with_class("force")
                 .titled(arrow.title.as_str())
                 .with(path);
             group.items.push(drawn.into());
@@ -366,7 +371,7 @@ impl<'a> Sheet<'a> {
             MARGIN + 4.0,
             self.floor() + if self.guides() { 30.0 } else { BELOW - 4.0 },
         );
-        let mut group = Group::of_class("axes").titled("Axes: x to the right, y up");
+        let mut group = Group::with_class("axes").titled("Axes: x to the right, y up");
         let ends = [
             ((40.0, 0.0), "x", (14.0, 0.0)),
             ((0.0, -40.0), "y", (0.0, -14.0)),
@@ -403,14 +408,14 @@ impl<'a> Sheet<'a> {
         let (wishes, beyond) = wishes.split_at(wishes.len().min(MOST_NAMES));
         let mut nameless = beyond.len();
         ink.index();
-        let mut group = Group::of_class("labels");
+        let mut group = Group::with_class("labels");
         let wanted: Vec<LabelRequest> = wishes.iter().map(|w| w.1.clone()).collect();
         for ((symbol, _), placed) in wishes.iter().zip(place(ink, page, &wanted)) {
             let Some(placed) = placed else {
                 nameless += 1;
                 continue;
             };
-            let mut label = Group::of_class("name");
+            let mut label = Group::with_class("name");
             if let Some(leader) = placed.leader {
                 let line = Path::stroked(Outline::line(leader), Stroke::new(theme.faint, 0.7));
                 label = label.with(line);
@@ -466,7 +471,7 @@ impl<'a> Sheet<'a> {
                     }
                     let at = placed.rect.at.moved(0.0, 0.8 * NAME);
                     let words = Text::new(at, name, Face::SerifItalic, NAME, theme.faint);
-                    group.items.push(Group::of_class("name").with(words).into());
+                    group.items.push(Group::with_class("name").with(words).into());
                 }
                 None => nameless += 1,
             }

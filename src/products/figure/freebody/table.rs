@@ -47,7 +47,7 @@ struct Unit {
 
 impl Unit {
     /// The unit in which the largest of a column has one to three digits before the point.
-    fn of(largest: f64, names: [&'static str; 5]) -> Unit {
+    fn new(largest: f64, names: [&'static str; 5]) -> Unit {
         let digits = if largest > 0.0 && largest.is_finite() {
             libm::floor(libm::log10(largest)) as i32
         } else {
@@ -78,7 +78,7 @@ impl Unit {
 
 impl Table {
     /// The list of these forces; moments are about `centroid`, of a block of this size in metres.
-    pub(super) fn of(forces: &[Force], centroid: Point, size: f64) -> Table {
+    pub(super) fn new(forces: &[Force], centroid: Point, size: f64) -> Table {
         let most = forces.iter().map(|f| f.force.norm()).fold(0.0, f64::max);
         let moment = |f: &Force| {
             let moment = f.moment(centroid);
@@ -89,8 +89,8 @@ impl Table {
             }
         };
         let turns = forces.iter().map(|f| moment(f).abs()).fold(0.0, f64::max);
-        let force_unit = Unit::of(most, ["µN", "mN", "N", "kN", "MN"]);
-        let moment_unit = Unit::of(turns, ["µN·m", "mN·m", "N·m", "kN·m", "MN·m"]);
+        let force_unit = Unit::new(most, ["µN", "mN", "N", "kN", "MN"]);
+        let moment_unit = Unit::new(turns, ["µN·m", "mN·m", "N·m", "kN·m", "MN·m"]);
         let row = |force: &Force| Row {
             symbol: Some(force.symbol.clone()),
             numbers: [
@@ -172,7 +172,7 @@ impl Table {
         let from = froms.fold(wide("from"), f64::max).min(left_over);
         let total = numbers + BETWEEN + from;
         let left = middle - total / 2.0;
-        let mut group = Group::of_class("list").titled("The forces on the block, and their sum");
+        let mut group = Group::with_class("list").titled("The forces on the block, and their sum");
         let words = |x: f64, y: f64, words: &str, anchor: Anchor| -> Item {
             Text::new(PagePoint::new(x, y), words, Face::Serif, size, theme.ink)
                 .anchored(anchor)

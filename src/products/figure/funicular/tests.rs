@@ -8,7 +8,7 @@ fn scene(text: &str) -> Scene {
 }
 
 fn of(scene: &Scene) -> Vec<Stretch> {
-    let analysis = Analysis::of(scene);
+    let analysis = Analysis::new(scene);
     stretches(scene, &scene.frames[0], &analysis.frames[0], 1.0)
 }
 

@@ -13,12 +13,12 @@ pub(super) struct Solids {
 }
 
 impl Solids {
-    pub(super) fn of(pen: &Pen<'_>) -> Solids {
+    pub(super) fn new(pen: &Pen<'_>) -> Solids {
         let scene = &pen.stage.analysis.scene;
         let drawn = |id: &BlockId| {
             let corners = scene.blocks[id.0].body.polygon.rings().first();
             let corners = corners.into_iter().flatten();
-            let bounds = Bounds::of(corners.map(|p| pen.moved(*id, *p)))?;
+            let bounds = Bounds::from_points(corners.map(|p| pen.moved(*id, *p)))?;
             Some((*id, pen.camera.rect(bounds)))
         };
         let ground = scene.ground.iter().enumerate();

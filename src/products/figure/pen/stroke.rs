@@ -44,7 +44,7 @@ impl Pen<'_> {
         } else {
             Path::filled(outline, arrow.colour).cased(theme.casing, 0.6)
         };
-        Group::of_class("small")
+        Group::with_class("small")
             .titled(description::arrow(self.stage, arrow))
             .with(dot)
     }
@@ -92,7 +92,7 @@ impl Pen<'_> {
     pub(crate) fn heads(&self) -> Group {
         let mut group = Group {
             echo: true,
-            ..Group::of_class("heads")
+            ..Group::with_class("heads")
         };
         let marks = &self.stage.marks[self.number];
         let there = marks
@@ -166,14 +166,14 @@ impl Pen<'_> {
     /// The arrows of what is there, or of what is missing, each with its numbers.
     pub(crate) fn arrows(&self, missing: bool) -> Group {
         let marks = &self.stage.marks[self.number];
-        let mut group = Group::of_class(if missing { "failures" } else { "forces" });
+        let mut group = Group::with_class(if missing { "failures" } else { "forces" });
         for arrow in marks
             .arrows
             .iter()
             .filter(|a| a.kind.is_failure() == missing && self.seen(a))
         {
             let title = description::arrow(self.stage, arrow);
-            let mut force = Group::of_class("force")
+            let mut force = Group::with_class("force")
                 .titled(title)
                 .with(self.arrow(arrow));
             force.items.extend(self.centroid(arrow).map(Item::from));
@@ -188,7 +188,7 @@ impl Pen<'_> {
         {
             let title = description::turn(self.stage, turn);
             group.items.push(
-                Group::of_class("torque")
+                Group::with_class("torque")
                     .titled(title)
                     .with(self.turn(turn))
                     .into(),
@@ -199,11 +199,11 @@ impl Pen<'_> {
 
     /// The arrows of loads alone.
     pub(crate) fn loads(&self) -> Group {
-        let mut group = Group::of_class("forces");
+        let mut group = Group::with_class("forces");
         let loads = self.stage.marks[self.number].arrows.iter();
         let loads = loads.filter(|a| a.kind == ArrowKind::Load);
         for arrow in loads.filter(|a| self.seen(a)) {
-            let force = Group::of_class("force").titled(description::arrow(self.stage, arrow));
+            let force = Group::with_class("force").titled(description::arrow(self.stage, arrow));
             group.items.push(force.with(self.arrow(arrow)).into());
         }
         let small = self.dots().filter(|a| a.kind == ArrowKind::Load);
@@ -213,7 +213,7 @@ impl Pen<'_> {
 
     /// As [`Pen::arrows`] for scenes of very many blocks: one path for all arrows of a colour.
     pub(crate) fn arrows_by_colour(&self) -> Group {
-        let mut group = Group::of_class("forces");
+        let mut group = Group::with_class("forces");
         let mut colours = ByColour::default();
         for arrow in self.stage.marks[self.number]
             .arrows

@@ -5,7 +5,7 @@ use crate::analysis::Accuracy;
 use crate::drawing::{
     Anchor, Colour, Drawing, Face, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme,
 };
-use crate::output::svg::{self, Words, OutlineError};
+use crate::output::svg::{self, OutlineError, Words};
 use crate::study::{DEFAULT_TOLERANCE, Method, Summary};
 use crate::wording::number::counted;
 

@@ -70,7 +70,7 @@ mod tests {
                        {{ "id": "b", "polygon": [[1,3],[2,3],[2,4],[1,4]] }}], "steps": [{steps}] }}"#
         );
         let scene = Scene::from_json(&text).expect("a scene");
-        let analysis = Analysis::of(&scene);
+        let analysis = Analysis::new(&scene);
         let drawn = chosen(&analysis);
         assert_eq!(drawn.iter().filter(|d| **d).count(), MOST);
         for step in [0, 41, 42, 99] {

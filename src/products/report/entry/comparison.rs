@@ -13,7 +13,7 @@ use super::bullet;
 use super::row::file_name;
 use super::step::{self, Step};
 use super::touch::onto_scene;
-use super::{Entry, Figure, File, Grid, Row, ReportOptions};
+use super::{Entry, Figure, File, Grid, ReportOptions, Row};
 use crate::analysis::{Analysis, Contact, FrameAnalysis, Verdict};
 use crate::drawing::{Camera, Colour, Drawing, Group, Outline, PagePoint, Path, Stroke};
 use crate::figure::{self, Kind};
@@ -77,7 +77,7 @@ pub fn compared(sides: [Side<'_>; 2], wanted: &ReportOptions) -> Entry {
         stated.push(step.sentence.clone());
         steps.push(step);
     }
-    let mut row = Row::of(is.file.name, is.analysis);
+    let mut row = Row::new(is.file.name, is.analysis);
     row.before = Some(was.analysis.verdict());
     let names = sides.map(|side| line(side.file.name));
     let titles = sides.map(|side| match side.analysis.scene.title.trim() {
@@ -154,12 +154,17 @@ fn plate(side: Side<'_>, found: &FrameAnalysis, drawing: Drawing) -> Figure {
 }
 
 /// A step that both have.
-fn both(sides: [Side<'_>; 2], number: usize, drawings: [Drawing; 2], wanted: &ReportOptions) -> Step {
+fn both(
+    sides: [Side<'_>; 2],
+    number: usize,
+    drawings: [Drawing; 2],
+    wanted: &ReportOptions,
+) -> Step {
     let [was, is] = sides;
     let [then, now] = sides.map(|side| &side.analysis.frames[number]);
-    let shape = Shapes::of(sides, number);
+    let shape = Shapes::new(sides, number);
     let forces = forces(sides, number);
-    let settings = Settings::of(sides, number);
+    let settings = Settings::new(sides, number);
     let mut stated = vec![match (then.verdict, now.verdict) {
         (Verdict::Stable, Verdict::Stable) => "both stand".to_owned(),
         (Verdict::Unstable, Verdict::Unstable) => "both fall".to_owned(),
@@ -408,7 +413,7 @@ fn mark(drawing: &mut Drawing, scene: &Scene, blocks: &[usize], rings: &[Point],
         }
         let mut group = Group {
             echo: true,
-            ..Group::of_class("changed")
+            ..Group::with_class("changed")
         };
         if !outline.segments.is_empty() {
             group = group.with(Path::stroked(outline, Stroke::new(colour, 3.0)));

@@ -114,10 +114,10 @@ impl Chart {
 
 impl Entry {
     /// What a report tells of an analysis.
-    pub fn of(file: File<'_>, analysis: &Analysis, wanted: &ReportOptions) -> Entry {
+    pub fn new(file: File<'_>, analysis: &Analysis, wanted: &ReportOptions) -> Entry {
         let steps = step::all(analysis, wanted);
         Entry {
-            row: Row::of(file.name, analysis),
+            row: Row::new(file.name, analysis),
             remarks: analysis
                 .scene
                 .tolerance_words()

@@ -54,7 +54,7 @@ pub struct Thumbnail {
 
 impl Row {
     /// The row of an analysis.
-    pub fn of(name: &str, analysis: &Analysis) -> Row {
+    pub fn new(name: &str, analysis: &Analysis) -> Row {
         let scene = &analysis.scene;
         let frames = &analysis.frames;
         let mut bullets = Vec::new();

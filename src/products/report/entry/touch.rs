@@ -27,7 +27,7 @@ pub fn touched(drawing: &Drawing, touches: &[HoverTarget]) -> Drawing {
         let marks = touches.iter().map(|touch| mark(touch, camera));
         Group {
             items: marks.map(Item::from).collect(),
-            ..Group::of_class("touches")
+            ..Group::with_class("touches")
         }
     });
     drawing
@@ -66,7 +66,7 @@ fn mark(touch: &HoverTarget, camera: &Camera) -> Group {
     };
     Group {
         id: Some(touch.mark.clone()),
-        ..Group::of_class("touch").titled(touch.words.clone())
+        ..Group::with_class("touch").titled(touch.words.clone())
     }
     .with(path.with_opacity(0.0))
 }

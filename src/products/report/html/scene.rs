@@ -5,7 +5,7 @@ use maud::{Markup, PreEscaped, html};
 use super::{path, thumbnail, verdict, verdicts};
 use crate::chart;
 use crate::output::svg::{self, Options};
-use crate::report::entry::{MarginBar, Chart, Entry, Figure, Grid, Step, touched};
+use crate::report::entry::{Chart, Entry, Figure, Grid, MarginBar, Step, touched};
 
 /// Tables of more lines are folded.
 const LONG: usize = 24;

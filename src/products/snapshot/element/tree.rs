@@ -116,7 +116,9 @@ pub(super) fn read(text: &str) -> Result<Element, SvgParseError> {
     let root = document.root_element();
     if root.tag_name().name() != "svg" {
         let name = crate::text::heading(root.tag_name().name(), 40);
-        return Err(SvgParseError::Xml(format!("its outermost element is {name}")));
+        return Err(SvgParseError::Xml(format!(
+            "its outermost element is {name}"
+        )));
     }
     element(root, 0)
 }

@@ -74,14 +74,14 @@ impl Facts {
     ///         "ground": [{{ "polygon": [[0, 0], [9, 0], [9, -1], [0, -1]] }}],
     ///         "blocks": [{{ "id": "a", "polygon": [[1, 0], [4, 0], [4, 2], [1, 2]], "weight": 3 }}],
     ///         "loads": [{{ "block": "a", "force": [0, {}], "at": [2.5, 2] }}] }}"#, -load)).expect("sound");
-    ///     Facts::of(&Analysis::of(&scene), DIGITS)
+    ///     Facts::new(&Analysis::new(&scene), DIGITS)
     /// };
     /// let changes = described(0.0).changes(&described(1.2));
     /// let words: Vec<&str> = changes.iter().map(|change| change.words.as_str()).collect();
     /// assert!(words.contains(&"interface a–ground: N 3 → 4.2 N, N at its ends 1.5, 1.5 → 2.1, 2.1 N"), "{words:?}");
     /// assert!(described(1.2).changes(&described(1.2 + 1e-9)).is_empty());
     /// ```
-    pub fn of(analysis: &Analysis, digits: usize) -> Facts {
+    pub fn new(analysis: &Analysis, digits: usize) -> Facts {
         write::of(analysis, digits)
     }
 

@@ -62,11 +62,11 @@ impl Difference {
     ///     pixels[x] = [10, 20, 30, 255];
     ///     Picture::new(8, 5, pixels)
     /// };
-    /// let found = Difference::of(&page(3), &page(12), PixelTolerance::default());
+    /// let found = Difference::new(&page(3), &page(12), PixelTolerance::default());
     /// assert_eq!((found.changed, found.bounds), (2, Some([3, 0, 2, 2])));
     /// assert_eq!(found.words(), "2 of 40 pixels differ, by up to 240 of 255, within 2 × 2 pixels from (3, 0)");
     /// ```
-    pub fn of(expected: &Picture, found: &Picture, tolerance: PixelTolerance) -> Difference {
+    pub fn new(expected: &Picture, found: &Picture, tolerance: PixelTolerance) -> Difference {
         let wide = expected.width.max(found.width);
         let high = expected.height.max(found.height);
         let (across, down) = (

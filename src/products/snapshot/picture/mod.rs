@@ -184,7 +184,7 @@ impl Picture {
     /// # Errors
     /// The encoder's reason.
     pub fn encode(&self, subject: Option<Subject>) -> Result<Vec<u8>, String> {
-        palette::encode(self, Palette::of(&self.rgba).as_ref(), subject)
+        palette::encode(self, Palette::new(&self.rgba).as_ref(), subject)
     }
 
     /// Red, green, blue and alpha of the pixel in column x and row y.

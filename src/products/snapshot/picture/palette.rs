@@ -30,7 +30,7 @@ pub(super) struct Palette {
 impl Palette {
     /// The table for these pixels. `None` where something shows through and there are too many colours: those pictures are kept
     /// whole.
-    pub(super) fn of(pixels: &[[u8; 4]]) -> Option<Palette> {
+    pub(super) fn new(pixels: &[[u8; 4]]) -> Option<Palette> {
         let mut counts: BTreeMap<[u8; 4], usize> = BTreeMap::new();
         for run in pixels.chunk_by(|a, b| a == b) {
             *counts.entry(run[0]).or_default() += run.len();

@@ -75,7 +75,7 @@ pub(super) fn read(text: &str, scale: Option<f64>, frame: Option<usize>) -> Resu
         sheet,
         styled: 0,
         ids,
-        lines: Lines::of(text),
+        lines: Lines::new(text),
         draft: Draft::default(),
         seen: 0,
         more: 0,
@@ -208,7 +208,9 @@ impl<'a, 'd> Walk<'a, 'd> {
             return;
         }
         let style = around.style.of(node, &self.sheet);
-        let kind = name::all(node).find_map(|n| Role::of(&n)).or(around.kind);
+        let kind = name::all(node)
+            .find_map(|n| Role::from_name(&n))
+            .or(around.kind);
         if !style.displayed {
             self.skip(node, around, "is hidden");
             return;

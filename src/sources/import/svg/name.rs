@@ -81,7 +81,7 @@ fn unescaped(id: &str) -> String {
 pub(super) struct Lines(Vec<usize>);
 
 impl Lines {
-    pub(super) fn of(text: &str) -> Lines {
+    pub(super) fn new(text: &str) -> Lines {
         let ends = text.bytes().enumerate().filter(|b| b.1 == b'\n');
         Lines(std::iter::once(0).chain(ends.map(|e| e.0 + 1)).collect())
     }
@@ -126,7 +126,7 @@ mod tests {
         let text = "<svg xmlns:inkscape='http://www.inkscape.org/namespaces/inkscape'>\n\
             <path id='path12-3' inkscape:label='keystone'/><path id='path12'/><path id='arch'/>\n<path/></svg>";
         let document = roxmltree::Document::parse(text).expect("XML");
-        let lines = Lines::of(text);
+        let lines = Lines::new(text);
         let nodes: Vec<_> = document
             .root_element()
             .children()

@@ -8,7 +8,7 @@ fn a_block_that_rests_on_the_tip_of_an_earlier_one_is_pressed_up_by_it() {
     let roof = odd(&[[0.0, 0.0], [4.0, 0.0], [2.0, 1.0]]);
     let board = rectangle(-1.0, 1.0, 5.0, 1.0);
     let there = scene(vec![rectangle(-5.0, -1.0, 20.0, 1.0)], vec![roof, board]);
-    let found = Interfaces::of(&there).all;
+    let found = Interfaces::new(&there).all;
     let corners: Vec<&Interface> = found
         .iter()
         .filter(|i| i.kind == ContactKind::Corner)
@@ -24,7 +24,7 @@ fn blocks_at_the_four_corners_of_a_square_press_along_its_diagonals() {
     let half = core::f64::consts::FRAC_1_SQRT_2;
     let blocks = [(2.0, 3.0), (-1.0, 3.0), (-1.0, -1.0), (2.0, -1.0)];
     let blocks = blocks.map(|(x, y)| rectangle(x, y, 1.0, 1.0));
-    let found = Interfaces::of(&scene(vec![rectangle(0.0, 0.0, 2.0, 3.0)], blocks.into())).all;
+    let found = Interfaces::new(&scene(vec![rectangle(0.0, 0.0, 2.0, 3.0)], blocks.into())).all;
     assert_eq!(found.len(), 4, "{found:?}");
     let normals = [[half, half], [-half, half], [-half, -half], [half, -half]];
     for (tip, normal) in found.iter().zip(normals) {
@@ -45,7 +45,7 @@ fn a_tip_in_a_notch_presses_along_the_notch() {
         [-5.0, 0.0],
     ]);
     let wedge = odd(&[[0.0, -1.0], [0.5, 0.5], [-0.5, 0.5]]);
-    let found = Interfaces::of(&scene(vec![notched], vec![wedge])).all;
+    let found = Interfaces::new(&scene(vec![notched], vec![wedge])).all;
     assert_eq!(found.len(), 1, "{found:?}");
     assert!(near(found[0].normal, [0.0, 1.0]), "{found:?}");
     let spire = odd(&[[-1.0, -1.0], [1.0, -1.0], [0.0, 2.0]]);
@@ -57,7 +57,7 @@ fn a_tip_in_a_notch_presses_along_the_notch() {
         [4.0, 0.0],
         [0.0, 5.0],
     ]);
-    let found = Interfaces::of(&scene(vec![spire], vec![roof])).all;
+    let found = Interfaces::new(&scene(vec![spire], vec![roof])).all;
     assert_eq!(found.len(), 1, "{found:?}");
     assert!(near(found[0].normal, [0.0, 1.0]), "{found:?}");
 }
@@ -72,7 +72,7 @@ fn a_tip_on_a_slope_is_pushed_square_to_it_wherever_it_stands() {
         odd(&[[x, y], [x + 0.1, y + 2.0], [x - 0.3, y + 2.0]])
     };
     for along in [0.5, 3.0, 7.0, 9.5] {
-        let found = Interfaces::of(&scene(vec![slope.clone()], vec![post(along)])).all;
+        let found = Interfaces::new(&scene(vec![slope.clone()], vec![post(along)])).all;
         assert_eq!(found.len(), 1, "{along} {found:?}");
         assert!(near(found[0].normal, [-0.6, 0.8]), "{found:?}");
         let at = Point::new(0.8 * along * ODD, 0.6 * along * ODD);
@@ -81,7 +81,7 @@ fn a_tip_on_a_slope_is_pushed_square_to_it_wherever_it_stands() {
     for beside in [[-1.0, -0.75], [9.0, 6.75], [3.0, 3.0]] {
         let [x, y] = beside;
         let block = odd(&[[x, y], [x + 0.1, y + 2.0], [x - 0.3, y + 2.0]]);
-        let found = Interfaces::of(&scene(vec![slope.clone()], vec![block])).all;
+        let found = Interfaces::new(&scene(vec![slope.clone()], vec![block])).all;
         assert!(found.is_empty(), "{beside:?} {found:?}");
     }
 }
@@ -108,7 +108,7 @@ fn a_tip_beside_a_joint_is_part_of_it_up_to_four_gaps() {
     };
     let gap = gap(&at(1e-4), BodyId::Ground(0));
     for (gaps, contacts) in [(3.0, 1), (5.0, 2), (100.0, 2)] {
-        let found = Interfaces::of(&at(gaps * gap)).all;
+        let found = Interfaces::new(&at(gaps * gap)).all;
         assert_eq!(found.len(), contacts, "{gaps} {found:?}");
     }
 }

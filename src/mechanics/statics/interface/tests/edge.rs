@@ -40,10 +40,10 @@ fn edges_are_found_on_every_side_of_a_block() {
         };
         let gap = gap(&at(0.0), BodyId::Ground(0));
         let outward = quarters([0.0, 1.0], times);
-        let found = Interfaces::of(&at(0.9 * gap));
+        let found = Interfaces::new(&at(0.9 * gap));
         assert_eq!((found.all.len(), found.near.len()), (1, 0), "{times}");
         assert!(near(found.all[0].normal, outward));
-        let apart = Interfaces::of(&at(29.0 * gap));
+        let apart = Interfaces::new(&at(29.0 * gap));
         assert_eq!((apart.all.len(), apart.near.len()), (0, 1), "{times}");
         let place = quarters([0.125 * ODD, 29.0 * gap], times);
         let off = apart.near[0].at - Point::new(place[0], place[1]);
@@ -61,9 +61,9 @@ fn edges_are_apart_by_the_smaller_blocks_size() {
     let floor = vec![rectangle(-5.0, -1.0, 20.0, 1.0)];
     for (share, seen) in [(0.009, 1), (0.011, 0), (0.03, 0)] {
         let there = scene(floor.clone(), vec![small(share), large.clone()]);
-        assert_eq!(Interfaces::of(&there).near.len(), seen, "{share}");
+        assert_eq!(Interfaces::new(&there).near.len(), seen, "{share}");
         let there = scene(floor.clone(), vec![large.clone(), small(share)]);
-        assert_eq!(Interfaces::of(&there).near.len(), seen, "{share}");
+        assert_eq!(Interfaces::new(&there).near.len(), seen, "{share}");
     }
 }
 
@@ -86,7 +86,7 @@ fn edges_that_share_less_than_they_are_apart_do_not_face_each_other() {
         (-5.0, 20.0, 0),
         (-5.0, 0.0, 0),
     ] {
-        let found = Interfaces::of(&at(shared * gap, apart * gap));
+        let found = Interfaces::new(&at(shared * gap, apart * gap));
         let edges = found.all.iter().filter(|i| i.kind == ContactKind::Edge);
         assert_eq!(edges.count(), 1, "{shared} {apart}");
         assert_eq!(found.near.len(), seen, "{shared} {apart}");
@@ -108,7 +108,7 @@ fn askew(rise: f64, width: f64) -> (Scene, f64) {
 #[test]
 fn a_joint_that_opens_to_one_side_is_apart_by_its_wider_end() {
     let (scene, gap) = askew(5.0, 4.0);
-    let found = Interfaces::of(&scene);
+    let found = Interfaces::new(&scene);
     assert_eq!(found.near.len(), 1);
     let miss = found.near[0];
     assert!((miss.distance - 5.0 * gap).abs() < 1e-12, "{miss:?}");
@@ -121,7 +121,7 @@ fn a_joint_that_opens_to_one_side_is_apart_by_its_wider_end() {
 fn long_edges_that_lie_askew_share_no_joint_however_short() {
     for (rise, joints) in [(1.9, 1), (50.0, 0)] {
         let (scene, gap) = askew(rise, 0.01);
-        let found = Interfaces::of(&scene).all;
+        let found = Interfaces::new(&scene).all;
         let joints_found = found.iter().filter(|i| i.kind == ContactKind::Edge).count();
         assert_eq!(joints_found, joints, "{rise} {gap}");
     }
@@ -138,7 +138,7 @@ fn two_stretches_are_joined_as_many_are_and_opposite_ones_are_not() {
         [-5.0, 0.0],
     ]);
     let there = scene(vec![floor], vec![rectangle(0.0, 0.0, 2.0, 1.0)]);
-    let found = Interfaces::of(&there).all;
+    let found = Interfaces::new(&there).all;
     assert_eq!(found.len(), 1, "{found:?}");
     let ends = found[0].ends.map(|p| p.x);
     assert!((ends[0] - 2.0 * ODD).abs() < 1e-9 && ends[1].abs() < 1e-9);
@@ -168,7 +168,7 @@ fn two_stretches_are_joined_as_many_are_and_opposite_ones_are_not() {
     let there = scene(vec![slotted], vec![finned]);
     let gap = gap(&there, BodyId::Ground(0));
     assert!(gap < width && width < 4.0 * gap, "{gap}");
-    let found = Interfaces::of(&there).all;
+    let found = Interfaces::new(&there).all;
     let faces: Vec<f64> = found
         .iter()
         .filter(|i| i.length() > 0.5 && i.normal.x.abs() > 0.5)
@@ -189,7 +189,7 @@ fn stretches_are_joined_only_in_one_line() {
         [-5.0, 3.0],
         [1.0, 0.0],
     ]);
-    let found = Interfaces::of(&scene(vec![stair], vec![block])).all;
+    let found = Interfaces::new(&scene(vec![stair], vec![block])).all;
     let edges = found.iter().filter(|i| i.kind == ContactKind::Edge);
     let lengths: Vec<f64> = edges.map(|i| i.length() / ODD).collect();
     assert_eq!(lengths.len(), 2, "{found:?}");
@@ -211,7 +211,7 @@ fn slivers_count_as_interfaces_where_they_are_asked_for() {
             .build()
             .expect("a sound scene")
     };
-    let found = Interfaces::of(&at(1e-7, None));
+    let found = Interfaces::new(&at(1e-7, None));
     assert_eq!((found.all.len(), found.slivers.len()), (1, 1));
     assert_eq!(found.notices.len(), 1);
     assert!((found.slivers[0].length() - 1e-7 * ODD).abs() < 1e-12);
@@ -220,7 +220,7 @@ fn slivers_count_as_interfaces_where_they_are_asked_for() {
     let pairs: Vec<[BodyId; 2]> = counted.all.iter().map(|i| i.bodies).collect();
     assert_eq!(pairs, [[FIRST, BodyId::Ground(0)], [SECOND, FIRST]]);
     // What touches in a point up to the rounding of numbers is not even short.
-    let found = Interfaces::of(&at(1e-10, None));
+    let found = Interfaces::new(&at(1e-10, None));
     assert_eq!((found.slivers.len(), found.notices.len()), (0, 0));
     // Three of them are told as three, with the longest.
     let row = |shared: f64, x: f64| {
@@ -230,7 +230,7 @@ fn slivers_count_as_interfaces_where_they_are_asked_for() {
         ]
     };
     let rows = [row(1e-7, -3.0), row(3e-7, 0.0), row(2e-7, 3.0)].concat();
-    let found = Interfaces::of(&scene(vec![rectangle(-9.0, -1.0, 18.0, 1.0)], rows));
+    let found = Interfaces::new(&scene(vec![rectangle(-9.0, -1.0, 18.0, 1.0)], rows));
     let begin = "3 contact(s) up to 3.1e-7 m long are shorter than ";
     assert!(found.notices[0].starts_with(begin), "{:?}", found.notices);
 }
@@ -245,7 +245,7 @@ fn how_far_edges_are_apart_counts_where_both_are() {
     };
     let gap = gap(&at(0.0, 1.0), BodyId::Ground(0));
     for (begin, apart) in [(1.0, 5.0), (0.5, 7.5), (-1.0, 10.0)] {
-        let found = Interfaces::of(&at(10.0 * gap, begin));
+        let found = Interfaces::new(&at(10.0 * gap, begin));
         assert_eq!(found.near.len(), 1, "{begin}");
         let off = (found.near[0].distance - apart * gap).abs();
         assert!(off < 1e-9, "{begin} {:?}", found.near[0]);

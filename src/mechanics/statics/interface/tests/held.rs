@@ -37,7 +37,7 @@ fn above(x: f64, height: f64) -> Interface {
 }
 
 fn keeps(all: &[Interface], stands: bool, tolerance: f64) -> Option<BlockId> {
-    held_open(&gap(), &Touching::of(all), |_| stands, tolerance)
+    held_open(&gap(), &Touching::new(all), |_| stands, tolerance)
 }
 
 #[test]
@@ -116,7 +116,7 @@ fn frame(placed: &[usize]) -> Frame {
 #[test]
 fn a_frame_has_what_touches_in_it_and_no_gap_that_its_stones_keep_open() {
     let scene = pinned();
-    let found = Interfaces::of(&scene);
+    let found = Interfaces::new(&scene);
     assert_eq!(found.propped.len(), 1, "{:?}", found.propped);
     assert_eq!(found.propped[0].stone, BlockId(2));
     let block = |n: usize| BodyId::Block(BlockId(n));

@@ -30,7 +30,7 @@ fn lidded() -> Scene {
 #[test]
 fn edges_looked_up_one_body_at_a_time_are_those_found_at_once() {
     let scene = lidded();
-    let all = Interfaces::of(&scene);
+    let all = Interfaces::new(&scene);
     assert!(all.near.is_empty() && all.slivers.is_empty() && all.notices.is_empty());
     let block = |n: usize| BodyId::Block(BlockId(n));
     let pairs: Vec<[BodyId; 2]> = all.all.iter().map(|i| i.bodies).collect();
@@ -94,7 +94,7 @@ fn tips_of_cells_touch_sides_and_tips_at_nodes() {
         .block(BlockEntry::new("above").cells(triangles(&[(0.0, 3.0, up)])))
         .build()
         .expect("a sound scene");
-    let found = Interfaces::of(&scene).all;
+    let found = Interfaces::new(&scene).all;
     let root = libm::sqrt(0.75);
     let expected = [
         (FIRST, [0.5, root], [-root, 0.5]),
@@ -127,7 +127,7 @@ fn rows_of_triangles_share_slanted_sides() {
         .block(BlockEntry::new("beside").cells(triangles(&beside)))
         .build()
         .expect("a sound scene");
-    let found = Interfaces::of(&scene).all;
+    let found = Interfaces::new(&scene).all;
     assert_eq!(found.len(), 1, "{found:?}");
     assert!((found[0].length() - 0.6).abs() < 1e-12);
     assert!(near(found[0].normal, [-libm::sqrt(0.75), 0.5]));
@@ -155,7 +155,7 @@ fn parts_of_the_ground_have_no_contacts_with_each_other() {
     let on = [FIRST, BodyId::Ground(0)];
     let tip = [FIRST, BodyId::Ground(1)];
     let pairs = |scene: &Scene| {
-        let found = Interfaces::of(scene).all;
+        let found = Interfaces::new(scene).all;
         found.iter().map(|i| i.bodies).collect::<Vec<_>>()
     };
     assert_eq!(pairs(&cells), [on, tip]);

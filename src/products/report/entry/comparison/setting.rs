@@ -21,7 +21,7 @@ pub(super) struct Settings {
 }
 
 impl Settings {
-    pub fn of(sides: [Side<'_>; 2], number: usize) -> Settings {
+    pub fn new(sides: [Side<'_>; 2], number: usize) -> Settings {
         let [then, now] = sides.map(|side| given(&side.analysis.scene, number));
         let mut settings = Settings {
             lines: Vec::new(),

@@ -28,7 +28,7 @@ pub(super) struct Shapes {
 }
 
 impl Shapes {
-    pub fn of(sides: [Side<'_>; 2], number: usize) -> Shapes {
+    pub fn new(sides: [Side<'_>; 2], number: usize) -> Shapes {
         let blocks = |side: Side<'_>| -> Vec<(String, usize)> {
             let scene = &side.analysis.scene;
             let mut placed: Vec<usize> =
