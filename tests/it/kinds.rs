@@ -27,7 +27,7 @@ fn draw(analysis: &Analysis, kind: Kind) -> Drawing {
 }
 
 /// Every group of a class.
-fn with_class<'a>(items: &'a [Item], class: &str, found: &mut Vec<&'a Group>) {
+fn of_class<'a>(items: &'a [Item], class: &str, found: &mut Vec<&'a Group>) {
     for item in items {
         if let Item::Group(group) = item {
             if group.class == class {

@@ -57,7 +57,7 @@ pub(crate) fn texts(group: &Group) -> Vec<Text> {
 }
 
 /// Every group of a class, with those inside others.
-fn with_class<'d>(items: &'d [Item], class: &str, found: &mut Vec<&'d Group>) {
+fn of_class<'d>(items: &'d [Item], class: &str, found: &mut Vec<&'d Group>) {
     for item in items {
         if let Item::Group(group) = item {
             if group.class == class {

@@ -23,7 +23,7 @@ pub(crate) fn brought() -> Vec<(String, Scene)> {
     names.into_iter().map(read).collect()
 }
 
-fn with_class<'d>(items: &'d [Item], class: &str, found: &mut Vec<&'d Group>) {
+fn of_class<'d>(items: &'d [Item], class: &str, found: &mut Vec<&'d Group>) {
     for item in items {
         if let Item::Group(group) = item {
             if group.class == class {

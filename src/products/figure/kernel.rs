@@ -221,9 +221,12 @@ fn dots(pen: &Pen<'_>, found: &FrameAnalysis, ink: &mut dyn FnMut(PagePoint)) ->
         });
         let title = format!("Resultant between {pair}: {amount}{place}");
         let path = Path::filled(outline, fill).cased(theme.page, 0.28 * radius);
-        group
-            .items
-            .push(Group::with_class("resultant").titled(title).with(path).into());
+        group.items.push(
+            Group::with_class("resultant")
+                .titled(title)
+                .with(path)
+                .into(),
+        );
     }
     group.items.extend(joined.paths(None));
     group

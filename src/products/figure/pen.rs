@@ -223,7 +223,8 @@ impl<'a> Pen<'a> {
     fn blocks_by_colour(&self) -> Group {
         let (scene, theme) = (&self.stage.analysis.scene, &self.stage.options.theme);
         let frame = &scene.frames[self.number];
-        let mut group = Group::with_class("blocks").titled(format!("{} blocks", frame.placed.len()));
+        let mut group =
+            Group::with_class("blocks").titled(format!("{} blocks", frame.placed.len()));
         let mut colours = ByColour::default();
         for (place, id) in frame.placed.iter().enumerate() {
             if self.displacement(*id).is_some() {

@@ -471,7 +471,9 @@ impl<'a> Sheet<'a> {
                     }
                     let at = placed.rect.at.moved(0.0, 0.8 * NAME);
                     let words = Text::new(at, name, Face::SerifItalic, NAME, theme.faint);
-                    group.items.push(Group::with_class("name").with(words).into());
+                    group
+                        .items
+                        .push(Group::with_class("name").with(words).into());
                 }
                 None => nameless += 1,
             }
