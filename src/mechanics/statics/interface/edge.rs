@@ -19,6 +19,13 @@ const TURN: f64 = 4.0;
 /// Edges of a block farther apart than this part of its size were not drawn to touch.
 const BESIDE: f64 = 0.01;
 
+/// Two stretches on one line continue each other where their ends lie within this many gaps of each other.
+///
+/// Both ends of a stretch come from corners that are off by up to a gap each. A tenth of this would leave the stretches of
+/// one rounded joint apart; ten times this would join the two feet of a body across the hollow between them, which changes
+/// no verdict but the interfaces that are drawn.
+const JOIN_REACH: f64 = 4.0;
+
 struct Side {
     body: BodyId,
     number: usize,
@@ -252,23 +259,38 @@ fn square_to(ends: [Point; 2]) -> Vector {
     quarter_turn((ends[0] - ends[1]).normalize())
 }
 
-/// Stretches of one pair that continue each other along one line, joined: a corner set into a straight edge changes nothing.
+/// Joins stretches of one pair that continue each other along one line: a vertex inside a straight edge changes nothing.
 fn joined(stretches: Vec<Interface>, tolerance: Tolerance) -> Vec<Interface> {
-    let reach = 4.0 * tolerance.gap;
+    let reach = JOIN_REACH * tolerance.gap;
     let mut left = Ends::new(stretches, reach);
     let mut done = Vec::new();
     while let Some(mut one) = left.last() {
         while let Some(other) = left.next_to(&one) {
-            if (one.ends[1] - other.ends[0]).norm() <= reach {
-                one.ends[1] = other.ends[1];
-            } else {
-                one.ends[0] = other.ends[0];
-            }
+            one.ends = hull(&one, &other);
             one.normal = square_to(one.ends);
         }
         done.push(one);
     }
     done
+}
+
+/// The two outermost ends of two stretches, measured along the first one.
+///
+/// Which end of one stretch lies next to which end of the other does not decide this: where the stretches are shorter
+/// than the distance within which ends count as equal, all four ends lie next to each other.
+fn hull(one: &Interface, other: &Interface) -> [Point; 2] {
+    let along = one.tangent();
+    let place = |p: &Point| along.dot(&(p - one.ends[0]));
+    let mut ends = one.ends;
+    for p in other.ends {
+        if place(&p) < place(&ends[0]) {
+            ends[0] = p;
+        }
+        if place(&p) > place(&ends[1]) {
+            ends[1] = p;
+        }
+    }
+    ends
 }
 
 /// Stretches that are still to be joined, found by where they begin and end: a joint may have a hundred thousand.
