@@ -11,6 +11,19 @@ pub use spelling::nearest;
 /// Stands for a character that cannot be seen and would do something.
 pub const HIDDEN: char = '\u{fffd}';
 
+/// A 64-bit hash of some bytes (FNV-1a), the same on every machine and in every version of Rust. It finds accidental
+/// differences; it does not protect against somebody who makes two texts of one hash.
+///
+/// ```
+/// use drystone::internals::text::hash;
+/// assert_eq!(hash(b"a"), 0xaf63_dc4c_8601_ec8c);
+/// ```
+pub fn hash(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
+    })
+}
+
 /// Words on one line: line breaks and tabs become spaces; other controls and what turns the order of reading round become
 /// [`HIDDEN`]. As many characters as before.
 ///

@@ -3,6 +3,7 @@
 mod input;
 mod output;
 mod pace;
+mod resume;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
@@ -18,6 +19,7 @@ use crate::cli::destination;
 use crate::cli::ending::ExitStatus;
 use crate::cli::level::AnalysisArgs;
 use crate::cli::look::StyleArgs;
+use crate::cli::margins::MarginArgs;
 use crate::cli::picture::{Format, Picture};
 use crate::cli::script;
 use crate::cli::terminal::Terminal;
@@ -26,8 +28,10 @@ use crate::output::file::Existing;
 use crate::output::fonts::Fonts;
 use crate::result::{Fields, Origin, PictureOutcome, line_of, problem_line, verdict_line};
 use crate::scene::{Code, Problem, Scene};
-use output::Output;
+use crate::text;
+use output::{Output, Target};
 use pace::Pace;
+use resume::Settings;
 
 /// The width of a picture where nothing is given, pixels.
 const WIDTH: u32 = 400;
@@ -44,11 +48,13 @@ pub(crate) struct Batch {
     /// Write the lines to a file, each as soon as it is its turn, in place of standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Go on behind the whole lines that the output file has already; a last line cut short is written anew. The exit code
-    /// then speaks of the scenes answered now
+    /// Keep the whole lines that the output file has already and answer the scenes that follow; a last line cut short is
+    /// written again. Refused where the lines belong to other scenes or options, which FILE.resume next to it records. The
+    /// exit code then speaks of the scenes answered now
     #[arg(long, requires = "output")]
     resume: bool,
-    /// What of a result is written, such as verdict,frames.total_force or all; file and line always are
+    /// What of a result is written, such as verdict,frames.total_force or all; file and line always are. --margins adds
+    /// frames.margins, --wedging adds frames.only_by_wedging
     #[arg(long, value_name = "LIST", value_parser = fields, default_value = "scene,verdict")]
     fields: Fields,
     /// Draw every scene into this folder, by default 400 pixels wide as PNG, each file named after its scene's line or file
@@ -60,6 +66,8 @@ pub(crate) struct Batch {
     /// Tell every so many seconds on standard error how many scenes are done, how fast, and what time is left
     #[arg(long, value_name = "SECONDS", value_parser = pace::seconds)]
     progress: Option<f64>,
+    #[command(flatten)]
+    margins: MarginArgs,
     #[command(flatten)]
     picture: Picture,
     #[command(flatten)]
@@ -79,18 +87,18 @@ impl Batch {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
         let work = self.work().map_err(|c| vec![c])?;
         let inputs = input::of(&self.inputs, self.render.is_some())?;
-        let mut output = Output::open(self.output.as_deref(), self.resume, &inputs.files)
-            .map_err(|c| vec![c])?;
+        let mut records = Records::new(inputs.list);
+        let mut pace = Pace::begin(terminal, self.progress, inputs.bytes, records.read());
+        let target = Target {
+            path: self.output.as_deref(),
+            resume: self.resume,
+            settings: self.settings(&work),
+        };
+        let mut output = Output::open(&target, &inputs.files, &mut records).map_err(|c| vec![c])?;
         if let Some(folder) = &self.render {
             destination::make_folder(folder).map_err(|c| vec![c])?;
         }
-        let mut records = Records::new(inputs.list);
-        let mut pace = Pace::begin(terminal, self.progress, inputs.bytes, records.read());
-        let done = output.done();
-        if let Some(missing) = (0..done).find(|_| records.next().is_none()) {
-            return Err(vec![output.belongs_elsewhere(missing)]);
-        }
-        pace.skipped(done);
+        pace.skipped(output.done());
         let threads = self.jobs.map_or_else(
             || {
                 let cores = thread::available_parallelism().map_or(1, usize::from);
@@ -111,7 +119,7 @@ impl Batch {
                     Some(Ok(answer)) => {
                         ending = ending.max(answer.ending);
                         pace.step(answer.ending);
-                        output.write(answer.line.as_bytes())
+                        output.write(answer.line.as_bytes(), answer.scene)
                     }
                     Some(Err(complaint)) => {
                         failed = Some(complaint);
@@ -156,25 +164,49 @@ impl Batch {
                 })
             }
         };
-        let asks = |path: &[&str]| match self.fields.ask(path) {
-            true => true,
-            false => false,
-        };
+        let mut fields = self.fields.clone();
+        if self.margins.are_requested() {
+            fields = fields.with_margins();
+        }
+        if self.level.requests_wedging() {
+            fields = fields.with_wedging();
+        }
         Ok(Work {
             level: self.level,
-            margins: asks(&["frames", "margins"]),
-            wedging: asks(&["frames", "only_by_wedging"]),
-            fields: self.fields.clone(),
+            margins: self.margins.clone(),
+            fields,
             drawn: drawn.map(Arc::new),
         })
+    }
+
+    /// What the answers of a run depend on; threads and progress are not among it.
+    fn settings(&self, work: &Work) -> Settings {
+        let mut settings = vec![
+            ("drystone", env!("CARGO_PKG_VERSION").to_owned()),
+            ("--fields", work.fields.to_string()),
+            ("--margins", self.margins.described()),
+        ];
+        settings.extend(self.level.described());
+        let (format, look) = match &work.drawn {
+            None => ("none", "none".into()),
+            Some(drawn) => {
+                let look = format!("{:?} {:?}", drawn.picture, drawn.options);
+                (
+                    drawn.format.ending(),
+                    format!("{:016x}", text::hash(look.as_bytes())),
+                )
+            }
+        };
+        settings.push(("the format of the pictures", format.into()));
+        settings.push(("the hash of their look", look));
+        Settings(settings)
     }
 }
 
 /// What is done with every scene.
 struct Work {
     level: AnalysisArgs,
-    margins: bool,
-    wedging: bool,
+    margins: MarginArgs,
     fields: Fields,
     drawn: Option<Arc<Drawn>>,
 }
@@ -192,18 +224,18 @@ struct Drawn {
 struct Answer {
     line: String,
     ending: ExitStatus,
+    /// The hash of the scene.
+    scene: u64,
 }
 
 impl Work {
     /// The line for a record; a complaint where its picture could not be written, as nothing later could be either.
     fn answer(&self, record: Record) -> Result<Answer, CliError> {
-        let origin = Origin {
-            file: record.file.as_ref().map(|f| f.display().to_string()),
-            line: record.line,
-        };
+        let origin = input::origin(&record);
         let name = input::picture_name(&record);
+        let scene = resume::record_hash(&record);
         let caught = catch_unwind(AssertUnwindSafe(|| self.examined(&origin, &name, &record)));
-        caught.unwrap_or_else(|_| {
+        let (line, ending) = caught.unwrap_or_else(|_| {
             let fault =
                 "the program failed on this scene; that is its own fault and no fault of the scene";
             Ok(refused(
@@ -214,10 +246,20 @@ impl Work {
                     "please report it with the scene",
                 )],
             ))
+        })?;
+        Ok(Answer {
+            line,
+            ending,
+            scene,
         })
     }
 
-    fn examined(&self, origin: &Origin, name: &str, record: &Record) -> Result<Answer, CliError> {
+    fn examined(
+        &self,
+        origin: &Origin,
+        name: &str,
+        record: &Record,
+    ) -> Result<(String, ExitStatus), CliError> {
         let bytes = match &record.bytes {
             Ok(bytes) => bytes,
             Err(why) => return Ok(refused(origin, &[problem(Code::NotReadable, why, "")])),
@@ -230,33 +272,32 @@ impl Work {
         if self.drawn.is_none() && self.fields.are_few() {
             let verdict = verdicts(&scene, &options).into_iter().max();
             let verdict = verdict.unwrap_or(Verdict::Stable);
-            return Ok(Answer {
-                line: verdict_line(origin, &scene.title, verdict, &self.fields),
-                ending: ExitStatus::from(verdict),
-            });
+            return Ok((
+                verdict_line(origin, &scene.title, verdict, &self.fields),
+                ExitStatus::from(verdict),
+            ));
         }
         let analysis = Analysis::with(&scene, &options);
         let picture = match &self.drawn {
             None => PictureOutcome::NotAsked,
             Some(drawn) => drawn.draw(&analysis, name)?,
         };
-        Ok(Answer {
-            line: line_of(origin, &analysis, &picture, &self.fields),
-            ending: ExitStatus::from_analysis(&analysis),
-        })
+        Ok((
+            line_of(origin, &analysis, &picture, &self.fields),
+            ExitStatus::from_analysis(&analysis),
+        ))
     }
 
-    /// What an analysis is asked: no more than is to be written. A limit of time counts from here.
+    /// The options of an analysis: nothing beyond what is written. A time limit counts from here.
     fn options(&self) -> Options {
-        let asked = self.level.options();
-        Options {
-            margins: self.margins,
-            wedging: match asked.wedging {
-                true => true,
-                false => self.wedging,
-            },
-            ..asked
+        let mut options = self.margins.add_to(self.level.options());
+        if self.fields.ask(&["frames", "margins"]) {
+            options.margins = true;
         }
+        if self.fields.ask(&["frames", "only_by_wedging"]) {
+            options.wedging = true;
+        }
+        options
     }
 }
 
@@ -301,9 +342,6 @@ fn problem(code: Code, message: &str, help: &str) -> Problem {
     }
 }
 
-fn refused(origin: &Origin, problems: &[Problem]) -> Answer {
-    Answer {
-        line: problem_line(origin, problems),
-        ending: ExitStatus::WrongInput,
-    }
+fn refused(origin: &Origin, problems: &[Problem]) -> (String, ExitStatus) {
+    (problem_line(origin, problems), ExitStatus::WrongInput)
 }

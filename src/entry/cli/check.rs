@@ -1,15 +1,15 @@
 //! `drystone check`: does it stand, in a table for a person or as JSON for a program.
 
-use std::ffi::OsString;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 
-use crate::analysis::{Analysis, MarginKind, MarginKinds, Options};
+use crate::analysis::{Analysis, Options};
 use crate::cli::complaint::CliError;
 use crate::cli::ending::ExitStatus;
 use crate::cli::level::AnalysisArgs;
+use crate::cli::margins::MarginArgs;
 use crate::cli::page::Page;
 use crate::cli::progress::{Progress, Shown};
 use crate::cli::source::{self, FrameChoice};
@@ -30,17 +30,8 @@ pub(crate) struct Check {
     /// Leave out how long it took, so that the same scene gives the same bytes
     #[arg(long)]
     no_timing: bool,
-    /// Tell how far each frame is from the edge: least friction, largest tilt, horizontal load, kernel and factor on the
-    /// loads, robots' least limits; or some of these, such as friction,tilt
-    #[arg(
-        long,
-        value_enum,
-        value_name = "LIST",
-        value_delimiter = ',',
-        num_args = 0..,
-        require_equals = true
-    )]
-    margins: Option<Vec<Name>>,
+    #[command(flatten)]
+    margins: MarginArgs,
     /// Tell the verdict with its proof and leave out the rest: what fails, and which of several balances is the one to draw
     #[arg(long)]
     verdict_only: bool,
@@ -55,60 +46,6 @@ pub(crate) struct Check {
     frame: Option<FrameChoice>,
     #[command(flatten)]
     level: AnalysisArgs,
-}
-
-/// A margin by the name it has in results.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum Name {
-    Friction,
-    Tilt,
-    #[value(alias = "horizontal_load")]
-    HorizontalLoad,
-    Kernel,
-    #[value(alias = "load_factor")]
-    LoadFactor,
-    Robots,
-}
-
-/// All margins, or those named.
-fn kinds(names: &[Name]) -> MarginKinds {
-    if names.is_empty() {
-        return MarginKinds::ALL;
-    }
-    let kinds = names.iter().map(|name| match name {
-        Name::Friction => MarginKind::Friction,
-        Name::Tilt => MarginKind::Tilt,
-        Name::HorizontalLoad => MarginKind::HorizontalLoad,
-        Name::Kernel => MarginKind::Kernel,
-        Name::LoadFactor => MarginKind::LoadFactor,
-        Name::Robots => MarginKind::Robots,
-    });
-    MarginKinds::new(&kinds.collect::<Vec<_>>())
-}
-
-/// The words of a command line, with the list that may follow `--margins` joined to it.
-///
-/// `check --margins scene.json` asks for all, and `check --margins friction,tilt scene.json` for two: a word of names
-/// alone is a list, unless there is a file of that name.
-pub(crate) fn joined(words: impl Iterator<Item = OsString>) -> Vec<OsString> {
-    let mut joined: Vec<OsString> = Vec::new();
-    for word in words {
-        if let (Some(last), Some(list)) = (joined.last_mut(), word.to_str())
-            && last == "--margins"
-            && is_list(list)
-        {
-            last.push("=");
-            last.push(list);
-        } else {
-            joined.push(word);
-        }
-    }
-    joined
-}
-
-fn is_list(word: &str) -> bool {
-    let letters = |c: char| c.is_ascii_lowercase() || matches!(c, ',' | '-' | '_');
-    !word.starts_with('-') && word.chars().all(letters) && !Path::new(word).exists()
 }
 
 impl Check {
@@ -142,10 +79,8 @@ impl Check {
         };
         let progress = Progress::begin(sources.len(), shown);
         let options = Options {
-            margins: self.margins.is_some(),
-            margin_kinds: kinds(self.margins.as_deref().unwrap_or_default()),
             verdict_only: self.verdict_only,
-            ..self.level.options()
+            ..self.margins.add_to(self.level.options())
         };
         let analyses: Vec<Analysis> = sources
             .par_iter()

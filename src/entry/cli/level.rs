@@ -32,6 +32,28 @@ enum Name {
 }
 
 impl AnalysisArgs {
+    /// Whether `--wedging` was given.
+    pub(crate) fn requests_wedging(self) -> bool {
+        self.wedging
+    }
+
+    /// Each option with its value in words, as a record of what an answer depends on.
+    pub(crate) fn described(self) -> [(&'static str, String); 4] {
+        let level = self.accuracy.to_possible_value();
+        let level = level.map_or_else(String::new, |value| value.get_name().to_owned());
+        let tolerance = self.contact_tolerance.map(|metres| format!("{metres} m"));
+        let limit = self.time_limit.map(|limit| format!("{limit:?}"));
+        [
+            ("--accuracy", level),
+            ("--wedging", if self.wedging { "yes" } else { "no" }.into()),
+            (
+                "--contact-tolerance",
+                tolerance.unwrap_or_else(|| "not given".into()),
+            ),
+            ("--time-limit", limit.unwrap_or_else(|| "not given".into())),
+        ]
+    }
+
     /// What an analysis is asked; a limit of time counts from here.
     pub(crate) fn options(self) -> Options {
         let accuracy = match self.accuracy {

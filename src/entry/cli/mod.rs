@@ -27,6 +27,7 @@ mod import;
 mod level;
 mod look;
 mod man;
+mod margins;
 mod mdbook;
 mod new;
 mod page;
@@ -95,7 +96,7 @@ enum Command {
 
 /// Runs the command line of this process and tells how it ended.
 pub fn run() -> ExitCode {
-    let line = match CommandLine::try_parse_from(check::joined(std::env::args_os())) {
+    let line = match CommandLine::try_parse_from(margins::join_list(std::env::args_os())) {
         Ok(line) => line,
         Err(error) => {
             let printed = error.print().and_then(|()| io::stdout().flush());

@@ -420,10 +420,8 @@ fn holds_titles(items: &[Item]) -> bool {
         .any(|item| matches!(item, Item::Group(g) if !g.title.is_empty() || holds_titles(&g.items)))
 }
 
-/// 32 bits that differ for different texts, as a rule (FNV-1a, the two halves folded).
+/// 32 bits that differ for different texts, as a rule: the two halves of a hash, folded.
 fn fold(text: &str) -> u32 {
-    let hash = text.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |h, b| {
-        (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3)
-    });
+    let hash = crate::text::hash(text.as_bytes());
     (hash ^ (hash >> 32)) as u32
 }

@@ -2,6 +2,8 @@
 
 mod name;
 
+use std::fmt;
+
 use serde_json::Value;
 
 use super::{Layout, Result, Timing, to_json, word};
@@ -16,6 +18,32 @@ pub struct Origin {
     pub file: Option<String>,
     /// The line in it, or of standard input, from 1; absent where the scene is a file of its own.
     pub line: Option<usize>,
+}
+
+impl Origin {
+    /// The origin that a line of a batch has; `None` where it is not JSON.
+    pub fn of_line(line: &[u8]) -> Option<Origin> {
+        let value: Value = serde_json::from_slice(line).ok()?;
+        let line = value["line"].as_u64().and_then(|n| usize::try_from(n).ok());
+        Some(Origin {
+            file: value["file"].as_str().map(str::to_owned),
+            line,
+        })
+    }
+}
+
+/// As a person reads it: `a.ndjson, line 3`.
+impl fmt::Display for Origin {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.file {
+            Some(file) => f.write_str(&text::line(file))?,
+            None => f.write_str("standard input")?,
+        }
+        match self.line {
+            Some(line) => write!(f, ", line {line}"),
+            None => Ok(()),
+        }
+    }
 }
 
 /// What of a result is written: names of the result of [`to_json`], parts of parts behind a dot, as `frames.proof.power`;
@@ -85,6 +113,25 @@ impl Fields {
         self.chosen.iter().any(within)
     }
 
+    /// These, and the margins of every frame unless they or one of them are among them.
+    #[must_use]
+    pub fn with_margins(self) -> Fields {
+        self.with(&["frames", "margins"])
+    }
+
+    /// These, and whether every frame stands by wedging only.
+    #[must_use]
+    pub fn with_wedging(self) -> Fields {
+        self.with(&["frames", "only_by_wedging"])
+    }
+
+    fn with(mut self, path: &[&'static str]) -> Fields {
+        if !self.ask(path) {
+            self.chosen.push(path.to_vec());
+        }
+        self
+    }
+
     fn are_all(&self) -> bool {
         self.chosen.iter().any(|path| path == &["all"])
     }
@@ -93,6 +140,14 @@ impl Fields {
     pub fn are_few(&self) -> bool {
         let few = |path: &Vec<&str>| matches!(path[..], ["scene"] | ["verdict"]);
         self.chosen.iter().all(few)
+    }
+}
+
+/// The list as it may be typed.
+impl fmt::Display for Fields {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let names: Vec<String> = self.chosen.iter().map(|path| path.join(".")).collect();
+        f.write_str(&names.join(","))
     }
 }
 

@@ -150,6 +150,55 @@ fn fields_pick_what_is_written() {
     assert!(ran.err.contains("did you mean frames.proof?") && ran.err.contains("no field x"));
 }
 
+/// The margins of `batch` are those of `check`, whichever list either is given.
+#[test]
+fn margins_are_those_of_check() {
+    let bench = Bench::new();
+    for list in [
+        "",
+        "=friction,tilt",
+        " load-factor",
+        "=horizontal_load,kernel,robots",
+    ] {
+        for file in ["stands.json", "falls.json"] {
+            let ran = bench.run(&format!("check --json --no-timing --margins{list} {file}"));
+            let checked: Value = serde_json::from_str(&ran.out).expect("JSON");
+            let margins = |result: &Value| {
+                let frames = result["frames"].as_array().expect("frames").iter();
+                frames
+                    .map(|frame| frame["margins"].clone())
+                    .collect::<Vec<_>>()
+            };
+            assert!(margins(&checked).iter().all(Value::is_object), "{checked}");
+            let batch = |fields: &str| {
+                let ran = bench.run(&format!("batch --margins{list} {file} {fields}"));
+                assert_ne!(ran.code, 2, "{}", ran.err);
+                lines(&ran.out).remove(0)
+            };
+            // By itself --margins adds them to what is written, and only them.
+            let told = batch("");
+            assert_eq!(margins(&told), margins(&checked), "{list}");
+            assert_eq!(told["frames"][0].as_object().map(|o| o.len()), Some(1));
+            assert_eq!(told["scene"], checked["scene"]);
+            assert_eq!(
+                margins(&batch("--fields verdict,frames.weight")),
+                margins(&checked)
+            );
+            assert_eq!(batch("--fields all")["frames"], checked["frames"], "{list}");
+        }
+    }
+    let ran = bench.run("batch stands.json --margins --fields frames.margins.friction");
+    let told = lines(&ran.out).remove(0);
+    let margins = told["frames"][0]["margins"].as_object().expect("an object");
+    assert!(
+        margins.len() == 1 && margins["friction"].is_number(),
+        "{told}"
+    );
+    let told = lines(&bench.run("batch stands.json --wedging").out).remove(0);
+    assert_eq!(told["frames"], json!([{ "only_by_wedging": false }]));
+    assert_eq!(bench.run("batch stands.json --margins=lean").code, 2);
+}
+
 #[test]
 fn a_folder_is_read_in_the_order_of_names() {
     let bench = Bench::new();
@@ -185,30 +234,189 @@ fn an_interrupted_run_goes_on_where_it_ended() {
     let whole = bench.run("batch in.ndjson -o whole.ndjson");
     assert_eq!((whole.code, &*whole.out), (1, ""));
     let whole = fs::read(bench.path("whole.ndjson")).expect("there");
+    let record = fs::read(bench.path("whole.ndjson.resume")).expect("there");
     // Cut anywhere, within a line or between two, from nothing at all to all of it.
     for cut in [0, 1, 30, whole.len() / 2, whole.len() - 1, whole.len()] {
         fs::write(bench.path("part.ndjson"), &whole[..cut]).expect("writable");
+        fs::write(bench.path("part.ndjson.resume"), &record).expect("writable");
         let ran = bench.run("batch in.ndjson -o part.ndjson --resume --quiet");
         assert_ne!(ran.code, 2, "{}", ran.err);
         let resumed = fs::read(bench.path("part.ndjson")).expect("there");
         assert!(resumed == whole, "cut at {cut}");
+        let kept = fs::read(bench.path("part.ndjson.resume")).expect("there");
+        assert!(kept == record, "cut at {cut}");
     }
-    // Lines that are there are believed, not written anew.
-    let first = whole.iter().position(|b| *b == b'\n').expect("lines") + 1;
-    let mine = [b"mine\n", &whole[first..]].concat();
-    fs::write(bench.path("part.ndjson"), &mine).expect("writable");
-    bench.run("batch in.ndjson -o part.ndjson --resume");
-    assert_eq!(fs::read(bench.path("part.ndjson")).expect("there"), mine);
-    // An output of more lines belongs to another input.
-    let ran = bench.run("batch stands.json -o part.ndjson --resume");
-    assert_eq!(ran.code, 2);
+    // A completed file is left as it is, and the scenes that follow are answered.
+    let ran = bench.run("batch in.ndjson -o part.ndjson --resume");
+    assert_eq!((ran.code, &*ran.out), (0, ""), "{}", ran.err);
     assert!(
-        ran.err.contains("20 lines") && ran.err.contains("1 scenes"),
+        ran.err.contains("20 scenes are answered already"),
         "{}",
         ran.err
     );
-    assert_eq!(fs::read(bench.path("part.ndjson")).expect("there"), mine);
+    assert!(fs::read(bench.path("part.ndjson")).expect("there") == whole);
+    let more = format!("{input}{}", tower("last", 3, 0.1));
+    fs::write(bench.path("in.ndjson"), more).expect("writable");
+    bench.run("batch in.ndjson -o part.ndjson --resume");
+    let longer = fs::read_to_string(bench.path("part.ndjson")).expect("there");
+    assert!(longer.as_bytes().starts_with(&whole));
+    assert_eq!(lines(&longer)[20]["scene"], "last");
     assert_eq!(bench.run("batch --resume").code, 2, "without an output");
+}
+
+/// Answers to other scenes, with other options or of other origin are never taken for finished work, and stay as they are.
+#[test]
+fn what_was_made_from_something_else_is_not_resumed() {
+    let bench = Bench::new();
+    let towers: Vec<String> = (0..9)
+        .map(|k| tower(&format!("tower {k}"), 4, 0.02))
+        .collect();
+    let write = |name: &str, text: &str| fs::write(bench.path(name), text).expect("writable");
+    write("in.ndjson", &towers.concat());
+    assert_eq!(bench.run("batch in.ndjson -o out.ndjson").code, 0);
+    let read = |name: &str| fs::read_to_string(bench.path(name)).expect("there");
+    let (whole, record) = (read("out.ndjson"), read("out.ndjson.resume"));
+
+    let mut other = towers.clone();
+    other[4] = tower("another", 4, 0.02);
+    write("other.ndjson", &other.concat());
+    write("short.ndjson", &towers[..7].concat());
+    write("style.json", "{}");
+    let first = whole.split_inclusive('\n').next().expect("a line");
+    let swapped = whole.replacen("tower 2", "tower 3", 1);
+    let cut = &whole[..whole.len() / 2];
+    let run = "batch in.ndjson -o out.ndjson --resume";
+    // What is in the output, what is run, and what the refusal says of it.
+    let cases: [(&str, &str, &[&str]); 13] = [
+        // Other scenes, which have the place of those that were answered.
+        (
+            &whole,
+            "batch < other.ndjson",
+            &[
+                "line 1 ",
+                "answers in.ndjson, line 1",
+                "standard input, line 1",
+            ],
+        ),
+        (
+            &whole,
+            "batch other.ndjson",
+            &[
+                "line 1 ",
+                "answers in.ndjson, line 1",
+                "other.ndjson, line 1",
+            ],
+        ),
+        (
+            &whole,
+            "batch stands.json",
+            &["line 1 ", "stands.json there"],
+        ),
+        (&whole, "batch short.ndjson", &["answers in.ndjson"]),
+        // Other options.
+        (
+            &whole,
+            "batch in.ndjson --fields verdict",
+            &["--fields was scene,verdict and is now verdict"],
+        ),
+        (
+            cut,
+            "batch in.ndjson --fields all",
+            &["--fields was scene,verdict and is now all"],
+        ),
+        (
+            &whole,
+            "batch in.ndjson --accuracy proved",
+            &["--accuracy was standard and is now proved"],
+        ),
+        (
+            &whole,
+            "batch in.ndjson --contact-tolerance 1e-3",
+            &["--contact-tolerance was not given and is now 0.001 m"],
+        ),
+        (
+            &whole,
+            "batch in.ndjson --margins",
+            &["--margins was none and is now all", "frames.margins"],
+        ),
+        (
+            &whole,
+            "batch in.ndjson --render drawn",
+            &["pictures was none and is now png"],
+        ),
+        // Garbage, and lines that somebody changed.
+        ("mine\n", "batch in.ndjson", &["line 1 ", "was changed"]),
+        (&swapped, "batch in.ndjson", &["line 3 ", "was changed"]),
+        (
+            &format!("{whole}{first}"),
+            "batch in.ndjson",
+            &["line 10 ", "more lines"],
+        ),
+    ];
+    for (output, line, said) in cases {
+        write("out.ndjson", output);
+        let line = format!("{line} -o out.ndjson --resume");
+        let ran = match line.contains('<') {
+            true => bench.run_with("batch -o out.ndjson --resume", other.concat().as_bytes()),
+            false => bench.run(&line),
+        };
+        assert_eq!((ran.code, &*ran.out), (2, ""), "{line}: {}", ran.err);
+        let words = ran.err.split_whitespace().collect::<Vec<_>>().join(" ");
+        for part in said {
+            assert!(words.contains(part), "{line}: {words}");
+        }
+        assert!(words.contains("leave out --resume"), "{words}");
+        assert_eq!(read("out.ndjson"), output, "{line}");
+        assert_eq!(read("out.ndjson.resume"), record, "{line}");
+    }
+    assert!(
+        !bench.path("drawn").exists(),
+        "a refused run makes no folder"
+    );
+
+    // The same name, other scenes in it; fewer of them.
+    write("out.ndjson", &whole);
+    for (input, said) in [
+        (
+            other.concat(),
+            "line 5 of out.ndjson answers another scene than in.ndjson, line 5 has now",
+        ),
+        (
+            towers[..7].concat(),
+            "more lines than the input has scenes, 7",
+        ),
+    ] {
+        write("in.ndjson", &input);
+        let ran = bench.run(run);
+        let words = ran.err.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(ran.code == 2 && words.contains(said), "{words}");
+        assert_eq!(read("out.ndjson"), whole);
+    }
+    write("in.ndjson", &towers.concat());
+
+    // Without the record, or with something else in its place, nobody knows what the lines answer.
+    for (record, said) in [
+        (None, "is missing"),
+        (Some("{"), "drystone batch wrote"),
+        (Some(""), "drystone batch wrote"),
+    ] {
+        match record {
+            None => fs::remove_file(bench.path("out.ndjson.resume")).expect("there"),
+            Some(text) => write("out.ndjson.resume", text),
+        }
+        let ran = bench.run(run);
+        assert!(ran.code == 2 && ran.err.contains(said), "{}", ran.err);
+        assert_eq!(read("out.ndjson"), whole);
+    }
+    // Threads and progress change no answer.
+    write("out.ndjson.resume", &record);
+    write("out.ndjson", cut);
+    let ran = bench.run(&format!("{run} --jobs 1 --progress 10"));
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    assert_eq!(read("out.ndjson"), whole);
+    // A device keeps no answers.
+    #[cfg(unix)]
+    assert_eq!(bench.run("batch in.ndjson -o /dev/null --resume").code, 2);
 }
 
 #[test]

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use crate::batch::{Input, Record};
 use crate::cli::complaint::CliError;
+use crate::result::Origin;
 
 /// Everything a batch reads.
 #[derive(Debug)]
@@ -59,6 +60,14 @@ pub(super) fn of(paths: &[PathBuf], drawn: bool) -> Result<Inputs, Vec<CliError>
         bytes,
         files,
     })
+}
+
+/// Where a record stands.
+pub(super) fn origin(record: &Record) -> Origin {
+    Origin {
+        file: record.file.as_ref().map(|f| f.display().to_string()),
+        line: record.line,
+    }
 }
 
 /// The name of a record's picture, without its ending.

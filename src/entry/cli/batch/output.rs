@@ -1,50 +1,90 @@
-//! Where the lines of a batch go: standard output, or a file that grows and can be gone on with.
+//! Where the lines of a batch go: standard output, or a file that grows and can be resumed.
 
-use std::fs::{File, OpenOptions};
-use std::io::{self, BufRead, BufReader, BufWriter, Seek, SeekFrom, Write};
+use std::fs::File;
+use std::io::{self, Write};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
+use super::resume::{self, ResumeFile, Settings};
+use crate::batch::Records;
 use crate::cli::complaint::CliError;
 use crate::cli::destination;
 
+/// Lines are written together, as soon as they have this many bytes.
+const BUFFER_BYTES: usize = 1 << 16;
+
 /// The lines' way out.
 pub(super) struct Output {
-    stream: BufWriter<Box<dyn Write>>,
+    stream: Box<dyn Write>,
+    /// Lines that are not written yet.
+    waiting: Vec<u8>,
+    /// What the lines were made from, where they go to a file.
+    resume: Option<ResumeFile>,
     /// How complaints name it.
     name: String,
     is_stdout: bool,
     done: usize,
 }
 
+/// An output as the command line names it.
+pub(super) struct Target<'a> {
+    /// The file; standard output where absent.
+    pub path: Option<&'a Path>,
+    /// Whether the answers that it has already are kept.
+    pub resume: bool,
+    /// What the answers depend on.
+    pub settings: Settings,
+}
+
 impl Output {
-    /// Standard output, or a file: a new one, or where it is to be gone on with, behind its last whole line.
-    pub fn open(path: Option<&Path>, resume: bool, inputs: &[PathBuf]) -> Result<Output, CliError> {
-        let Some(path) = path else {
-            return Ok(Output {
-                stream: BufWriter::new(Box::new(io::stdout())),
-                name: "standard output".into(),
-                is_stdout: true,
-                done: 0,
-            });
+    /// Opens standard output, or a file: a new one, or behind the answers that it has already. Those are checked against the
+    /// scenes they answer, which are taken from `records`.
+    pub fn open(
+        target: &Target<'_>,
+        inputs: &[PathBuf],
+        records: &mut Records,
+    ) -> Result<Output, CliError> {
+        let Some(path) = target.path else {
+            return Ok(Output::new(Box::new(io::stdout()), None));
         };
         let inputs: Vec<&Path> = inputs.iter().map(PathBuf::as_path).collect();
-        destination::apart(&[path.to_owned()], &inputs)?;
+        let outputs = [path.to_owned(), ResumeFile::path_for(path)];
+        destination::apart(&outputs, &inputs)?;
+        if target.resume && resume::has_content(path)? {
+            let checked = resume::check(path, &target.settings, records)?;
+            let (file, log) = resume::reopen(path, &checked)?;
+            return Ok(Output {
+                resume: Some(log),
+                done: checked.answers,
+                ..Output::new(Box::new(file), Some(path))
+            });
+        }
         let not_written = |error: io::Error| CliError::NotWritten {
             what: path.display().to_string(),
             why: error.to_string(),
         };
-        let (file, done) = if resume {
-            behind_last_line(path).map_err(not_written)?
-        } else {
-            (File::create(path).map_err(not_written)?, 0)
+        let file = File::create(path).map_err(not_written)?;
+        // A device or a pipe keeps nothing that a later run could resume.
+        let is_kept = file.metadata().map_err(not_written)?.is_file();
+        let log = match is_kept {
+            true => Some(ResumeFile::create(path, &target.settings)?),
+            false => None,
         };
         Ok(Output {
-            stream: BufWriter::with_capacity(1 << 16, Box::new(file)),
-            name: path.display().to_string(),
-            is_stdout: false,
-            done,
+            resume: log,
+            ..Output::new(Box::new(file), Some(path))
         })
+    }
+
+    fn new(stream: Box<dyn Write>, path: Option<&Path>) -> Output {
+        Output {
+            stream,
+            waiting: Vec::new(),
+            resume: None,
+            name: path.map_or("standard output".into(), |path| path.display().to_string()),
+            is_stdout: path.is_none(),
+            done: 0,
+        }
     }
 
     /// How many lines were there already.
@@ -52,29 +92,26 @@ impl Output {
         self.done
     }
 
-    /// What is said where the output has more lines than the input has scenes.
-    pub fn belongs_elsewhere(&self, scenes: usize) -> CliError {
-        CliError::CommandLine(format!(
-            "{} has {} lines already, but the input has only {scenes} scenes: it was made from another input. Give another \
-             output, or leave out --resume",
-            self.name, self.done
-        ))
-    }
-
-    /// Writes a line, or says that nobody reads on.
-    pub fn write(&mut self, line: &[u8]) -> Result<ControlFlow<()>, CliError> {
-        let written = self.stream.write_all(line);
-        self.reported(written)
+    /// Writes the line that answers a scene, given by its hash; `Break` where nobody reads on.
+    pub fn write(&mut self, line: &[u8], scene: u64) -> Result<ControlFlow<()>, CliError> {
+        self.waiting.extend_from_slice(line);
+        if let Some(resume) = &mut self.resume {
+            resume.push(scene, line);
+        }
+        match self.waiting.len() >= BUFFER_BYTES {
+            true => self.flush(),
+            false => Ok(ControlFlow::Continue(())),
+        }
     }
 
     /// Sees to it that what was written can be read.
     pub fn flush(&mut self) -> Result<ControlFlow<()>, CliError> {
-        let flushed = self.stream.flush();
-        self.reported(flushed)
-    }
-
-    fn reported(&self, written: io::Result<()>) -> Result<ControlFlow<()>, CliError> {
-        match written {
+        if let Some(resume) = &mut self.resume {
+            resume.flush()?;
+        }
+        let written = self.stream.write_all(&self.waiting);
+        self.waiting.clear();
+        match written.and_then(|()| self.stream.flush()) {
             Ok(()) => Ok(ControlFlow::Continue(())),
             // A reader that closes the pipe has read enough: that is no failure of ours.
             Err(error) if self.is_stdout && error.kind() == io::ErrorKind::BrokenPipe => {
@@ -86,34 +123,4 @@ impl Output {
             }),
         }
     }
-}
-
-/// A file, cut behind its last whole line and open for more, and how many lines it has.
-fn behind_last_line(path: &Path) -> io::Result<(File, usize)> {
-    let mut file = OpenOptions::new()
-        .read(true)
-        .write(true)
-        .create(true)
-        .truncate(false)
-        .open(path)?;
-    let (mut lines, mut whole, mut size) = (0, 0, 0);
-    let mut reader = BufReader::with_capacity(1 << 16, &mut file);
-    loop {
-        let found = reader.fill_buf()?;
-        if found.is_empty() {
-            break;
-        }
-        for (place, byte) in found.iter().enumerate() {
-            if *byte == b'\n' {
-                lines += 1;
-                whole = size + place as u64 + 1;
-            }
-        }
-        let used = found.len();
-        size += used as u64;
-        reader.consume(used);
-    }
-    file.set_len(whole)?;
-    file.seek(SeekFrom::Start(whole))?;
-    Ok((file, lines))
 }

@@ -1,0 +1,289 @@
+//! [`ResumeFile`]: a file next to the output that says from which options and scenes its lines were made.
+//!
+//! The output keeps one line of JSON per scene and nothing else, so the record has a file of its own: `answers.ndjson` has
+//! `answers.ndjson.resume`. It begins with the options, one `name: value` per line, and an empty line. Each line after that
+//! holds two hashes in hexadecimal: that of a scene as it was read, and that of the line that answers it. `--resume` goes on
+//! only where all of them agree.
+
+use std::fmt::Write as _;
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, BufRead, BufReader, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+use super::input;
+use crate::batch::{Record, Records};
+use crate::cli::complaint::CliError;
+use crate::result::Origin;
+use crate::text;
+
+/// What the path of an output gets at its end.
+const ENDING: &str = ".resume";
+/// Bytes of an entry: two hashes of 16 digits, a space and a line feed.
+const ENTRY_BYTES: usize = 34;
+
+/// The options of a run that its answers depend on, each by name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Settings(pub Vec<(&'static str, String)>);
+
+impl Settings {
+    /// What a resume file begins with.
+    fn header(&self) -> String {
+        let mut header = String::new();
+        for (name, value) in &self.0 {
+            let _ = writeln!(header, "{name}: {}", text::line(value));
+        }
+        header.push('\n');
+        header
+    }
+
+    /// What differs from an earlier run, given by its header: a name, its value then and its value now.
+    fn differences(&self, earlier: &str) -> Vec<String> {
+        let value_then = |name: &str| {
+            let mut pairs = earlier.lines().filter_map(|line| line.split_once(": "));
+            pairs.find(|(key, _)| *key == name).map(|(_, value)| value)
+        };
+        let mut found = Vec::new();
+        for (name, now) in &self.0 {
+            let (then, now) = (value_then(name).unwrap_or("unknown"), text::line(now));
+            if then != now {
+                found.push(format!("{name} was {} and is now {now}", text::line(then)));
+            }
+        }
+        found
+    }
+}
+
+/// Reads the header of a resume file; `None` where it has none.
+fn read_header(entries: &mut impl BufRead) -> Option<String> {
+    let mut header = String::new();
+    loop {
+        let before = header.len();
+        entries.read_line(&mut header).ok()?;
+        match &header[before..] {
+            "\n" if before > 0 => return Some(header),
+            line if line.contains(": ") && line.ends_with('\n') => {}
+            _ => return None,
+        }
+    }
+}
+
+/// The hash of a scene as it was read; of the reason where it could not be read.
+pub(super) fn record_hash(record: &Record) -> u64 {
+    match &record.bytes {
+        Ok(bytes) => text::hash(bytes),
+        Err(why) => text::hash(why.as_bytes()),
+    }
+}
+
+/// A resume file, open for more entries.
+#[derive(Debug)]
+pub(super) struct ResumeFile {
+    file: File,
+    path: PathBuf,
+    /// Entries that are not written yet.
+    waiting: String,
+}
+
+impl ResumeFile {
+    /// Its path, for an output.
+    pub fn path_for(output: &Path) -> PathBuf {
+        let mut path = output.as_os_str().to_owned();
+        path.push(ENDING);
+        path.into()
+    }
+
+    /// A new one.
+    pub fn create(output: &Path, settings: &Settings) -> Result<ResumeFile, CliError> {
+        let path = ResumeFile::path_for(output);
+        let created = File::create(&path).and_then(|mut file| {
+            file.write_all(settings.header().as_bytes())?;
+            Ok(file)
+        });
+        match created {
+            Ok(file) => Ok(ResumeFile {
+                file,
+                path,
+                waiting: String::new(),
+            }),
+            Err(error) => Err(not_written(&path, &error)),
+        }
+    }
+
+    /// Adds the entry of an answer; [`ResumeFile::flush`] writes it.
+    pub fn push(&mut self, scene: u64, line: &[u8]) {
+        // Writing into a string cannot fail.
+        let _ = writeln!(self.waiting, "{}", entry(scene, line));
+    }
+
+    /// Writes what waits. It has to be called before the answers themselves are written: then a run that is killed leaves at
+    /// least as many entries as answers.
+    pub fn flush(&mut self) -> Result<(), CliError> {
+        let written = self.file.write_all(self.waiting.as_bytes());
+        self.waiting.clear();
+        written.map_err(|error| not_written(&self.path, &error))
+    }
+}
+
+/// An entry without its line feed.
+fn entry(scene: u64, line: &[u8]) -> String {
+    format!("{scene:016x} {:016x}", text::hash(line))
+}
+
+fn not_written(path: &Path, error: &io::Error) -> CliError {
+    CliError::NotWritten {
+        what: path.display().to_string(),
+        why: error.to_string(),
+    }
+}
+
+fn not_read(path: &Path, error: &io::Error) -> CliError {
+    CliError::NotRead {
+        what: path.display().to_string(),
+        why: error.to_string(),
+    }
+}
+
+/// The answers that an output has already, checked against the scenes that they answer.
+#[derive(Debug)]
+pub(super) struct Checked {
+    /// How many there are.
+    pub answers: usize,
+    /// Their bytes; what follows is a line cut short.
+    pub bytes: u64,
+    /// How many bytes of the resume file belong to them.
+    resume_bytes: u64,
+}
+
+/// Takes as many scenes from the input as the output has whole lines, and checks that they belong together. Changes no file.
+///
+/// # Errors
+/// What differs, with the remedy.
+pub(super) fn check(
+    output: &Path,
+    settings: &Settings,
+    records: &mut Records,
+) -> Result<Checked, CliError> {
+    let path = ResumeFile::path_for(output);
+    let name = output.display();
+    let refuse = |why: String| {
+        CliError::CommandLine(format!(
+            "{why}. Give another output, or leave out --resume to answer every scene again"
+        ))
+    };
+    let file = match File::open(&path) {
+        Ok(file) => file,
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {
+            return Err(refuse(format!(
+                "{name} cannot be resumed: {}, which says what it was made from, is missing",
+                path.display()
+            )));
+        }
+        Err(error) => return Err(not_read(&path, &error)),
+    };
+    let mut entries = BufReader::with_capacity(1 << 16, file);
+    let Some(header) = read_header(&mut entries) else {
+        return Err(refuse(format!(
+            "{} is not a file that drystone batch wrote",
+            path.display()
+        )));
+    };
+    let differences = settings.differences(&header);
+    if !differences.is_empty() {
+        let differences = differences.join("; ");
+        return Err(refuse(format!(
+            "{name} was made with other options: {differences}. Use the same options"
+        )));
+    }
+    let mut lines = BufReader::with_capacity(
+        1 << 16,
+        File::open(output).map_err(|error| not_read(output, &error))?,
+    );
+    let mut checked = Checked {
+        answers: 0,
+        bytes: 0,
+        resume_bytes: header.len() as u64,
+    };
+    let (mut line, mut entry_line) = (Vec::new(), Vec::new());
+    loop {
+        line.clear();
+        entry_line.clear();
+        lines
+            .read_until(b'\n', &mut line)
+            .map_err(|error| not_read(output, &error))?;
+        if !line.ends_with(b"\n") {
+            return Ok(checked);
+        }
+        entries
+            .read_until(b'\n', &mut entry_line)
+            .map_err(|error| not_read(&path, &error))?;
+        let number = checked.answers + 1;
+        if entry_line.len() != ENTRY_BYTES {
+            return Err(refuse(format!(
+                "{name} has more lines than drystone batch wrote: line {number} is the first of them"
+            )));
+        }
+        let Some(record) = records.next() else {
+            return Err(refuse(format!(
+                "{name} has more lines than the input has scenes, {}: it was made from another input",
+                checked.answers
+            )));
+        };
+        agree(&line, &entry_line, &record)
+            .map_err(|why| refuse(format!("line {number} of {name} {why}")))?;
+        checked.answers += 1;
+        checked.bytes += line.len() as u64;
+        checked.resume_bytes += ENTRY_BYTES as u64;
+    }
+}
+
+/// Whether a line is the one that was written, and answers this scene; what is wrong where not.
+fn agree(line: &[u8], entry_line: &[u8], record: &Record) -> Result<(), String> {
+    let scene = record_hash(record);
+    let expected = entry(scene, line);
+    let (expected, found) = (expected.as_bytes(), &entry_line[..ENTRY_BYTES - 1]);
+    if found[16..] != expected[16..] {
+        return Err("is not the one that drystone batch wrote: it was changed".into());
+    }
+    let now = input::origin(record);
+    let then = Origin::of_line(line).unwrap_or_default();
+    if now != then {
+        return Err(format!("answers {then}, and the input has {now} there"));
+    }
+    if found[..16] != expected[..16] {
+        return Err(format!("answers another scene than {now} has now"));
+    }
+    Ok(())
+}
+
+/// Opens an output and its resume file behind what was checked; both are cut there.
+pub(super) fn reopen(output: &Path, checked: &Checked) -> Result<(File, ResumeFile), CliError> {
+    let path = ResumeFile::path_for(output);
+    let file = cut(&path, checked.resume_bytes).map_err(|error| not_written(&path, &error))?;
+    let answers = cut(output, checked.bytes).map_err(|error| not_written(output, &error))?;
+    let resume = ResumeFile {
+        file,
+        path,
+        waiting: String::new(),
+    };
+    Ok((answers, resume))
+}
+
+fn cut(path: &Path, bytes: u64) -> io::Result<File> {
+    let mut file = OpenOptions::new().write(true).open(path)?;
+    file.set_len(bytes)?;
+    file.seek(SeekFrom::Start(bytes))?;
+    Ok(file)
+}
+
+/// Whether there is something to go on from.
+pub(super) fn has_content(output: &Path) -> Result<bool, CliError> {
+    match fs::metadata(output) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
+        Err(error) => Err(not_read(output, &error)),
+        Ok(found) if !found.is_file() => Err(CliError::CommandLine(format!(
+            "{} is not a file, so --resume cannot read the answers it has; leave out --resume",
+            output.display()
+        ))),
+        Ok(found) => Ok(found.len() > 0),
+    }
+}

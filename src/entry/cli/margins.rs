@@ -1,0 +1,116 @@
+//! [`MarginArgs`]: `--margins` and the list that may follow it, the part that `check` and `batch` share.
+
+use std::ffi::OsString;
+use std::path::Path;
+
+use clap::{Args, ValueEnum};
+
+use crate::analysis::{MarginKind, MarginKinds, Options};
+
+/// Whether margins are computed, and which.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct MarginArgs {
+    /// Compute how far each frame is from the edge: least friction, largest tilt, horizontal load, kernel and factor on the
+    /// loads, least limits of robots; or only some of these, such as friction,tilt
+    #[arg(
+        long,
+        value_enum,
+        value_name = "LIST",
+        value_delimiter = ',',
+        num_args = 0..,
+        require_equals = true
+    )]
+    margins: Option<Vec<Name>>,
+}
+
+/// A margin by the name it has in results.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Name {
+    Friction,
+    Tilt,
+    #[value(alias = "horizontal_load")]
+    HorizontalLoad,
+    Kernel,
+    #[value(alias = "load_factor")]
+    LoadFactor,
+    Robots,
+}
+
+impl Name {
+    fn kind(self) -> MarginKind {
+        match self {
+            Name::Friction => MarginKind::Friction,
+            Name::Tilt => MarginKind::Tilt,
+            Name::HorizontalLoad => MarginKind::HorizontalLoad,
+            Name::Kernel => MarginKind::Kernel,
+            Name::LoadFactor => MarginKind::LoadFactor,
+            Name::Robots => MarginKind::Robots,
+        }
+    }
+}
+
+impl MarginArgs {
+    /// Whether margins are requested.
+    pub(crate) fn are_requested(&self) -> bool {
+        self.margins.is_some()
+    }
+
+    /// The same analysis, with the margins that are requested.
+    pub(crate) fn add_to(&self, options: Options) -> Options {
+        match self.margins.as_deref() {
+            None => options,
+            Some(names) => Options {
+                margins: true,
+                margin_kinds: kinds(names),
+                ..options
+            },
+        }
+    }
+
+    /// The names on the command line: `none`, `all`, or a list.
+    pub(crate) fn described(&self) -> String {
+        match self.margins.as_deref() {
+            None => "none".into(),
+            Some([]) => "all".into(),
+            Some(names) => {
+                let words = names.iter().filter_map(ValueEnum::to_possible_value);
+                let words: Vec<String> = words.map(|word| word.get_name().to_owned()).collect();
+                words.join(",")
+            }
+        }
+    }
+}
+
+/// The margins of a list; all of them where it is empty.
+fn kinds(names: &[Name]) -> MarginKinds {
+    if names.is_empty() {
+        return MarginKinds::ALL;
+    }
+    let kinds: Vec<MarginKind> = names.iter().map(|name| name.kind()).collect();
+    MarginKinds::new(&kinds)
+}
+
+/// The words of a command line, with the list that may follow `--margins` joined to it.
+///
+/// `check --margins scene.json` asks for all, and `check --margins friction,tilt scene.json` for two: a word of names
+/// alone is a list, unless there is a file of that name.
+pub(crate) fn join_list(words: impl Iterator<Item = OsString>) -> Vec<OsString> {
+    let mut joined: Vec<OsString> = Vec::new();
+    for word in words {
+        if let (Some(last), Some(list)) = (joined.last_mut(), word.to_str())
+            && last == "--margins"
+            && is_list(list)
+        {
+            last.push("=");
+            last.push(list);
+        } else {
+            joined.push(word);
+        }
+    }
+    joined
+}
+
+fn is_list(word: &str) -> bool {
+    let letters = |c: char| c.is_ascii_lowercase() || matches!(c, ',' | '-' | '_');
+    !word.starts_with('-') && word.chars().all(letters) && !Path::new(word).exists()
+}
