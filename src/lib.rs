@@ -166,6 +166,9 @@ pub use scene::Scene;
 
 /// What stands between the lines of code: why, by which conventions, how precisely, from which drawings, and after whom.
 pub mod doc {
+    #[doc = include_str!("doc/architecture.md")]
+    pub mod architecture {}
+
     #[doc = include_str!("doc/design.md")]
     pub mod design {}
 

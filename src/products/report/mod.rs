@@ -1,4 +1,4 @@
-//! What other programs and people read: the [`result`] of an analysis as JSON, a report of many scenes as one [`page`], and
+//! What other programs and people read: the [`result`](crate::result) of an analysis as JSON, a report of many scenes as one [`page`], and
 //! what [`accuracy`] costs.
 //!
 //! The names in results are a contract. Fields are added, never renamed; pictures are not made here.
