@@ -5,23 +5,23 @@
 //! [`Tolerance`]. Nothing here knows of forces.
 
 mod lattice;
-mod nearby;
+mod box_index;
 mod overlap;
 mod polygon;
-mod sum;
+mod compensated_sum;
 pub(crate) mod snap;
 mod tolerance;
 mod zonotope;
 
+pub(crate) use box_index::{Aabb, BoxIndex};
+pub use compensated_sum::CompensatedSum;
 pub(crate) use lattice::boundary;
 pub use lattice::{Cell, Half, Lattice, LatticeKind};
-pub(crate) use nearby::{Aabb, BoxIndex};
-pub use overlap::{Overlap, Pieces, overlap};
+pub use overlap::{ConvexPieces, Overlap, overlap};
 pub(crate) use polygon::sin_cos_degrees;
-pub use polygon::{Bounds, Edge, Flaw, Polygon};
-pub use sum::Sum;
+pub use polygon::{Bounds, Edge, Polygon, PolygonError};
 pub use tolerance::Tolerance;
-pub use zonotope::{Triple, least_scale, scale_at_most, scale_bound};
+pub use zonotope::{Triple, quick_gauge_bound, zonotope_gauge, zonotope_gauge_bound};
 
 /// A place in the plane, in metres.
 pub type Point = nalgebra::Point2<f64>;

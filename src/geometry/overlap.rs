@@ -9,7 +9,7 @@ use super::{Bounds, Point, Polygon, Vector, cross, quarter_turn};
 
 /// A polygon cut into convex pieces: itself where it is convex.
 #[derive(Clone, Debug)]
-pub struct Pieces<'p> {
+pub struct ConvexPieces<'p> {
     whole: Option<Piece<'p>>,
     triangles: Vec<Piece<'p>>,
 }
@@ -73,11 +73,11 @@ pub struct Overlap {
     pub depth: f64,
 }
 
-impl<'p> Pieces<'p> {
+impl<'p> ConvexPieces<'p> {
     /// A convex polygon stays whole, any other is cut into triangles.
-    pub fn new(polygon: &'p Polygon) -> Pieces<'p> {
+    pub fn new(polygon: &'p Polygon) -> ConvexPieces<'p> {
         if polygon.is_convex() {
-            return Pieces {
+            return ConvexPieces {
                 whole: Piece::new(Cow::Borrowed(polygon.outline())),
                 triangles: Vec::new(),
             };
@@ -105,7 +105,7 @@ impl<'p> Pieces<'p> {
             .filter(|t| cross(t[1] - t[0], t[2] - t[0]) > 0.0)
             .filter_map(|t| Piece::new(Cow::Owned(t)))
             .collect();
-        Pieces {
+        ConvexPieces {
             whole: None,
             triangles,
         }
@@ -117,7 +117,7 @@ impl<'p> Pieces<'p> {
 }
 
 /// The overlap of two cut polygons where it is deeper than `gap` metres, `None` where they are apart or only touch.
-pub fn overlap(a: &Pieces<'_>, b: &Pieces<'_>, gap: f64) -> Option<Overlap> {
+pub fn overlap(a: &ConvexPieces<'_>, b: &ConvexPieces<'_>, gap: f64) -> Option<Overlap> {
     let mut depth: f64 = 0.0;
     let mut close = Vec::new();
     for one in a.all() {
@@ -219,21 +219,25 @@ mod tests {
     #[test]
     fn touching_is_not_overlapping_and_overlap_tells_area_and_place() {
         let a = rectangle(0.0, 0.0, 2.0, 1.0);
-        let a = Pieces::new(&a);
+        let a = ConvexPieces::new(&a);
         assert_eq!(
-            overlap(&a, &Pieces::new(&rectangle(2.0, 0.0, 1.0, 1.0)), 0.0),
+            overlap(&a, &ConvexPieces::new(&rectangle(2.0, 0.0, 1.0, 1.0)), 0.0),
             None
         );
         assert_eq!(
             overlap(
                 &a,
-                &Pieces::new(&rectangle(2.0 - 1e-7, 0.0, 1.0, 1.0)),
+                &ConvexPieces::new(&rectangle(2.0 - 1e-7, 0.0, 1.0, 1.0)),
                 1e-6
             ),
             None
         );
-        let found =
-            overlap(&a, &Pieces::new(&rectangle(1.5, 0.75, 3.0, 1.0)), 1e-6).expect("overlap");
+        let found = overlap(
+            &a,
+            &ConvexPieces::new(&rectangle(1.5, 0.75, 3.0, 1.0)),
+            1e-6,
+        )
+        .expect("overlap");
         assert!((found.area - 0.125).abs() < 1e-12);
         assert!((found.at - Point::new(1.75, 0.875)).norm() < 1e-12);
         assert!((found.depth - 0.25).abs() < 1e-12);
@@ -250,13 +254,21 @@ mod tests {
             ]
         };
         let frame = Polygon::new(corners(0.0, 4.0), vec![corners(1.0, 2.0)]).expect("sound");
-        let pieces = Pieces::new(&frame);
+        let pieces = ConvexPieces::new(&frame);
         assert_eq!(
-            overlap(&pieces, &Pieces::new(&rectangle(1.0, 1.0, 2.0, 1.0)), 1e-9),
+            overlap(
+                &pieces,
+                &ConvexPieces::new(&rectangle(1.0, 1.0, 2.0, 1.0)),
+                1e-9
+            ),
             None
         );
-        let stuck =
-            overlap(&pieces, &Pieces::new(&rectangle(1.0, 1.0, 2.5, 1.0)), 1e-9).expect("overlap");
+        let stuck = overlap(
+            &pieces,
+            &ConvexPieces::new(&rectangle(1.0, 1.0, 2.5, 1.0)),
+            1e-9,
+        )
+        .expect("overlap");
         assert!((stuck.area - 0.5).abs() < 1e-12);
     }
 
@@ -267,7 +279,7 @@ mod tests {
 
     /// The overlap of two, the same in either order.
     fn both(a: &Polygon, b: &Polygon) -> Overlap {
-        let (a, b) = (&Pieces::new(a), &Pieces::new(b));
+        let (a, b) = (&ConvexPieces::new(a), &ConvexPieces::new(b));
         let found = overlap(a, b, 1e-9).expect("overlap");
         let other = overlap(b, a, 1e-9).expect("overlap");
         assert!((found.area - other.area).abs() < 1e-12);
@@ -322,8 +334,9 @@ mod tests {
         let slope = polygon(&[[0.0, 0.0], [3.0, 0.0], [0.0, 4.0]]);
         let box_at = |d: f64| rectangle(1.5 - 0.8 * d, 2.0 - 0.6 * d, 5.0, 5.0);
         assert!((both(&slope, &box_at(0.25)).depth - 0.25).abs() < 1e-12);
-        let deep =
-            |a: &Polygon, b: &Polygon, gap: f64| overlap(&Pieces::new(a), &Pieces::new(b), gap);
+        let deep = |a: &Polygon, b: &Polygon, gap: f64| {
+            overlap(&ConvexPieces::new(a), &ConvexPieces::new(b), gap)
+        };
         assert_eq!(deep(&slope, &box_at(-1e-6), 0.0), None);
         // As deep as the gap is none yet.
         let stone = rectangle(1.0, 3.75, 1.0, 1.0);
@@ -340,7 +353,7 @@ mod tests {
         let frame = Polygon::new(ring(-3.0, 9.0), vec![ring(0.0, 1.0), ring(2.0, 3.0)]);
         let frame = frame.expect("sound");
         let mut area = 0.0;
-        for piece in Pieces::new(&frame).all() {
+        for piece in ConvexPieces::new(&frame).all() {
             let t = &piece.corners;
             let around = Bounds::from_points(t.iter().copied());
             assert_eq!((t.len(), around), (3, Some(piece.around)));
@@ -362,14 +375,14 @@ mod tests {
             [0.0, 3.0],
         ];
         let l = polygon(&corners.map(far));
-        let pieces = Pieces::new(&l);
+        let pieces = ConvexPieces::new(&l);
         let parts = pieces.all().map(|piece| {
             let t = &piece.corners;
             cross(t[1] - t[0], t[2] - t[0]) / 2.0
         });
         assert_eq!(parts.sum::<f64>(), 5.0 / 16.0);
         let square = rectangle(0.0, 0.0, 1.0, 1.0);
-        let pieces = Pieces::new(&square);
+        let pieces = ConvexPieces::new(&square);
         let whole: Vec<usize> = pieces.all().map(|piece| piece.corners.len()).collect();
         assert_eq!(whole, [4], "what is convex stays whole");
     }

@@ -112,7 +112,7 @@ impl Bounds {
 
 /// A way in which a list of corners is no polygon. `ring` 0 is the outline, ring k the k-th hole from 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Flaw {
+pub enum PolygonError {
     /// Fewer than three different corners.
     TooFewCorners {
         /// Which ring.
@@ -145,7 +145,7 @@ impl Polygon {
     /// A polygon from its corners, either way round, and its holes.
     ///
     /// # Errors
-    /// Every [`Flaw`] that was found. Coordinates must be finite; a non-finite one is a flaw of zero area.
+    /// Every [`PolygonError`] that was found. Coordinates must be finite; a non-finite one is a flaw of zero area.
     ///
     /// # Example
     /// ```
@@ -153,9 +153,9 @@ impl Polygon {
     /// let wedge = Polygon::new(vec![Point::new(0.0, 0.0), Point::new(1.0, 3.0), Point::new(4.0, 0.0)], vec![])?;
     /// assert_eq!(wedge.area(), 6.0);
     /// assert!((wedge.centroid() - Point::new(5.0 / 3.0, 1.0)).norm() < 1e-15);
-    /// # Ok::<(), Vec<drystone::internals::geometry::Flaw>>(())
+    /// # Ok::<(), Vec<drystone::internals::geometry::PolygonError>>(())
     /// ```
-    pub fn new(outline: Vec<Point>, holes: Vec<Vec<Point>>) -> Result<Polygon, Vec<Flaw>> {
+    pub fn new(outline: Vec<Point>, holes: Vec<Vec<Point>>) -> Result<Polygon, Vec<PolygonError>> {
         let mut flaws = Vec::new();
         let mut rings = Vec::with_capacity(1 + holes.len());
         rings.push(outline);
@@ -165,7 +165,7 @@ impl Polygon {
         for (ring, points) in rings.iter_mut().enumerate() {
             repeats.drop_from(points, ring);
             if points.len() < 3 {
-                flaws.push(Flaw::TooFewCorners {
+                flaws.push(PolygonError::TooFewCorners {
                     ring,
                     corners: points.len(),
                 });
@@ -178,9 +178,9 @@ impl Polygon {
             if !encloses {
                 let straight = |p: &Point| orientation(points[0], points[1], *p) == 0.0;
                 if !area.is_finite() || points.iter().all(straight) {
-                    flaws.push(Flaw::ZeroArea { ring });
+                    flaws.push(PolygonError::ZeroArea { ring });
                 } else {
-                    flat.push(Flaw::ZeroArea { ring });
+                    flat.push(PolygonError::ZeroArea { ring });
                 }
             }
         }
@@ -204,7 +204,7 @@ impl Polygon {
             let inside_other =
                 (1..rings.len()).any(|k| k != ring && ring_contains(&rings[k], corner));
             if !ring_contains(&rings[0], corner) || inside_other {
-                flaws.push(Flaw::HoleOutside { ring });
+                flaws.push(PolygonError::HoleOutside { ring });
             }
         }
         if flaws.is_empty() {
@@ -417,7 +417,7 @@ const FEW_SIDES: usize = 12;
 
 /// The first places, in the order of the sides, at which two sides meet that are not neighbours, and folds back of
 /// neighbours.
-fn crossings(rings: &[Vec<Point>], repeats: &Repeats) -> Vec<Flaw> {
+fn crossings(rings: &[Vec<Point>], repeats: &Repeats) -> Vec<PolygonError> {
     let mut all: Vec<Side> = Vec::with_capacity(rings.iter().map(Vec::len).sum());
     for (ring, corners) in rings.iter().enumerate() {
         all.extend(sides(corners).enumerate().map(|(position, edge)| Side {
@@ -433,7 +433,7 @@ fn crossings(rings: &[Vec<Point>], repeats: &Repeats) -> Vec<Flaw> {
         let before = flaws.len();
         let mut compare = |b: &Side| {
             if let Some(at) = a.meets(b) {
-                let crossing = Flaw::Crossing {
+                let crossing = PolygonError::Crossing {
                     rings: [a.ring, b.ring],
                     corners: [a, b].map(|side| repeats.listed(side.ring, side.position)),
                     at,
@@ -446,7 +446,7 @@ fn crossings(rings: &[Vec<Point>], repeats: &Repeats) -> Vec<Flaw> {
             None => (all[number + 1..].iter())
                 .filter(|b| around.meets(&b.around()))
                 .for_each(compare),
-            Some(nearby) => (nearby.near(around))
+            Some(nearby) => (nearby.intersecting(around))
                 .filter(|b| (a.ring, a.position) < (b.ring, b.position))
                 .for_each(&mut compare),
         }

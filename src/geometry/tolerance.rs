@@ -12,7 +12,7 @@ pub struct Tolerance {
     /// Largest distance between two edges that still touch, and the deepest overlap that is still noise.
     pub gap: f64,
     /// A common stretch of long edges shorter than this is a touching corner.
-    pub stretch: f64,
+    pub min_length: f64,
     /// A common stretch of any edges shorter than this is the rounding of coordinates.
     pub rounding: f64,
     /// Largest sine of the angle between two edges that still face each other, whatever their length.
@@ -21,50 +21,52 @@ pub struct Tolerance {
 
 impl Tolerance {
     /// Gap in parts of the scene's reach.
-    pub const GAP: f64 = 1e-6;
+    pub const GAP_PER_EXTENT: f64 = 1e-6;
     /// Stretch in parts of the gap.
-    pub const STRETCH: f64 = 0.25;
+    pub const LENGTH_PER_GAP: f64 = 0.25;
     /// Stretch in parts of the shorter edge, where that is less.
-    pub const OF_EDGE: f64 = 1e-3;
+    pub const LENGTH_PER_EDGE: f64 = 1e-3;
     /// The largest angle between two edges that face each other.
-    pub const ANGLE: f64 = 0.01;
+    pub const MAX_ANGLE: f64 = 0.01;
     /// The reach counts for at most so many typical block sizes, so that a far-flung scene keeps its small contacts.
-    pub const REACH: f64 = 1000.0;
+    pub const MAX_EXTENT_IN_BLOCKS: f64 = 1000.0;
 
     /// The tolerance of a scene whose blocks reach `extent` metres across in all and are `typical` metres large each.
     ///
     /// Both are lengths in metres; a scene without blocks has extent 0 and gets the tolerance 0.
     pub fn new(extent: f64, typical: f64) -> Tolerance {
-        Tolerance::within(Self::GAP * extent.min(Self::REACH * typical))
+        Tolerance::from_gap(Self::GAP_PER_EXTENT * extent.min(Self::MAX_EXTENT_IN_BLOCKS * typical))
     }
 
     /// The tolerance by which edges within `gap` metres of each other touch.
-    pub fn within(gap: f64) -> Tolerance {
+    pub fn from_gap(gap: f64) -> Tolerance {
         Tolerance {
             gap,
-            stretch: Self::STRETCH * gap,
-            rounding: Self::STRETCH * gap,
-            angle: Self::ANGLE,
+            min_length: Self::LENGTH_PER_GAP * gap,
+            rounding: Self::LENGTH_PER_GAP * gap,
+            angle: Self::MAX_ANGLE,
         }
     }
 
     /// The same, where coordinates are off by no more than `rounding` metres.
-    pub fn exact_to(self, rounding: f64) -> Tolerance {
+    pub fn with_rounding(self, rounding: f64) -> Tolerance {
         Tolerance {
-            rounding: (Self::STRETCH * rounding).min(self.stretch),
+            rounding: (Self::LENGTH_PER_GAP * rounding).min(self.min_length),
             ..self
         }
     }
 
     /// The shortest common stretch that is an interface of two edges, metres, the shorter one `edge` long.
-    pub fn shortest(&self, edge: f64) -> f64 {
-        self.stretch.min(Self::OF_EDGE * edge).max(self.rounding)
+    pub fn min_contact_length(&self, edge: f64) -> f64 {
+        self.min_length
+            .min(Self::LENGTH_PER_EDGE * edge)
+            .max(self.rounding)
     }
 
     /// Exact comparison, for lattices.
     pub const EXACT: Tolerance = Tolerance {
         gap: 0.0,
-        stretch: 0.0,
+        min_length: 0.0,
         rounding: 0.0,
         angle: 0.0,
     };
@@ -88,20 +90,23 @@ mod tests {
 
     #[test]
     fn the_shortest_stretch_is_a_quarter_of_the_gap_or_a_thousandth_of_the_edge() {
-        let written = Tolerance::within(0.004);
-        assert!(close(written.stretch, 0.001) && close(written.rounding, 0.001));
+        let written = Tolerance::from_gap(0.004);
+        assert!(close(written.min_length, 0.001) && close(written.rounding, 0.001));
         // As long as nothing is known of the coordinates, they may be off by as much as counts as touching.
-        assert!(close(written.shortest(0.1), 0.001));
-        let known = written.exact_to(2e-5);
+        assert!(close(written.min_contact_length(0.1), 0.001));
+        let known = written.with_rounding(2e-5);
         assert_eq!((known.gap, known.angle), (written.gap, written.angle));
-        assert!(close(known.shortest(3.0), 0.001), "a long edge");
-        assert!(close(known.shortest(0.1), 1e-4), "a short one");
+        assert!(close(known.min_contact_length(3.0), 0.001), "a long edge");
+        assert!(close(known.min_contact_length(0.1), 1e-4), "a short one");
         assert!(
-            close(known.shortest(1e-3), 5e-6),
+            close(known.min_contact_length(1e-3), 5e-6),
             "the rounding of coordinates"
         );
         // Rounding never asks for more than the gap does.
-        assert!(close(written.exact_to(1.0).shortest(3.0), 0.001));
-        assert_eq!(Tolerance::EXACT.shortest(1.0), 0.0);
+        assert!(close(
+            written.with_rounding(1.0).min_contact_length(3.0),
+            0.001
+        ));
+        assert_eq!(Tolerance::EXACT.min_contact_length(1.0), 0.0);
     }
 }

@@ -1,6 +1,6 @@
 //! How far a point of space is from being a bounded combination of given directions.
 //!
-//! The zonotope of generators g₁ … gₘ is the set { Σ aᵢ gᵢ : |aᵢ| ≤ 1 }. [`least_scale`] finds the smallest τ for which a
+//! The zonotope of generators g₁ … gₘ is the set { Σ aᵢ gᵢ : |aᵢ| ≤ 1 }. [`zonotope_gauge`] finds the smallest τ for which a
 //! point lies in τ times it. A convex body is the intersection of the half-spaces of its facets, a zonotope's facets are
 //! spanned by pairs of its generators, and its half-width along n is Σ |n·gᵢ|; so
 //!
@@ -32,12 +32,12 @@ const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// direction are added up, and the answer may be larger than the smallest.
 ///
 /// ```
-/// use drystone::internals::geometry::least_scale;
+/// use drystone::internals::geometry::zonotope_gauge;
 /// let box_of = [[2.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 4.0]];
-/// assert!((least_scale(&box_of, [1.0, -3.0, 0.0]) - 1.0).abs() < 1e-12);
-/// assert_eq!(least_scale(&box_of[..2], [1.0, -3.0, 0.1]), f64::INFINITY);
+/// assert!((zonotope_gauge(&box_of, [1.0, -3.0, 0.0]) - 1.0).abs() < 1e-12);
+/// assert_eq!(zonotope_gauge(&box_of[..2], [1.0, -3.0, 0.1]), f64::INFINITY);
 /// ```
-pub fn least_scale(generators: &[Triple], point: Triple) -> f64 {
+pub fn zonotope_gauge(generators: &[Triple], point: Triple) -> f64 {
     if norm(point) == 0.0 {
         return 0.0;
     }
@@ -50,11 +50,11 @@ pub fn least_scale(generators: &[Triple], point: Triple) -> f64 {
     exact(&few, unit(&point))
 }
 
-/// An upper bound of [`least_scale`], found without looking at facets: the largest |aᵢ| of the combination Σ aᵢ gᵢ of least
+/// An upper bound of [`zonotope_gauge`], found without looking at facets: the largest |aᵢ| of the combination Σ aᵢ gᵢ of least
 /// squares that gives the point. `None` where the generators do not span space well enough to tell.
-pub fn scale_at_most(generators: &[Triple], point: Triple) -> Option<f64> {
+pub fn zonotope_gauge_bound(generators: &[Triple], point: Triple) -> Option<f64> {
     if generators.len() <= FEW {
-        return Some(least_scale(generators, point));
+        return Some(zonotope_gauge(generators, point));
     }
     let size = generators.iter().map(|g| norm(*g)).fold(0.0, f64::max);
     let mut gram = [[0.0; 3]; 3];
@@ -87,12 +87,12 @@ pub fn scale_at_most(generators: &[Triple], point: Triple) -> Option<f64> {
     Some(most * (1.0 + 1e-5))
 }
 
-/// A bound that [`least_scale`] never answers above, without looking at facets: as [`scale_at_most`], for any number of
+/// A bound that [`zonotope_gauge`] never answers above, without looking at facets: as [`zonotope_gauge_bound`], for any number of
 /// generators up to that from which on they are added up. `None` where digits do not suffice to tell.
 ///
 /// The combination of least squares does not depend on the units of the axes, so each axis is measured by what the
 /// generators reach along it. A body without friction that pushes sideways is then no nearly flat zonotope.
-pub fn scale_bound(generators: &[Triple], point: Triple) -> Option<f64> {
+pub fn quick_gauge_bound(generators: &[Triple], point: Triple) -> Option<f64> {
     if generators.len() > MOST {
         return None;
     }

@@ -18,7 +18,7 @@ use std::hint::black_box;
 use drystone::analysis::{Options, Verdict};
 use drystone::internals::effect::{FrameContext, assemble};
 use drystone::internals::interface::Interfaces;
-use drystone::internals::program::{Conic, Program, Scale, source};
+use drystone::internals::program::{Program, QuadraticProgram, Scale, vallat_program};
 use drystone::internals::solve::{Conditioning, Status, TOLERANCE, solve};
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
@@ -104,7 +104,7 @@ fn examined(scene: &Scene, options: &Options) {
     black_box(Analysis::with(black_box(scene), options));
 }
 
-fn posed(conic: &Conic) {
+fn posed(conic: &QuadraticProgram) {
     black_box(solve(black_box(conic), TOLERANCE, Conditioning::Full));
 }
 
@@ -117,16 +117,16 @@ fn program(scene: &Scene) -> Program {
         frame,
         interfaces: &found.in_frame(scene, frame),
     });
-    let component = assembly.split().remove(0);
+    let component = assembly.components().remove(0);
     Program::new(&component, Scale::from_assembly(&component))
 }
 
 /// The source's hard program: its soft one without the twins of its unknowns, which stand last in columns and rows.
-fn hard(program: &Program) -> Conic {
-    let soft = source(program, 1.0);
+fn hard(program: &Program) -> QuadraticProgram {
+    let soft = vallat_program(program, 1.0);
     let (unknowns, rows) = (soft.unknowns / 2, soft.bound.len() - soft.unknowns / 2);
     let kept = |entry: &(usize, usize, f64)| entry.0 < rows && entry.1 < unknowns;
-    Conic {
+    QuadraticProgram {
         unknowns,
         linear: soft.linear[..unknowns].to_vec(),
         matrix: soft.matrix.into_iter().filter(kept).collect(),

@@ -69,7 +69,7 @@ fn told(proof: &Proof) -> String {
         Proof::Forces {
             worst_imbalance, ..
         } => format!("off by {worst_imbalance:.0e}"),
-        Proof::Mechanism { power, .. } => match proof.rules_out() {
+        Proof::Mechanism { power, .. } => match proof.excluded_force_sum() {
             x if x.is_finite() => format!("power {power:.0e}, no balance below {x:.0e}"),
             _ => format!("power {power:.0e}, no balance at all"),
         },

@@ -9,7 +9,7 @@ use drystone::internals::assembly::Assembly;
 use drystone::internals::effect::{FrameContext, assemble};
 use drystone::internals::interface::Interfaces;
 use drystone::internals::program::{Program, Scale};
-use drystone::internals::proof::{self, Forces, Held, Pressed};
+use drystone::internals::proof::{self, ContactForces, Forces, GripForces};
 use drystone::internals::solve::{Conditioning, balance};
 use drystone::scene::format::{Pair, SceneFile};
 use drystone::{Analysis, Scene, figure, output};
@@ -75,8 +75,8 @@ fn e_prove(bencher: Bencher, case: Case) {
     let found = Interfaces::new(&scene);
     let (whole, _) = components(&scene, &found);
     let forces = forces(&Analysis::new(&scene));
-    assert!(proof::forces(&whole, &forces).holds());
-    bencher.bench_local(|| proof::forces(black_box(&whole), &forces));
+    assert!(proof::check_forces(&whole, &forces).holds());
+    bencher.bench_local(|| proof::check_forces(black_box(&whole), &forces));
 }
 
 #[divan::bench(args = cases(), sample_count = 3, sample_size = 1)]
@@ -102,7 +102,7 @@ fn components(scene: &Scene, found: &Interfaces) -> (Assembly, Vec<Assembly>) {
         frame,
         interfaces: &interfaces,
     });
-    let parts = assembly.split();
+    let parts = assembly.components();
     (assembly, parts)
 }
 
@@ -114,11 +114,11 @@ fn programs(parts: &[Assembly]) -> Vec<Program> {
 /// The forces that an analysis found, as a proof wants them.
 fn forces(analysis: &Analysis) -> Forces {
     let frame = &analysis.frames[0];
-    let pressed = frame.contacts.iter().map(|contact| Pressed {
+    let pressed = frame.contacts.iter().map(|contact| ContactForces {
         normal: contact.normal_forces,
         friction: contact.friction_force,
     });
-    let held = frame.robots.iter().map(|robot| Held {
+    let held = frame.robots.iter().map(|robot| GripForces {
         force: robot.force,
         torque: robot.torque,
     });

@@ -16,7 +16,8 @@ use std::hint::black_box;
 use drystone::internals::effect::{FrameContext, assemble};
 use drystone::internals::interface::Interfaces;
 use drystone::internals::program::{
-    Column, Conic, Program, Scale, columns, kinematic, least_left, sticking_columns,
+    Column, Program, QuadraticProgram, Scale, columns, kinematic_dual, least_residual_dual,
+    sticking_columns,
 };
 use drystone::internals::solve::{
     Conditioning, ITERATIONS, SolverSettings, Status, by_clarabel, solve_within,
@@ -52,7 +53,7 @@ fn main() {
     }
 }
 
-fn told(blocks: usize, angle: f64, name: &str, problem: &Conic) {
+fn told(blocks: usize, angle: f64, name: &str, problem: &QuadraticProgram) {
     let settings = SolverSettings::from(Conditioning::Plain);
     let [ours, theirs] =
         [solve_within, by_clarabel].map(|solver| solver(problem, settings, ITERATIONS));
@@ -95,18 +96,21 @@ fn word(status: Status) -> &'static str {
 }
 
 /// The programs that a check poses, each with its name.
-fn problems(program: &Program) -> [(&'static str, Conic); 3] {
+fn problems(program: &Program) -> [(&'static str, QuadraticProgram); 3] {
     let all = columns(program);
     let largest = program.loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     let loads: Vec<f64> = program.loads.iter().map(|v| v / largest).collect();
     let with_sticking: Vec<Column> = [all.clone(), sticking_columns(program)].concat();
-    let sticks = |c: &Column| f64::from(u8::from(c.force.sticks()));
+    let sticks = |c: &Column| f64::from(u8::from(c.force.is_sticking()));
     [
-        ("least force", kinematic(&program.loads, &all, |c| c.cost).0),
-        ("least residual", least_left(&loads, &all).0),
+        (
+            "least force",
+            kinematic_dual(&program.loads, &all, |c| c.cost).0,
+        ),
+        ("least residual", least_residual_dual(&loads, &all).0),
         (
             "least sticking",
-            kinematic(&loads, &with_sticking, sticks).0,
+            kinematic_dual(&loads, &with_sticking, sticks).0,
         ),
     ]
 }

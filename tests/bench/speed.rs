@@ -9,7 +9,7 @@ use std::process::Command;
 use divan::{Bencher, black_box};
 use drystone::internals::effect::{FrameContext, assemble};
 use drystone::internals::interface::Interfaces;
-use drystone::internals::program::{Program, Scale, source};
+use drystone::internals::program::{Program, Scale, vallat_program};
 use drystone::internals::solve::{Conditioning, TOLERANCE, balance, solve};
 use drystone::scene::format::SceneFile;
 use drystone::starter::Wall;
@@ -45,7 +45,7 @@ fn the_sources_soft_program(bencher: Bencher, blocks: usize) {
     let program = program(&wall(blocks));
     bencher.bench_local(|| {
         solve(
-            &source(black_box(&program), BETA),
+            &vallat_program(black_box(&program), BETA),
             TOLERANCE,
             Conditioning::Full,
         )
@@ -107,7 +107,7 @@ fn program(scene: &Scene) -> Program {
         frame,
         interfaces: &interfaces,
     });
-    let components = assembly.split();
+    let components = assembly.components();
     assert_eq!(components.len(), 1, "a wall is one component");
     Program::new(&components[0], Scale::from_assembly(&components[0]))
 }

@@ -13,7 +13,7 @@ use drystone::internals::assembly::Assembly;
 use drystone::internals::effect::{FrameContext, assemble};
 use drystone::internals::geometry::{Point, Vector};
 use drystone::internals::interface::{ContactKind, Interfaces};
-use drystone::internals::program::{Count, Program, Scale, columns};
+use drystone::internals::program::{Program, Scale, UnknownCounts, columns};
 use drystone::scene::{BodyId, Frame};
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
@@ -217,7 +217,7 @@ fn components_hold_every_body_contact_and_grip_once_and_effects_count_what_is_po
         let analysis = Analysis::new(&scene);
         for (frame, result) in scene.frames().iter().zip(&analysis.frames) {
             let (assembly, _) = assembly_of(&scene, frame);
-            let parts = assembly.split();
+            let parts = assembly.components();
             let count = |of: fn(&Assembly) -> usize| parts.iter().map(of).sum::<usize>();
             assert_eq!(count(|p| p.bodies.len()), assembly.bodies.len(), "{name}");
             assert_eq!(
@@ -231,7 +231,7 @@ fn components_hold_every_body_contact_and_grip_once_and_effects_count_what_is_po
                 let program = Program::new(part, Scale::from_assembly(part));
                 let all = columns(&program);
                 posed += all.len();
-                let count = Count::new(&program, &all);
+                let count = UnknownCounts::new(&program, &all);
                 assert_eq!(
                     count.contact
                         + count.friction

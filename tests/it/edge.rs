@@ -22,7 +22,7 @@ fn pushed(mut file: Value, share: f64) -> Value {
 
 fn rules_out(frame: &FrameAnalysis) -> f64 {
     assert_eq!(frame.verdict, FALLS, "{}", frame.doubt());
-    frame.proof.rules_out()
+    frame.proof.excluded_force_sum()
 }
 
 /// 410 bricks whose edge is at a share of 0.481616: programs that must decide between "balanced" and "no balance" end
@@ -141,6 +141,6 @@ fn a_motion_says_what_it_rules_out() {
         power: 0.25,
         worst_violation: 1e-4,
     };
-    assert_eq!(doubtful.rules_out(), 2500.0);
+    assert_eq!(doubtful.excluded_force_sum(), 2500.0);
     assert!(!doubtful.holds(), "forces of 2500 loads are no rarity");
 }

@@ -8,7 +8,8 @@ use drystone::internals::effect::{FrameContext, assemble};
 use drystone::internals::geometry::{Point, Vector, cross};
 use drystone::internals::interface::Interfaces;
 use drystone::internals::program::{
-    Column, Program, Scale, columns, force_form, kinematic, least_left, sticking_columns,
+    Column, Program, Scale, columns, force_primal, kinematic_dual, least_residual_dual,
+    sticking_columns,
 };
 use drystone::internals::solve::{Conditioning, Status, TOLERANCE, solve};
 use drystone::scene::{BodyId, Scene};
@@ -269,9 +270,9 @@ fn two_solvers_find_the_same_of_a_thousand_bricks_standing_and_falling() {
     for (degrees, stands) in [(0.0, true), (40.0, false)] {
         let program = program(&scene(&turned(file.clone(), degrees)));
         let (loads, all) = (&program.loads, columns(&program));
-        let hard = kinematic(loads, &all, |c| c.cost).0;
-        let any = force_form(loads, &all, |_| 0.0, None);
-        let residual = least_left(loads, &all).0;
+        let hard = kinematic_dual(loads, &all, |c| c.cost).0;
+        let any = force_primal(loads, &all, |_| 0.0, None);
+        let residual = least_residual_dual(loads, &all).0;
         let wanted = match stands {
             true => [Status::Solved; 3],
             false => [Status::Unbounded, Status::Infeasible, Status::Solved],
@@ -302,8 +303,8 @@ fn a_wall_short_of_its_edge_by_a_hundred_thousandth_is_balanced_at_once() {
     let largest = program.loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     let loads: Vec<f64> = program.loads.iter().map(|v| v / largest).collect();
     for problem in [
-        force_form(&loads, &all, |_| 0.0, None),
-        least_left(&loads, &all).0,
+        force_primal(&loads, &all, |_| 0.0, None),
+        least_residual_dual(&loads, &all).0,
     ] {
         let answer = solve(&problem, TOLERANCE, Conditioning::Plain);
         assert_eq!(answer.status, Status::Solved);
@@ -329,8 +330,8 @@ fn what_a_wall_lacks_just_past_its_edge_is_the_least_that_could_hold_it() {
     let program = program(&scene);
     let mut all = columns(&program);
     all.extend(sticking_columns(&program));
-    let cost = |c: &Column| f64::from(u8::from(c.force.sticks()));
-    let (problem, _) = kinematic(&program.loads, &all, cost);
+    let cost = |c: &Column| f64::from(u8::from(c.force.is_sticking()));
+    let (problem, _) = kinematic_dual(&program.loads, &all, cost);
     let y = solve(&problem, TOLERANCE, Conditioning::Plain).x;
     let violated = all.iter().map(|c| c.dot(&y) - cost(c));
     assert!(violated.fold(0.0, f64::max) < 1e-12);

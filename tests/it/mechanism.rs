@@ -4,7 +4,7 @@ use drystone::Analysis;
 use drystone::analysis::{FrameAnalysis, Motion, Verdict};
 use drystone::drawing::{Camera, Group, Item};
 use drystone::figure::{self, Kind, Options};
-use drystone::internals::geometry::{Pieces, Point, Polygon, Vector, cross, overlap};
+use drystone::internals::geometry::{ConvexPieces, Point, Polygon, Vector, cross, overlap};
 use drystone::scene::{BodyId, Scene};
 
 use crate::lines::{all, brought};
@@ -106,7 +106,8 @@ fn nobody_passes_through_another_at_the_amplitude_drawn() {
         bodies.extend(scene.ground().iter().map(|g| g.body.polygon.clone()));
         for (i, a) in bodies.iter().enumerate() {
             for b in &bodies[..i] {
-                let shared = overlap(&Pieces::new(a), &Pieces::new(b), 0.0).map_or(0.0, |o| o.area);
+                let shared = overlap(&ConvexPieces::new(a), &ConvexPieces::new(b), 0.0)
+                    .map_or(0.0, |o| o.area);
                 let share = shared / a.area().min(b.area());
                 assert!(share < 0.012, "{name}: {share} of the smaller");
                 compared += 1;

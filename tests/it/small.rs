@@ -1,7 +1,7 @@
 //! The smallest stone: a pebble on a tower, beside a wall or in its joints is judged by its own forces, however light.
 
 use drystone::analysis::{Options, Verdict, verdicts};
-use drystone::internals::geometry::{Point, Vector, cross, least_scale};
+use drystone::internals::geometry::{Point, Vector, cross, zonotope_gauge};
 use drystone::scene::{BlockId, BodyId};
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
@@ -490,7 +490,7 @@ fn reported_forces_keep_the_rule_at_every_block() {
             // What this plain sum is rounded by: 10⁻¹⁵ of the forces.
             generators.push([1e-8 * total, 0.0, 0.0]);
             generators.push([0.0, 1e-8 * total, 0.0]);
-            let scale = least_scale(&generators, left);
+            let scale = zonotope_gauge(&generators, left);
             assert!(scale <= 1e-7, "{}: {scale:e}\n{file}", block.id);
         }
     }

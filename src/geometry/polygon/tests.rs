@@ -10,7 +10,7 @@ fn square(x: f64, y: f64, size: f64) -> [[f64; 2]; 4] {
     [[x, y], [x + size, y], [x + size, y + size], [x, y + size]]
 }
 
-fn made(rings: &[&[[f64; 2]]]) -> Result<Polygon, Vec<Flaw>> {
+fn made(rings: &[&[[f64; 2]]]) -> Result<Polygon, Vec<PolygonError>> {
     let mut rings = rings.iter().map(|ring| points(ring));
     let outline = rings.next().unwrap_or_default();
     Polygon::new(outline, rings.collect())
@@ -20,13 +20,13 @@ fn sound(rings: &[&[[f64; 2]]]) -> Polygon {
     made(rings).expect("sound")
 }
 
-fn flaws(rings: &[&[[f64; 2]]]) -> Vec<Flaw> {
+fn flaws(rings: &[&[[f64; 2]]]) -> Vec<PolygonError> {
     made(rings).expect_err("flawed")
 }
 
 /// The corner on one side and on the other at which two sides of an outline meet, and where.
-fn crossing(corners: [usize; 2], at: [f64; 2]) -> Flaw {
-    Flaw::Crossing {
+fn crossing(corners: [usize; 2], at: [f64; 2]) -> PolygonError {
+    PolygonError::Crossing {
         rings: [0, 0],
         corners,
         at: Point::new(at[0], at[1]),
@@ -136,7 +136,7 @@ fn repeated_corners_are_dropped_and_straight_ones_stay() {
     let middle = [1.0, 0.0];
     let found = sound(&[&[a, a, middle, b, b, b, c, d, a, a]]);
     assert_eq!(found.outline(), points(&[a, middle, b, c, d]));
-    let few = |ring: usize, corners: usize| vec![Flaw::TooFewCorners { ring, corners }];
+    let few = |ring: usize, corners: usize| vec![PolygonError::TooFewCorners { ring, corners }];
     assert_eq!(flaws(&[&[]]), few(0, 0));
     assert_eq!(flaws(&[&[a, a, a]]), few(0, 1));
     assert_eq!(flaws(&[&[a, b, a]]), few(0, 2));
@@ -148,7 +148,7 @@ fn repeated_corners_are_dropped_and_straight_ones_stay() {
 
 #[test]
 fn a_ring_on_a_line_encloses_nothing() {
-    let flat = |ring: usize| vec![Flaw::ZeroArea { ring }];
+    let flat = |ring: usize| vec![PolygonError::ZeroArea { ring }];
     assert_eq!(flaws(&[&[[0.0, 0.0], [1.0, 1.0], [2.0, 2.0]]]), flat(0));
     assert_eq!(
         flaws(&[&[[0.0, 0.0], [f64::NAN, 1.0], [2.0, 0.0]]]),
@@ -174,7 +174,7 @@ fn a_ring_on_a_line_encloses_nothing() {
 #[test]
 fn a_hole_lies_inside_the_outline_and_outside_other_holes() {
     let outline = square(0.0, 0.0, 9.0);
-    let outside = |ring: usize| vec![Flaw::HoleOutside { ring }];
+    let outside = |ring: usize| vec![PolygonError::HoleOutside { ring }];
     let beside = square(10.0, 1.0, 1.0);
     assert_eq!(flaws(&[&outline, &beside]), outside(1));
     assert_eq!(
@@ -316,7 +316,7 @@ fn sides_that_meet_are_told_by_the_corners_where_they_begin() {
         [-4.0, 9.0],
     ];
     let found = flaws(&[&crossed]);
-    let [Flaw::Crossing { rings, corners, at }] = found[..] else {
+    let [PolygonError::Crossing { rings, corners, at }] = found[..] else {
         unreachable!("one crossing: {found:?}");
     };
     // x = 6 − 4s, y = 9 − 14s on y = x / 2: s = 1/2.
@@ -376,9 +376,9 @@ fn a_path_may_not_turn_back_on_itself() {
 #[test]
 fn holes_may_not_touch_what_is_around_them_nor_each_other() {
     let outline = square(0.0, 0.0, 9.0);
-    let rings = |flaws: Vec<Flaw>| {
+    let rings = |flaws: Vec<PolygonError>| {
         let all = flaws.into_iter().map(|flaw| match flaw {
-            Flaw::Crossing { rings, .. } => rings,
+            PolygonError::Crossing { rings, .. } => rings,
             other => unreachable!("a crossing: {other:?}"),
         });
         all.collect::<Vec<_>>()
@@ -406,7 +406,7 @@ fn the_first_twenty_crossings_are_told_in_the_order_of_the_sides() {
     for (teeth, listed) in [(19, 19), (20, 20), (21, 20), (90, 20)] {
         let found = flaws(&[&zigzag(teeth)]);
         let line = teeth + 1;
-        let wanted: Vec<Flaw> = (0..listed)
+        let wanted: Vec<PolygonError> = (0..listed)
             .map(|k| crossing([k, line], [k as f64 + 0.5, 0.0]))
             .collect();
         assert_eq!(found, wanted, "{teeth}");
@@ -415,7 +415,7 @@ fn the_first_twenty_crossings_are_told_in_the_order_of_the_sides() {
     let mut ring = zigzag(31);
     ring.rotate_right(2);
     let found = flaws(&[&ring]);
-    let wanted: Vec<Flaw> = (0..20)
+    let wanted: Vec<PolygonError> = (0..20)
         .map(|k| crossing([0, k + 2], [k as f64 + 0.5, 0.0]))
         .collect();
     assert_eq!(found, wanted);
@@ -438,7 +438,7 @@ fn crossings_are_found_at_any_size() {
     ];
     for size in [1.0, 1e-90, 1e90] {
         let crossed = crossed.map(|p| p.map(|v| size * v));
-        let [Flaw::Crossing { corners, at, .. }] = flaws(&[&crossed])[..] else {
+        let [PolygonError::Crossing { corners, at, .. }] = flaws(&[&crossed])[..] else {
             unreachable!("one crossing at size {size}");
         };
         assert_eq!(corners, [0, 2]);

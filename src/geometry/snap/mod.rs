@@ -12,7 +12,7 @@ mod node;
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::{Aabb, BoxIndex, Edge, Flaw, Pieces, Point, Polygon, cross, overlap};
+use super::{Aabb, BoxIndex, ConvexPieces, Edge, Point, Polygon, PolygonError, cross, overlap};
 use line::Lines;
 use node::Nodes;
 
@@ -29,7 +29,7 @@ pub(crate) struct Corner {
 pub(crate) type Rings = Vec<Vec<Corner>>;
 
 /// The polygon of an outline and its holes.
-pub(crate) fn polygon(rings: &Rings) -> Result<Polygon, Vec<Flaw>> {
+pub(crate) fn polygon(rings: &Rings) -> Result<Polygon, Vec<PolygonError>> {
     let points = |ring: &Vec<Corner>| ring.iter().map(|c| c.at).collect::<Vec<Point>>();
     let mut rings = rings.iter().map(points);
     let outline = rings.next().unwrap_or_default();
@@ -201,7 +201,7 @@ fn beside<'s>(nodes: &Nodes, sides: &'s [Side], gaps: &[f64], kept: &[bool]) -> 
         let along = to - from;
         let length = along.norm();
         let around = Edge { from, to }.around().grown(gaps[side.body]);
-        for number in nearby.near(around).copied() {
+        for number in nearby.intersecting(around).copied() {
             let node = &nodes.all[number];
             if nodes.bodies(node).contains(&side.body) {
                 continue;
@@ -313,9 +313,9 @@ fn spoilt(before: &[Rings], after: &[Rings], gaps: &[f64], noise: f64) -> BTreeS
         }
         polygons.push(made);
     }
-    let pieces: Vec<Option<Pieces>> = polygons
+    let pieces: Vec<Option<ConvexPieces>> = polygons
         .iter()
-        .map(|p| p.as_ref().map(Pieces::new))
+        .map(|p| p.as_ref().map(ConvexPieces::new))
         .collect();
     let drawn = |body: usize| polygon(&before[body]).ok();
     let entries = polygons
@@ -324,7 +324,7 @@ fn spoilt(before: &[Rings], after: &[Rings], gaps: &[f64], noise: f64) -> BTreeS
         .filter_map(|(i, p)| p.as_ref().map(|p| (Aabb::leaning(p.outline()), i)));
     let nearby = BoxIndex::new(entries.collect(), |entry| entry.0);
     for (own, (_, a)) in nearby.all() {
-        for (_, b) in nearby.near(*own) {
+        for (_, b) in nearby.intersecting(*own) {
             if b <= a {
                 continue;
             }
@@ -337,7 +337,9 @@ fn spoilt(before: &[Rings], after: &[Rings], gaps: &[f64], noise: f64) -> BTreeS
             };
             let then = drawn(*a)
                 .zip(drawn(*b))
-                .and_then(|(one, two)| overlap(&Pieces::new(&one), &Pieces::new(&two), 0.0))
+                .and_then(|(one, two)| {
+                    overlap(&ConvexPieces::new(&one), &ConvexPieces::new(&two), 0.0)
+                })
                 .map_or(0.0, |o| o.depth);
             if now.depth > then + noise {
                 wrong.extend([*a, *b]);

@@ -172,7 +172,7 @@ fn near(corners: &[Loose], gaps: &[f64]) -> Vec<(f64, usize, usize)> {
             min: [x - gap, y - gap],
             max: [x + gap, y + gap],
         };
-        for j in nearby.near(around).copied() {
+        for j in nearby.intersecting(around).copied() {
             let distance = (corners[j].at - corner.at).norm();
             let gap = gap.min(gaps[corners[j].body]);
             if j < i && corners[j].body != corner.body && distance <= gap {

@@ -35,12 +35,12 @@ fn combinations_lie_within_their_largest_amount_and_supports_reach_it() {
         for _ in 0..50 {
             let g: Vec<Triple> = (0..count).map(|_| triple(&mut seed)).collect();
             let amounts: Vec<f64> = g.iter().map(|_| 0.3 * chance(&mut seed)).collect();
-            let scale = least_scale(&g, combined(&g, &amounts));
+            let scale = zonotope_gauge(&g, combined(&g, &amounts));
             assert!(scale <= 0.3 * (1.0 + 1e-9), "{count}: {scale}");
             // The point farthest along any direction lies on the surface.
             let n = triple(&mut seed);
             let far: Vec<f64> = g.iter().map(|v| 0.3 * dot(n, *v).signum()).collect();
-            let scale = least_scale(&g, combined(&g, &far));
+            let scale = zonotope_gauge(&g, combined(&g, &far));
             assert!((scale / 0.3 - 1.0).abs() < 1e-9, "{count}: {scale}");
         }
     }
@@ -52,7 +52,7 @@ fn scale_rotation_and_mirror_change_nothing() {
     for _ in 0..100 {
         let g: Vec<Triple> = (0..7).map(|_| triple(&mut seed)).collect();
         let point = triple(&mut seed);
-        let scale = least_scale(&g, point);
+        let scale = zonotope_gauge(&g, point);
         let angle = 3.0 * chance(&mut seed);
         let (sin, cos) = libm::sincos(angle);
         let turned = |v: Triple| [cos * v[0] - sin * v[1], sin * v[0] + cos * v[1], v[2]];
@@ -62,13 +62,13 @@ fn scale_rotation_and_mirror_change_nothing() {
         let ways: [&dyn Fn(Triple) -> Triple; 4] = [&turned, &mirrored, &larger, &smaller];
         for way in ways {
             let changed: Vec<Triple> = g.iter().map(|v| way(*v)).collect();
-            let other = least_scale(&changed, way(point));
+            let other = zonotope_gauge(&changed, way(point));
             assert!(
                 (other / scale - 1.0).abs() < 1e-9,
                 "{other} against {scale}"
             );
         }
-        let quick = scale_at_most(&g, point).expect("seven are few");
+        let quick = zonotope_gauge_bound(&g, point).expect("seven are few");
         assert!(quick >= scale * (1.0 - 1e-9));
     }
 }
@@ -82,26 +82,26 @@ fn a_pebble_between_smooth_faces_is_not_balanced_by_their_thrust() {
         [0.0, -1.0, 0.0],
         [0.0, 0.0, 2e8],
     ];
-    assert!((least_scale(&forces, [0.0, -1.0, 0.0]) - 1.0).abs() < 1e-5);
+    assert!((zonotope_gauge(&forces, [0.0, -1.0, 0.0]) - 1.0).abs() < 1e-5);
     // With friction of half its weight on either side, and a ten-millionth missing, it is.
     let mut held = forces.to_vec();
     held.extend([[0.0, 0.5, 0.5], [0.0, 0.5, -0.5]]);
-    let scale = least_scale(&held, [0.0, -1e-7, 0.0]);
+    let scale = zonotope_gauge(&held, [0.0, -1e-7, 0.0]);
     assert!((scale / 0.5e-7 - 1.0).abs() < 1e-5, "{scale}");
 }
 
 #[test]
 fn flat_and_straight_ones() {
     let line = [[3.0, 4.0, 0.0], [-6.0, -8.0, 0.0]];
-    assert!((least_scale(&line, [0.9, 1.2, 0.0]) - 0.1).abs() < 1e-12);
-    assert_eq!(least_scale(&line, [0.9, 1.2, 1e-9]), f64::INFINITY);
+    assert!((zonotope_gauge(&line, [0.9, 1.2, 0.0]) - 0.1).abs() < 1e-12);
+    assert_eq!(zonotope_gauge(&line, [0.9, 1.2, 1e-9]), f64::INFINITY);
     let plane = [[1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [1.0, 1.0, 0.0]];
-    assert!((least_scale(&plane, [2.0, 3.0, 0.0]) - 1.0).abs() < 1e-12);
-    assert!((least_scale(&plane, [2.0, -2.0, 0.0]) - 4.0 / 3.0).abs() < 1e-12);
-    assert_eq!(least_scale(&plane, [0.0, 0.0, 1e-12]), f64::INFINITY);
-    assert_eq!(least_scale(&[], [1.0, 0.0, 0.0]), f64::INFINITY);
-    assert_eq!(least_scale(&[[0.0; 3]], [0.0; 3]), 0.0);
-    assert_eq!(least_scale(&[[f64::NAN; 3]], [1.0; 3]), f64::INFINITY);
+    assert!((zonotope_gauge(&plane, [2.0, 3.0, 0.0]) - 1.0).abs() < 1e-12);
+    assert!((zonotope_gauge(&plane, [2.0, -2.0, 0.0]) - 4.0 / 3.0).abs() < 1e-12);
+    assert_eq!(zonotope_gauge(&plane, [0.0, 0.0, 1e-12]), f64::INFINITY);
+    assert_eq!(zonotope_gauge(&[], [1.0, 0.0, 0.0]), f64::INFINITY);
+    assert_eq!(zonotope_gauge(&[[0.0; 3]], [0.0; 3]), 0.0);
+    assert_eq!(zonotope_gauge(&[[f64::NAN; 3]], [1.0; 3]), f64::INFINITY);
 }
 
 #[test]
@@ -112,9 +112,9 @@ fn hundreds_of_generators_are_judged_more_strictly_never_less() {
         let n = triple(&mut seed);
         let far: Vec<f64> = g.iter().map(|v| dot(n, *v).signum()).collect();
         let point = combined(&g, &far);
-        let scale = least_scale(&g, point);
+        let scale = zonotope_gauge(&g, point);
         assert!((1.0..1.2).contains(&scale), "{count}: {scale}");
-        let quick = scale_at_most(&g, point).expect("random ones span space");
+        let quick = zonotope_gauge_bound(&g, point).expect("random ones span space");
         assert!((1.0..3.0).contains(&quick), "{count}: {quick}");
     }
 }
@@ -141,7 +141,7 @@ fn three_generators_take_the_amounts_that_solve_for_the_point() {
         let point = combined(&g, &amounts);
         for way in ways() {
             let turned: Vec<Triple> = g.iter().map(|v| way(*v)).collect();
-            let scale = least_scale(&turned, way(point));
+            let scale = zonotope_gauge(&turned, way(point));
             assert!((scale / most - 1.0).abs() < 1e-6, "{scale} for {most}");
         }
     }
@@ -150,14 +150,17 @@ fn three_generators_take_the_amounts_that_solve_for_the_point() {
 #[test]
 fn nothing_needs_nothing_and_has_nothing() {
     let cube = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    assert_eq!(least_scale(&cube, [0.0; 3]), 0.0);
-    assert_eq!(least_scale(&[], [0.0; 3]), 0.0);
-    assert_eq!(least_scale(&[[0.0; 3]; 2], [0.0, 1.0, 0.0]), f64::INFINITY);
+    assert_eq!(zonotope_gauge(&cube, [0.0; 3]), 0.0);
+    assert_eq!(zonotope_gauge(&[], [0.0; 3]), 0.0);
+    assert_eq!(
+        zonotope_gauge(&[[0.0; 3]; 2], [0.0, 1.0, 0.0]),
+        f64::INFINITY
+    );
     for odd in [f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
-        assert_eq!(least_scale(&cube, [0.0, odd, 0.0]), f64::INFINITY);
+        assert_eq!(zonotope_gauge(&cube, [0.0, odd, 0.0]), f64::INFINITY);
         let mut forces = cube.to_vec();
         forces[1][1] = odd;
-        assert_eq!(least_scale(&forces, [0.0, 1.0, 0.0]), f64::INFINITY);
+        assert_eq!(zonotope_gauge(&forces, [0.0, 1.0, 0.0]), f64::INFINITY);
     }
 }
 
@@ -165,11 +168,11 @@ fn nothing_needs_nothing_and_has_nothing() {
 fn what_rounding_may_leave_is_no_distance_and_no_width() {
     let plane = [[1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [1.0, 1.0, 0.0]];
     // Off the plane by a few units in the last place, or by some dozens.
-    let scale = least_scale(&plane, [2.0, 3.0, 4e-15]);
+    let scale = zonotope_gauge(&plane, [2.0, 3.0, 4e-15]);
     assert!((scale - 1.0).abs() < 1e-12, "{scale}");
-    assert_eq!(least_scale(&plane, [2.0, 3.0, 4e-14]), f64::INFINITY);
+    assert_eq!(zonotope_gauge(&plane, [2.0, 3.0, 4e-14]), f64::INFINITY);
     // Forces that are as thick as their own rounding hold nothing up.
-    let thick = |by: f64| least_scale(&[plane[0], plane[1], [0.0, 0.0, by]], [0.0, 0.0, by]);
+    let thick = |by: f64| zonotope_gauge(&[plane[0], plane[1], [0.0, 0.0, by]], [0.0, 0.0, by]);
     assert_eq!(thick(4e-15), f64::INFINITY);
     assert!((thick(1e-13) - 1.0).abs() < 0.2, "{}", thick(1e-13));
     assert!(thick(1e-13) > 1.05, "the rounding counts against them");
@@ -181,19 +184,19 @@ fn a_line_is_as_long_as_all_of_it_together() {
     for way in ways() {
         let direction = |by: f64| way([by, 2.0 * by, -2.0 * by]);
         let line = [0.3, -1.2, 0.5].map(direction);
-        let scale = least_scale(&line, direction(-0.5));
+        let scale = zonotope_gauge(&line, direction(-0.5));
         assert!((scale - 0.25).abs() < 1e-12, "{scale}");
         let beside = way([0.5, 1.0, -0.9]);
-        assert_eq!(least_scale(&line, beside), f64::INFINITY);
+        assert_eq!(zonotope_gauge(&line, beside), f64::INFINITY);
     }
     for k in 0..3 {
         let mut axis = [0.0; 3];
         axis[k] = 3.0;
-        assert!((least_scale(&[axis], axis) - 1.0).abs() < 1e-12);
+        assert!((zonotope_gauge(&[axis], axis) - 1.0).abs() < 1e-12);
         axis[(k + 1) % 3] = 1e-3;
         let mut along = [0.0; 3];
         along[k] = -1.0;
-        assert_eq!(least_scale(&[axis], along), f64::INFINITY);
+        assert_eq!(zonotope_gauge(&[axis], along), f64::INFINITY);
     }
 }
 
@@ -208,9 +211,9 @@ fn a_rectangle_in_space_is_flat_and_bounded_by_its_sides() {
             (0.0, -6.0, 2.0),
             (3.0, 0.0, 1.5),
         ] {
-            let found = least_scale(&sides, way([x, y, 0.0]));
+            let found = zonotope_gauge(&sides, way([x, y, 0.0]));
             assert!((found - scale).abs() < 1e-12, "{found} for {scale}");
-            assert_eq!(least_scale(&sides, way([x, y, 1e-3])), f64::INFINITY);
+            assert_eq!(zonotope_gauge(&sides, way([x, y, 1e-3])), f64::INFINITY);
         }
     }
 }
@@ -231,8 +234,8 @@ fn few_are_told_exactly_and_many_by_their_least_squares() {
     forces[4] = [1.0, 1.0, 1.0];
     let point = [2.0, 1.0, 0.5];
     assert_eq!(
-        scale_at_most(&forces, point),
-        Some(least_scale(&forces, point))
+        zonotope_gauge_bound(&forces, point),
+        Some(zonotope_gauge(&forces, point))
     );
     forces[4] = along(0, 1.0);
     forces.extend([along(1, 2.0), along(1, 2.0)]);
@@ -244,9 +247,9 @@ fn few_are_told_exactly_and_many_by_their_least_squares() {
             ([0.0, 0.0, 2.0], 0.4),
             ([1.0, 4.0, -2.0], 0.5),
         ] {
-            let scale = scale_at_most(&turned, way(point)).expect("they span space");
+            let scale = zonotope_gauge_bound(&turned, way(point)).expect("they span space");
             assert!((scale / most - 1.0).abs() < 1.1e-5, "{scale} for {most}");
-            assert!(scale >= least_scale(&turned, way(point)));
+            assert!(scale >= zonotope_gauge(&turned, way(point)));
         }
     }
 }
@@ -261,7 +264,7 @@ fn least_squares_say_nothing_where_space_is_not_spanned_well() {
     for way in ways() {
         let mut spans = |thick: f64| {
             let forces: Vec<Triple> = flat(thick, &mut seed).into_iter().map(way).collect();
-            scale_at_most(&forces, way([1.0, 0.0, 0.0])).is_some()
+            zonotope_gauge_bound(&forces, way([1.0, 0.0, 0.0])).is_some()
         };
         assert!(spans(1.0) && spans(1e-3));
         assert!(!spans(1e-6) && !spans(0.0));
@@ -279,11 +282,17 @@ fn least_squares_say_nothing_where_space_is_not_spanned_well() {
                 };
                 forces.extend([g; 20]);
             }
-            assert_eq!(scale_at_most(&forces, [1.0, 0.0, 0.0]).is_some(), some);
+            assert_eq!(
+                zonotope_gauge_bound(&forces, [1.0, 0.0, 0.0]).is_some(),
+                some
+            );
         }
     }
-    assert_eq!(scale_at_most(&[[0.0; 3]; 20], [1.0, 0.0, 0.0]), None);
-    assert_eq!(scale_at_most(&[[f64::NAN; 3]; 20], [1.0, 0.0, 0.0]), None);
+    assert_eq!(zonotope_gauge_bound(&[[0.0; 3]; 20], [1.0, 0.0, 0.0]), None);
+    assert_eq!(
+        zonotope_gauge_bound(&[[f64::NAN; 3]; 20], [1.0, 0.0, 0.0]),
+        None
+    );
 }
 
 #[test]
@@ -294,8 +303,8 @@ fn least_squares_are_never_below_the_smallest_scale() {
         let amounts: Vec<f64> = g.iter().map(|_| chance(&mut seed)).collect();
         let point = combined(&g, &amounts);
         let (quick, least) = (
-            scale_at_most(&g, point).expect("they span space"),
-            least_scale(&g, point),
+            zonotope_gauge_bound(&g, point).expect("they span space"),
+            zonotope_gauge(&g, point),
         );
         // Their amounts are the shortest that give the point, so the largest is no larger than all given ones together.
         let length: f64 = amounts.iter().map(|a| a * a).sum::<f64>().sqrt();
@@ -415,8 +424,8 @@ fn a_bound_lies_above_the_answer_and_says_nothing_of_flat_ones() {
         let squeezed = |[x, y, z]: Triple| [thin * x, y, z];
         let g: Vec<Triple> = (0..count).map(|_| squeezed(triple(&mut seed))).collect();
         let point = squeezed(triple(&mut seed));
-        let scale = least_scale(&g, point);
-        if let Some(bound) = scale_bound(&g, point) {
+        let scale = zonotope_gauge(&g, point);
+        if let Some(bound) = quick_gauge_bound(&g, point) {
             assert!(scale <= bound, "{scale} above {bound}");
             bounded += 1;
         }
@@ -424,7 +433,7 @@ fn a_bound_lies_above_the_answer_and_says_nothing_of_flat_ones() {
     assert!(bounded > 2500, "{bounded}");
     let plane = [[1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [1.0, 1.0, 0.0]];
     let box_of = [[1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 3.0]];
-    assert_eq!(scale_bound(&plane, [0.0, 0.0, 1e-12]), None);
-    assert_eq!(scale_bound(&box_of, [f64::NAN, 0.0, 0.0]), None);
-    assert_eq!(scale_bound(&[box_of[0]; 60], [1.0, 0.0, 0.0]), None);
+    assert_eq!(quick_gauge_bound(&plane, [0.0, 0.0, 1e-12]), None);
+    assert_eq!(quick_gauge_bound(&box_of, [f64::NAN, 0.0, 0.0]), None);
+    assert_eq!(quick_gauge_bound(&[box_of[0]; 60], [1.0, 0.0, 0.0]), None);
 }

@@ -5,7 +5,7 @@ use crate::effect::sticking::Sought;
 use crate::effect::{
     FrameContext, contact, corner_contact, friction, mechanism, robot, robot_torque, sticking,
 };
-use crate::program::Count;
+use crate::program::UnknownCounts;
 use crate::proof::Proof;
 
 /// The worst of the numbers of two proofs; of two kinds, the mechanism.
@@ -52,7 +52,7 @@ pub(super) fn worst(a: Proof, b: Proof) -> Proof {
 pub(super) fn settle(
     analysis: &mut FrameAnalysis,
     situation: &FrameContext,
-    count: Count,
+    count: UnknownCounts,
     verdict_only: bool,
 ) {
     let unstable = analysis.verdict == Verdict::Unstable;

@@ -6,7 +6,7 @@ use super::{Contact, FrameAnalysis, Proof, RobotForce, SolveReport, Stages, Verd
 use crate::assembly::Assembly;
 use crate::effect::{EffectReport, FrameContext};
 use crate::geometry::Vector;
-use crate::resultant::{friction_used, of as resultant_of};
+use crate::resultant::{friction_used, from_corner_forces};
 
 /// The frame before any component is added: every contact and grip without force.
 pub(super) fn gathered(
@@ -23,7 +23,7 @@ pub(super) fn gathered(
             application_points: interface.application_points(scene.kernel),
             normal_forces: [0.0; 2],
             friction_force: 0.0,
-            resultant: resultant_of(interface, scene.kernel, [0.0; 2], 0.0),
+            resultant: from_corner_forces(interface, scene.kernel, [0.0; 2], 0.0),
             friction_used: 0.0,
         })
         .collect();
@@ -88,7 +88,7 @@ pub(super) fn add(
         let (normal, friction) = (pressed.normal, pressed.friction);
         contact.normal_forces = normal;
         contact.friction_force = friction;
-        contact.resultant = resultant_of(&contact.interface, kernel, normal, friction);
+        contact.resultant = from_corner_forces(&contact.interface, kernel, normal, friction);
         contact.friction_used = friction_used(&contact.interface, normal, friction);
         analysis.total_force += normal[0] + normal[1] + friction.abs();
     }

@@ -52,7 +52,8 @@ pub fn verdicts(scene: &Scene, options: &Options) -> Vec<Verdict> {
 
 /// Whether narrow gaps, overlaps or contacts too short to count may decide, so that every frame is to be judged both ways.
 pub(crate) fn hinges_on_gaps(scene: &Scene, found: &Interfaces) -> bool {
-    let none = found.near.is_empty() && found.slivers.is_empty() && scene.penetrations.is_empty();
+    let none =
+        found.near_misses.is_empty() && found.slivers.is_empty() && scene.penetrations.is_empty();
     scene.healed.source != ToleranceSource::Given && !none
 }
 

@@ -35,9 +35,9 @@ use crate::geometry::{Point, Vector};
 use crate::interface::Interfaces;
 #[doc(inline)]
 pub use crate::interface::{ContactKind, Interface};
-use crate::program::Count;
+use crate::program::UnknownCounts;
 #[doc(inline)]
-pub use crate::proof::{Demand, Motion, Proof};
+pub use crate::proof::{Motion, Proof, ProofThreshold};
 #[doc(inline)]
 pub use crate::resultant::Resultant;
 use crate::scene::{BlockId, BodyId, Note, RobotId, Scene};
@@ -113,7 +113,7 @@ pub struct FrameAnalysis {
     /// Σ(N1+N2+|T|) + Σ(|Fx|+|Fy|+|M|/L), N: the source's cost.
     pub total_force: f64,
     /// Where it stands: the sum that admissible forces must have at least to balance, N, as far as a motion shows it
-    /// ([`least_sum`](crate::proof::least_sum)).
+    /// ([`force_sum_lower_bound`](crate::proof::force_sum_lower_bound)).
     pub force_bound: Option<f64>,
     /// Whether the total force is no more than a millionth above that; where not, the forces balance, and a smaller sum may
     /// balance too.
@@ -327,7 +327,7 @@ fn examine_found(scene: &Scene, found: &Interfaces, options: &Options) -> Vec<Fr
 fn examined(situation: &FrameContext, options: Options, known: &mut Known) -> FrameAnalysis {
     let start = Instant::now();
     let (assembly, reports) = effect::assemble(situation);
-    let components = assembly.split();
+    let components = assembly.components();
     let keys: Vec<Key> = components.iter().map(key).collect();
     let mut stages = Stages {
         assembly: start.elapsed().as_secs_f64(),
@@ -366,7 +366,7 @@ fn examined(situation: &FrameContext, options: Options, known: &mut Known) -> Fr
     }
     let count = found
         .iter()
-        .fold(Count::default(), |sum, f| sum.and(f.1.count));
+        .fold(UnknownCounts::default(), |sum, f| sum.and(f.1.count));
     settle(&mut analysis, situation, count, options.verdict_only);
     if analysis.verdict == Verdict::Undecided && options.is_late() {
         analysis.doubts.insert(0, UndecidedReason::Late);

@@ -9,7 +9,7 @@
 
 use super::{FrameAnalysis, Options, UndecidedReason, Verdict, examine, examine_found};
 use crate::geometry::Point;
-use crate::interface::{Interface, Interfaces, Near, Touching, held_open};
+use crate::interface::{ContactsByBody, Interface, Interfaces, NearMiss, pinning_stone};
 use crate::scene::{BodyId, Note, NoteCode, Penetration, Scene, ToleranceSource, size};
 
 /// So many places are named.
@@ -34,8 +34,8 @@ struct Place {
     overlaps: bool,
 }
 
-impl From<&Near> for Place {
-    fn from(gap: &Near) -> Place {
+impl From<&NearMiss> for Place {
+    fn from(gap: &NearMiss) -> Place {
         Place {
             bodies: gap.bodies,
             at: gap.at,
@@ -67,10 +67,10 @@ pub(super) fn judge(
         return;
     }
     judge_slivers(scene, found, frames, options);
-    if found.near.is_empty() && scene.penetrations.is_empty() {
+    if found.near_misses.is_empty() && scene.penetrations.is_empty() {
         return;
     }
-    let touching = Touching::new(&found.all);
+    let touching = ContactsByBody::new(&found.all);
     let places: Vec<Vec<Place>> = (scene.frames.iter())
         .map(|frame| {
             let mut placed = vec![false; scene.blocks.len()];
@@ -81,9 +81,9 @@ pub(super) fn judge(
                 BodyId::Ground(_) => true,
                 BodyId::Block(id) => placed[id.0],
             };
-            let gaps = (found.near.iter())
+            let gaps = (found.near_misses.iter())
                 .filter(|gap| gap.bodies.iter().all(stands))
-                .filter(|gap| held_open(gap, &touching, stands, scene.tolerance.gap).is_none());
+                .filter(|gap| pinning_stone(gap, &touching, stands, scene.tolerance.gap).is_none());
             let overlaps = (scene.penetrations.iter()).filter(|o| o.bodies.iter().all(stands));
             gaps.map(Place::from)
                 .chain(overlaps.map(Place::from))
@@ -211,8 +211,8 @@ pub(super) fn notes(scene: &Scene, found: &Interfaces) -> Vec<Note> {
     if scene.healed.source == ToleranceSource::Given || scene.silences(code) {
         return notes;
     }
-    let touching = Touching::new(&found.all);
-    let gaps: Vec<&Near> = (found.near.iter())
+    let touching = ContactsByBody::new(&found.all);
+    let gaps: Vec<&NearMiss> = (found.near_misses.iter())
         .filter(|gap| {
             scene.frames.iter().any(|frame| {
                 let stands = |body: &BodyId| match body {
@@ -220,7 +220,7 @@ pub(super) fn notes(scene: &Scene, found: &Interfaces) -> Vec<Note> {
                     BodyId::Block(id) => frame.placed.contains(id),
                 };
                 gap.bodies.iter().all(stands)
-                    && held_open(gap, &touching, stands, scene.tolerance.gap).is_none()
+                    && pinning_stone(gap, &touching, stands, scene.tolerance.gap).is_none()
             })
         })
         .take(NOTED + 1)

@@ -5,7 +5,7 @@
 use std::time::Instant;
 
 use super::margin::MarginKinds;
-use crate::proof::Demand;
+use crate::proof::ProofThreshold;
 use crate::solve::{Choice, Conditioning, SolverSettings, TOLERANCE};
 
 /// How an analysis is made.
@@ -37,10 +37,10 @@ pub enum Accuracy {
     /// Any balance at all, from a solver that stops at [`Accuracy::LOOSE`]; verdicts are as honest as in `Standard`, but where a
     /// load can go several ways the forces shown are one way of many, and may depend on the order of the file.
     Draft,
-    /// The unique forces; a verdict is believed as [`Demand::STANDARD`] says.
+    /// The unique forces; a verdict is believed as [`ProofThreshold::STANDARD`] says.
     #[default]
     Standard,
-    /// The unique forces; a verdict without a proof as [`Demand::STRICT`] wants it is `Undecided`.
+    /// The unique forces; a verdict without a proof as [`ProofThreshold::STRICT`] wants it is `Undecided`.
     Proved,
 }
 
@@ -49,10 +49,10 @@ impl Accuracy {
     pub const LOOSE: f64 = 1e-8;
 
     /// What a proof must come to.
-    pub fn demand(self) -> Demand {
+    pub fn demand(self) -> ProofThreshold {
         match self {
-            Accuracy::Draft | Accuracy::Standard => Demand::STANDARD,
-            Accuracy::Proved => Demand::STRICT,
+            Accuracy::Draft | Accuracy::Standard => ProofThreshold::STANDARD,
+            Accuracy::Proved => ProofThreshold::STRICT,
         }
     }
 }

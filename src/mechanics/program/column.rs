@@ -60,7 +60,7 @@ pub enum Force {
 
 impl Force {
     /// Whether the force is sticking, not admissible.
-    pub fn sticks(&self) -> bool {
+    pub fn is_sticking(&self) -> bool {
         matches!(
             self,
             Force::StickNormal { .. } | Force::StickFriction { .. } | Force::StickGrip { .. }
@@ -182,7 +182,7 @@ impl Column {
 
 /// How many unknowns each effect has in a program.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Count {
+pub struct UnknownCounts {
     /// Normal forces of edge contacts.
     pub contact: usize,
     /// Normal forces with full friction of edge contacts.
@@ -197,10 +197,13 @@ pub struct Count {
     pub sticking: usize,
 }
 
-impl Count {
+impl UnknownCounts {
     /// Counts columns, `program`'s own.
-    pub fn new<'a>(program: &Program, columns: impl IntoIterator<Item = &'a Column>) -> Count {
-        let mut count = Count::default();
+    pub fn new<'a>(
+        program: &Program,
+        columns: impl IntoIterator<Item = &'a Column>,
+    ) -> UnknownCounts {
+        let mut count = UnknownCounts::default();
         for column in columns {
             let of = match column.force {
                 Force::Ray {
@@ -220,8 +223,8 @@ impl Count {
     }
 
     /// The sum of two counts.
-    pub fn and(self, other: Count) -> Count {
-        Count {
+    pub fn and(self, other: UnknownCounts) -> UnknownCounts {
+        UnknownCounts {
             contact: self.contact + other.contact,
             friction: self.friction + other.friction,
             corner_contact: self.corner_contact + other.corner_contact,

@@ -9,15 +9,15 @@
 mod column;
 mod pose;
 mod scale;
-mod straight;
+mod parallel_joints;
 #[cfg(test)]
 mod tests;
 
-pub use column::{Column, Count, Force, columns, sticking_columns};
+pub use column::{Column, Force, UnknownCounts, columns, sticking_columns};
 pub(crate) use pose::product;
 pub use pose::{
-    Cap, Conic, Correction, force_form, kinematic, least_left, least_squares, most_of, shortest,
-    smallest, source,
+    Correction, CostCap, QuadraticProgram, force_primal, kinematic_dual, least_change, least_norm,
+    least_residual_dual, least_squares, load_factor_dual, vallat_program,
 };
 pub use scale::Scale;
 

@@ -1,12 +1,12 @@
 //! The forms in which a program is handed to the conic solver.
 //!
-//! [`Conic`]: min ½ xᵀPx + qᵀx  s.t.  the first `equalities` rows Ax = b, the others Ax ≤ b. Poses never mention metres.
+//! [`QuadraticProgram`]: min ½ xᵀPx + qᵀx  s.t.  the first `equalities` rows Ax = b, the others Ax ≤ b. Poses never mention metres.
 
 use super::{Column, Force, Program, columns};
 
 /// A problem for the conic solver, matrices as (row, column, value) lists.
 #[derive(Clone, Debug)]
-pub struct Conic {
+pub struct QuadraticProgram {
     /// Unknowns.
     pub unknowns: usize,
     /// Upper triangle of P.
@@ -27,12 +27,12 @@ pub struct Conic {
 /// −limit·w in the objective. A pair of columns ± with cost 0 and no limit is one equality. Rows stand in the columns'
 /// order, so that the dual of row k is the amount of column k; a pair's equality carries the amount of the first less the
 /// second.
-pub fn kinematic(
+pub fn kinematic_dual(
     loads: &[f64],
     columns: &[Column],
     cost: impl Fn(&Column) -> f64,
-) -> (Conic, Vec<usize>) {
-    let mut conic = Conic {
+) -> (QuadraticProgram, Vec<usize>) {
+    let mut conic = QuadraticProgram {
         unknowns: loads.len(),
         quadratic: Vec::new(),
         linear: loads.iter().map(|v| -v).collect(),
@@ -107,8 +107,12 @@ pub fn kinematic(
 /// The dual of  max λ  s.t.  Σ amount·column = loads + λ·toward:  max loadsᵀy  s.t.  columnᵀy ≤ 0, towardᵀy ≥ 1.
 ///
 /// The last row is the one of λ: its dual is the largest λ ≥ 0.
-pub fn most_of(loads: &[f64], toward: &[f64], columns: &[Column]) -> (Conic, Vec<usize>) {
-    let (mut conic, row_of) = kinematic(loads, columns, |_| 0.0);
+pub fn load_factor_dual(
+    loads: &[f64],
+    toward: &[f64],
+    columns: &[Column],
+) -> (QuadraticProgram, Vec<usize>) {
+    let (mut conic, row_of) = kinematic_dual(loads, columns, |_| 0.0);
     let row = conic.bound.len();
     let entries = toward.iter().enumerate().filter(|(_, v)| **v != 0.0);
     conic.matrix.extend(entries.map(|(i, v)| (row, i, -v)));
@@ -120,8 +124,8 @@ pub fn most_of(loads: &[f64], toward: &[f64], columns: &[Column]) -> (Conic, Vec
 ///
 /// It has an optimum whether the program stands or falls, and both stories in it: forces that leave least, and the motion
 /// of largest power.
-pub fn least_left(loads: &[f64], columns: &[Column]) -> (Conic, Vec<usize>) {
-    let (mut conic, row_of) = kinematic(loads, columns, |_| 0.0);
+pub fn least_residual_dual(loads: &[f64], columns: &[Column]) -> (QuadraticProgram, Vec<usize>) {
+    let (mut conic, row_of) = kinematic_dual(loads, columns, |_| 0.0);
     for row in 0..loads.len() {
         for sign in [1.0, -1.0] {
             conic.matrix.push((conic.bound.len(), row, sign));
@@ -133,8 +137,12 @@ pub fn least_left(loads: &[f64], columns: &[Column]) -> (Conic, Vec<usize>) {
 
 /// The shortest change d of velocities:  min ½ |d|²  s.t.  columnᵀd = value for the first `equalities` of the columns, and
 /// columnᵀd ≥ value for the others.
-pub fn shortest(unknowns: usize, columns: &[(&Column, f64)], equalities: usize) -> Conic {
-    let mut conic = Conic {
+pub fn least_change(
+    unknowns: usize,
+    columns: &[(&Column, f64)],
+    equalities: usize,
+) -> QuadraticProgram {
+    let mut conic = QuadraticProgram {
         unknowns,
         quadratic: (0..unknowns).map(|i| (i, i, 1.0)).collect(),
         linear: vec![0.0; unknowns],
@@ -155,9 +163,9 @@ pub fn shortest(unknowns: usize, columns: &[(&Column, f64)], equalities: usize) 
 }
 
 /// The amounts of least Σ amount², of either sign, that give `loads`.
-pub fn smallest(loads: &[f64], columns: &[Column]) -> Conic {
+pub fn least_norm(loads: &[f64], columns: &[Column]) -> QuadraticProgram {
     let entries = columns.iter().enumerate();
-    Conic {
+    QuadraticProgram {
         unknowns: columns.len(),
         quadratic: (0..columns.len()).map(|i| (i, i, 1.0)).collect(),
         linear: vec![0.0; columns.len()],
@@ -185,7 +193,11 @@ pub struct Correction<'a> {
 /// may be changed the solver ends without a status.
 /// Else the squares are those of N1, N2, T of each contact and of each component of a grip, not of the generators, so the
 /// answer does not depend on how a cone is written.
-pub fn least_squares(loads: &[f64], columns: &[Column], correction: Option<Correction>) -> Conic {
+pub fn least_squares(
+    loads: &[f64],
+    columns: &[Column],
+    correction: Option<Correction>,
+) -> QuadraticProgram {
     let mut quadratic = Vec::new();
     if correction.is_some() {
         quadratic.extend((0..columns.len()).map(|j| (j, j, 1.0)));
@@ -214,7 +226,7 @@ pub fn least_squares(loads: &[f64], columns: &[Column], correction: Option<Corre
             bound.push(column.limit / size - floor);
         }
     }
-    Conic {
+    QuadraticProgram {
         unknowns: columns.len(),
         quadratic,
         linear: vec![0.0; columns.len()],
@@ -225,18 +237,18 @@ pub fn least_squares(loads: &[f64], columns: &[Column], correction: Option<Corre
 }
 
 /// A second sum and the most it may come to.
-pub type Cap<'a> = (&'a dyn Fn(&Column) -> f64, f64);
+pub type CostCap<'a> = (&'a dyn Fn(&Column) -> f64, f64);
 
 /// The forces themselves as unknowns: min Σ cost·amount  s.t.  they balance `loads`, 0 ≤ amount ≤ limit.
 ///
-/// With a [`Cap`] = (cost, most) a second sum is bounded, Σ cost·amount ≤ most: the second stage of a lexicographic program.
+/// With a [`CostCap`] = (cost, most) a second sum is bounded, Σ cost·amount ≤ most: the second stage of a lexicographic program.
 /// Kept, like [`source`], to show what the kinematic dual saves.
-pub fn force_form(
+pub fn force_primal(
     loads: &[f64],
     columns: &[Column],
     cost: impl Fn(&Column) -> f64,
-    cap: Option<Cap>,
-) -> Conic {
+    cap: Option<CostCap>,
+) -> QuadraticProgram {
     let mut conic = least_squares(loads, columns, None);
     conic.quadratic.clear();
     conic.linear = columns.iter().map(cost).collect();
@@ -325,7 +337,7 @@ pub(crate) fn product(a: &Force, b: &Force) -> Option<f64> {
 ///
 /// It is kept to show what β costs in time and digits; nothing else rests on it. The unknowns stand interface by
 /// interface as N1, f1⁺, f1⁻, N2, f2⁺, f2⁻, then grip by grip as Fx±, Fy±, M±, then all partners.
-pub fn source(program: &Program, beta: f64) -> Conic {
+pub fn vallat_program(program: &Program, beta: f64) -> QuadraticProgram {
     let mut posed: Vec<Column> = Vec::new();
     let mut cones: Vec<(usize, f64)> = Vec::new();
     let mut limits: Vec<(usize, f64)> = Vec::new();
@@ -400,7 +412,7 @@ pub fn source(program: &Program, beta: f64) -> Conic {
         bound.push(0.0);
     }
     let linear = (0..2 * n).map(|j| if j < n { 1.0 } else { beta }).collect();
-    Conic {
+    QuadraticProgram {
         unknowns: 2 * n,
         quadratic: Vec::new(),
         linear,

@@ -49,7 +49,7 @@ fn assert_entries(column: &Column, expected: &[(usize, f64)]) {
 }
 
 /// A conic's row as dense numbers.
-fn row(conic: &Conic, number: usize) -> Vec<f64> {
+fn row(conic: &QuadraticProgram, number: usize) -> Vec<f64> {
     let mut row = vec![0.0; conic.unknowns];
     for (_, column, value) in conic.matrix.iter().filter(|e| e.0 == number) {
         row[*column] += value;
@@ -84,18 +84,22 @@ fn columns_are_the_edges_of_friction_cones_and_what_robots_give() {
         &[(2, -1.0)],
     ];
     assert_columns(&columns, &expected);
-    assert!(columns.iter().all(|c| c.cost == 1.0 && !c.force.sticks()));
+    assert!(
+        columns
+            .iter()
+            .all(|c| c.cost == 1.0 && !c.force.is_sticking())
+    );
     let limits: Vec<f64> = columns[6..].iter().map(|c| c.limit).collect();
     let free = f64::INFINITY;
     assert_eq!(limits, [1.0, 1.0, free, free, 2.0, 2.0]);
     assert!(columns[..6].iter().all(|c| c.limit.is_infinite()));
-    let count = Count::new(&program, &columns);
-    let expected = Count {
+    let count = UnknownCounts::new(&program, &columns);
+    let expected = UnknownCounts {
         contact: 2,
         friction: 4,
         robot: 4,
         robot_torque: 2,
-        ..Count::default()
+        ..UnknownCounts::default()
     };
     assert_eq!(count, expected);
     // What may not be given has no column.
@@ -119,10 +123,10 @@ fn sticking_columns_pull_hold_on_and_go_beyond_limits() {
         &[(2, -1.0)],
     ];
     assert_columns(&columns, &expected);
-    assert!((columns.iter()).all(|c| c.force.sticks() && c.limit.is_infinite()));
-    let admissible = Count::new(&program, &super::columns(&program));
-    let all = admissible.and(Count::new(&program, &columns));
-    let sum = Count {
+    assert!((columns.iter()).all(|c| c.force.is_sticking() && c.limit.is_infinite()));
+    let admissible = UnknownCounts::new(&program, &super::columns(&program));
+    let all = admissible.and(UnknownCounts::new(&program, &columns));
+    let sum = UnknownCounts {
         sticking: 10,
         ..admissible
     };
@@ -162,7 +166,7 @@ fn what_acts_between_two_bodies_is_opposite_on_the_other() {
             (2, -(THIRD + 0.75 * THIRD)),
         ],
     );
-    let counted = Count::new(&program, &columns);
+    let counted = UnknownCounts::new(&program, &columns);
     assert_eq!([counted.corner_contact, counted.contact], [3, 0]);
     assert_eq!(counted.and(counted).corner_contact, 6);
 }
@@ -298,7 +302,7 @@ fn the_kinematic_dual_has_a_row_for_every_column() {
     let program = example();
     let columns = columns(&program);
     // Two limits of x and two of the torque: four unknowns more, each with a row of its own.
-    let (conic, row_of) = kinematic(&program.loads, &columns, |c| c.cost);
+    let (conic, row_of) = kinematic_dual(&program.loads, &columns, |c| c.cost);
     assert_eq!((conic.unknowns, conic.equalities), (7, 0));
     assert_eq!(conic.bound.len(), 12 + 4);
     assert_eq!(conic.linear, [0.5, -4.0, 0.75, 1.0, 1.0, 2.0, 2.0]);
@@ -317,7 +321,7 @@ fn the_kinematic_dual_has_a_row_for_every_column() {
         );
     }
     // Without cost the pair of the free vertical force is one equality.
-    let (conic, row_of) = kinematic(&program.loads, &columns, |_| 0.0);
+    let (conic, row_of) = kinematic_dual(&program.loads, &columns, |_| 0.0);
     assert_eq!((conic.equalities, conic.bound.len()), (1, 11 + 4));
     assert_eq!((row_of[8], row_of[9]), (0, usize::MAX));
     assert_eq!(row(&conic, 0), dense(&columns[8], 7));
@@ -328,11 +332,11 @@ fn the_kinematic_dual_has_a_row_for_every_column() {
         .collect();
     assert_eq!(others.len(), 10);
 
-    let (conic, _) = most_of(&program.loads, &[0.0, 2.0, -1.0], &columns);
+    let (conic, _) = load_factor_dual(&program.loads, &[0.0, 2.0, -1.0], &columns);
     let last = conic.bound.len() - 1;
     assert_eq!(row(&conic, last), [0.0, -2.0, 1.0, 0.0, 0.0, 0.0, 0.0]);
     assert_eq!(conic.bound[last], -1.0);
-    let (conic, _) = least_left(&program.loads, &columns);
+    let (conic, _) = least_residual_dual(&program.loads, &columns);
     for (k, sign) in [(0, 1.0), (1, -1.0), (4, 1.0), (5, -1.0)] {
         let at = 15 + k;
         let mut unit = vec![0.0; 7];
@@ -346,7 +350,7 @@ fn shortest_and_smallest_changes_meet_their_rows() {
     let program = example();
     let columns = columns(&program);
     let rows = [(&columns[0], 2.0), (&columns[2], 3.0)];
-    let conic = shortest(3, &rows, 1);
+    let conic = least_change(3, &rows, 1);
     assert_eq!(
         (row(&conic, 0), conic.bound[0]),
         (dense(&columns[0], 3), 2.0)
@@ -356,7 +360,7 @@ fn shortest_and_smallest_changes_meet_their_rows() {
     assert_eq!(conic.quadratic, [(0, 0, 1.0), (1, 1, 1.0), (2, 2, 1.0)]);
     assert_eq!(conic.equalities, 1);
 
-    let conic = smallest(&program.loads, &columns);
+    let conic = least_norm(&program.loads, &columns);
     assert_eq!((conic.equalities, conic.bound), (3, program.loads.clone()));
     assert_eq!(conic.unknowns, 12);
     assert!(conic.quadratic.iter().all(|(i, j, v)| i == j && *v == 1.0));

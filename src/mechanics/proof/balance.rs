@@ -12,7 +12,10 @@
 
 use super::Forces;
 use crate::assembly::{Assembly, AssemblyBody};
-use crate::geometry::{Point, Sum, Triple, Vector, cross, least_scale, scale_at_most, scale_bound};
+use crate::geometry::{
+    CompensatedSum, Point, Triple, Vector, cross, quick_gauge_bound, zonotope_gauge,
+    zonotope_gauge_bound,
+};
 
 /// Rounding of a few sums and products, in parts of what is summed.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
@@ -35,7 +38,7 @@ struct Cone {
 struct Acting {
     centroid: Point,
     radius: f64,
-    left: [Sum; 3],
+    left: [CompensatedSum; 3],
     generators: Vec<Triple>,
     cones: Vec<Cone>,
     /// Σ |F|.
@@ -49,7 +52,7 @@ impl Acting {
         let mut acting = Acting {
             centroid: body.centroid,
             radius: body.radius(),
-            left: [Sum::default(); 3],
+            left: [CompensatedSum::default(); 3],
             generators: Vec::with_capacity(16),
             cones: Vec::with_capacity(8),
             total: 0.0,
@@ -89,7 +92,7 @@ impl Acting {
 
     /// What is left unbalanced, N.
     fn left(&self) -> Triple {
-        let [x, y, moment] = self.left.map(Sum::value);
+        let [x, y, moment] = self.left.map(CompensatedSum::value);
         [x, y, moment / self.radius]
     }
 
@@ -118,9 +121,9 @@ impl Acting {
         if left == [0.0; 3] {
             return 0.0;
         }
-        match scale_at_most(&self.generators, left) {
+        match zonotope_gauge_bound(&self.generators, left) {
             Some(enough) if enough <= PLENTY => enough,
-            _ => least_scale(&self.generators, left),
+            _ => zonotope_gauge(&self.generators, left),
         }
     }
 }
@@ -151,7 +154,7 @@ pub(super) fn worst(assembly: &Assembly, forces: &Forces) -> (f64, f64) {
             share = share.max(libm::hypot(x, y).max(moment.abs()) / acting.load);
         }
         acting.complete();
-        let bound = scale_bound(&acting.generators, left).unwrap_or(f64::INFINITY);
+        let bound = quick_gauge_bound(&acting.generators, left).unwrap_or(f64::INFINITY);
         bounds.push((bound, number));
     }
     bounds.sort_unstable_by(|a, b| b.0.total_cmp(&a.0));

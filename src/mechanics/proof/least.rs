@@ -21,7 +21,7 @@ impl Forces {
 
 /// A number of newtons below which no admissible forces sum that balance an assembly exactly; 0 where the motion says
 /// nothing. Speeds are those against which a unit of force costs 1; sums count torques over the assembly's L.
-pub fn least_sum(assembly: &Assembly, motions: &[Motion]) -> f64 {
+pub fn force_sum_lower_bound(assembly: &Assembly, motions: &[Motion]) -> f64 {
     let binding = NON_BINDING * moving_load(assembly, motions);
     let mut worst = worst_violation(assembly, motions).max(1.0);
     let mut limited = Vec::new();

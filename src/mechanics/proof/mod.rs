@@ -9,7 +9,7 @@
 //! neither the heaviest block nor the typical length decides about the smallest stone.
 //! *Unstable* is proved by a motion: the loads do work along it, and no admissible force can object, because every
 //! contact only opens or slides apart. If forces of a sum Σ(N + |T|) = F did balance, then power ≤ violation · F; a
-//! motion with violation δ therefore rules out every balance with less force than power/δ ([`Proof::rules_out`]). Power
+//! motion with violation δ therefore rules out every balance with less force than power/δ ([`Proof::excluded_force_sum`]). Power
 //! counts in parts of the loads of what moves. What the sums below may be off by in f64 counts against the motion, so a
 //! violation of 0 is none at all.
 
@@ -19,7 +19,7 @@ mod least;
 mod tests;
 
 pub use balance::imbalances;
-pub use least::least_sum;
+pub use least::force_sum_lower_bound;
 
 use crate::assembly::{Assembly, AssemblyBody, LoadVector};
 use crate::geometry::{Point, Vector, quarter_turn};
@@ -59,22 +59,22 @@ impl Proof {
     ///
     /// It is also the band within which a structure that just falls is called standing: by a push on a block of this share
     /// of the forces that act on it, or a centre of gravity this share of the block's radius outside its support.
-    pub const BAND: f64 = 1e-7;
+    pub const IMBALANCE_TOL: f64 = 1e-7;
 
     /// A motion convinces when it rules out every balance of less than so many times the loads of what moves.
     ///
     /// Motions are freed of what a solver left undone before they are judged. What remains where a contact can neither open
     /// nor close is the rounding of speeds, some 10⁻¹⁵, so that a motion is believed as soon as it does work beyond
-    /// [`Proof::BAND`].
-    pub const CONVINCING: f64 = 1e7;
+    /// [`Proof::IMBALANCE_TOL`].
+    pub const MIN_POWER_RATIO: f64 = 1e7;
 
-    /// Whether the proof convinces as [`Demand::STANDARD`] wants it.
+    /// Whether the proof convinces as [`ProofThreshold::STANDARD`] wants it.
     pub fn holds(&self) -> bool {
-        self.meets(Demand::STANDARD)
+        self.meets(ProofThreshold::STANDARD)
     }
 
     /// Whether the proof comes to what is demanded.
-    pub fn meets(&self, demand: Demand) -> bool {
+    pub fn meets(&self, demand: ProofThreshold) -> bool {
         match *self {
             Proof::Forces {
                 worst_imbalance,
@@ -85,7 +85,7 @@ impl Proof {
             Proof::Mechanism {
                 power,
                 worst_violation,
-            } => power > 1e-12 && power >= demand.conviction * worst_violation,
+            } => power > 1e-12 && power >= demand.power_ratio * worst_violation,
         }
     }
 
@@ -93,7 +93,7 @@ impl Proof {
     ///
     /// What unlimited robots give counts among these forces. Infinite where nothing is violated: then no forces balance,
     /// however large. 0 for a proof by forces, which rules nothing out.
-    pub fn rules_out(&self) -> f64 {
+    pub fn excluded_force_sum(&self) -> f64 {
         match *self {
             Proof::Mechanism {
                 power,
@@ -106,24 +106,24 @@ impl Proof {
 
 /// What a proof must come to before its verdict is believed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Demand {
+pub struct ProofThreshold {
     /// Worst imbalance, pull or slip of forces that balance, each in parts of the forces it acts among.
     pub imbalance: f64,
     /// Power of a motion in parts of its worst violation.
-    pub conviction: f64,
+    pub power_ratio: f64,
 }
 
-impl Demand {
+impl ProofThreshold {
     /// For every verdict.
-    pub const STANDARD: Demand = Demand {
-        imbalance: Proof::BAND,
-        conviction: Proof::CONVINCING,
+    pub const STANDARD: ProofThreshold = ProofThreshold {
+        imbalance: Proof::IMBALANCE_TOL,
+        power_ratio: Proof::MIN_POWER_RATIO,
     };
 
     /// A hundred times narrower in forces, a thousand times in motions.
-    pub const STRICT: Demand = Demand {
+    pub const STRICT: ProofThreshold = ProofThreshold {
         imbalance: 1e-9,
-        conviction: 1e10,
+        power_ratio: 1e10,
     };
 }
 
@@ -131,14 +131,14 @@ impl Demand {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Forces {
     /// What each contact carries.
-    pub contacts: Vec<Pressed>,
+    pub contacts: Vec<ContactForces>,
     /// What each grip gives.
-    pub grips: Vec<Held>,
+    pub grips: Vec<GripForces>,
 }
 
 /// The forces at one contact, newtons.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Pressed {
+pub struct ContactForces {
     /// Normal forces at the application points.
     pub normal: [f64; 2],
     /// Friction along (−n_y, n_x).
@@ -147,7 +147,7 @@ pub struct Pressed {
 
 /// What a robot gives to the body it holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Held {
+pub struct GripForces {
     /// Force on the body, N.
     pub force: Vector,
     /// Torque on the body, N·m.
@@ -157,12 +157,12 @@ pub struct Held {
 impl Forces {
     /// No force anywhere.
     pub fn none(assembly: &Assembly) -> Forces {
-        let held = Held {
+        let held = GripForces {
             force: Vector::zeros(),
             torque: 0.0,
         };
         Forces {
-            contacts: vec![Pressed::default(); assembly.contacts.len()],
+            contacts: vec![ContactForces::default(); assembly.contacts.len()],
             grips: vec![held; assembly.grips.len()],
         }
     }
@@ -219,7 +219,7 @@ pub fn fastest(body: &AssemblyBody, motion: &Motion) -> f64 {
 const NON_BINDING: f64 = 1e4;
 
 /// Checks forces on an assembly: balance, pull, slip, limits.
-pub fn forces(assembly: &Assembly, forces: &Forces) -> Proof {
+pub fn check_forces(assembly: &Assembly, forces: &Forces) -> Proof {
     let (mut worst_pull, mut worst_slip): (f64, f64) = (0.0, 0.0);
     // In parts of what acts there; where nothing does, nothing can be broken.
     let share = |beyond: f64, of: f64| if beyond > 0.0 { beyond / of } else { 0.0 };
@@ -321,7 +321,7 @@ fn power_of_loads(assembly: &Assembly, motions: &[Motion]) -> (f64, f64) {
 
 /// Checks a motion of an assembly, one entry for each of its bodies: the loads' power, and whether any contact or grip
 /// objects.
-pub fn mechanism(assembly: &Assembly, motions: &[Motion]) -> Proof {
+pub fn check_mechanism(assembly: &Assembly, motions: &[Motion]) -> Proof {
     let load = moving_load(assembly, motions);
     let speeds = assembly
         .bodies

@@ -66,7 +66,7 @@ fn assembly(bodies: Vec<AssemblyBody>, contacts: Vec<AssemblyContact>) -> Assemb
         load_factor: 1.0,
         length: 2.0,
     }
-    .settled()
+    .with_summed_loads()
 }
 
 /// The box of 10 N on the ground, with a listed load.
@@ -77,8 +77,8 @@ fn on_ground(listed: LoadVector) -> Assembly {
     )
 }
 
-fn pressed(first: f64, second: f64, friction: f64) -> Pressed {
-    Pressed {
+fn pressed(first: f64, second: f64, friction: f64) -> ContactForces {
+    ContactForces {
         normal: [first, second],
         friction,
     }
@@ -93,8 +93,8 @@ fn moving(block: usize, x: f64, y: f64, spin: f64) -> Motion {
 }
 
 /// Imbalance, share, pull and slip of forces.
-fn found(assembly: &Assembly, contacts: Vec<Pressed>, grips: Vec<Held>) -> [f64; 4] {
-    match forces(assembly, &Forces { contacts, grips }) {
+fn found(assembly: &Assembly, contacts: Vec<ContactForces>, grips: Vec<GripForces>) -> [f64; 4] {
+    match check_forces(assembly, &Forces { contacts, grips }) {
         Proof::Forces {
             worst_imbalance,
             worst_share,
@@ -107,7 +107,7 @@ fn found(assembly: &Assembly, contacts: Vec<Pressed>, grips: Vec<Held>) -> [f64;
 
 /// Power and violation of a motion.
 fn driven(assembly: &Assembly, motions: &[Motion]) -> [f64; 2] {
-    match mechanism(assembly, motions) {
+    match check_mechanism(assembly, motions) {
         Proof::Mechanism {
             power,
             worst_violation,
@@ -141,7 +141,7 @@ fn forces_that_balance_leave_nothing() {
     // A robot's force, at (0, 3), and torque: −2 N along x turn by +3 N·m about the centroid, 1.5 m below.
     let mut held = on_ground(listed(2.0, 4.0, -4.0));
     held.grips = vec![grip(0, 2.0, 4.0, 9.0)];
-    let gives = Held {
+    let gives = GripForces {
         force: Vector::new(-2.0, -4.0),
         torque: 4.0 - 3.0 - 8.0,
     };
@@ -201,7 +201,7 @@ fn load_factor_and_pull_count_in_the_balance() {
 
 #[test]
 fn pulls_slips_and_limits_are_shares_of_their_own_forces() {
-    let all = |assembly: &Assembly, at: Pressed| found(assembly, vec![at], vec![]);
+    let all = |assembly: &Assembly, at: ContactForces| found(assembly, vec![at], vec![]);
     let edge = on_ground(LoadVector::NONE);
     assert_near(all(&edge, pressed(-1.0, 11.0, 0.0))[2], 1.0 / 12.0, 1e-15);
     assert_near(all(&edge, pressed(11.0, -1.0, 0.0))[2], 1.0 / 12.0, 1e-15);
@@ -222,7 +222,7 @@ fn pulls_slips_and_limits_are_shares_of_their_own_forces() {
         ((0.0, 0.0), -20.0, 0.75),
     ] {
         held.grips = vec![grip(0, 3.0, 4.0, 5.0)];
-        let gives = Held {
+        let gives = GripForces {
             force: Vector::new(force.0, force.1),
             torque,
         };
@@ -239,7 +239,8 @@ fn a_sliding_box_does_work_against_the_friction_it_has() {
         let [power, violation] = driven(&pushed, &[moving(0, speed, 0.0, 0.0)]);
         assert_near(power, 7.0 / 17.0, 1e-14);
         assert_near(violation, 1.0 / 3.0, 1e-14);
-        let rules_out = mechanism(&pushed, &[moving(0, speed, 0.0, 0.0)]).rules_out();
+        let rules_out =
+            check_mechanism(&pushed, &[moving(0, speed, 0.0, 0.0)]).excluded_force_sum();
         assert_near(rules_out, 21.0 / 17.0, 1e-13);
     }
     // Down by 1 and along by 3: pressing alone takes 1, with all its friction (1.5 + 1)/1.5.
@@ -247,9 +248,9 @@ fn a_sliding_box_does_work_against_the_friction_it_has() {
     assert_near(violation, 2.5 / 1.5 / libm::sqrt(10.0), 1e-14);
     // Where there is none, nothing objects at all: the motion rules out every balance.
     let smooth = pushed.with_friction(0.0);
-    let slides = mechanism(&smooth, &[moving(0, 1.0, 0.0, 0.0)]);
-    assert_eq!(slides.rules_out(), f64::INFINITY);
-    assert!(slides.meets(Demand::STRICT));
+    let slides = check_mechanism(&smooth, &[moving(0, 1.0, 0.0, 0.0)]);
+    assert_eq!(slides.excluded_force_sum(), f64::INFINITY);
+    assert!(slides.meets(ProofThreshold::STRICT));
 }
 
 #[test]
@@ -338,7 +339,7 @@ fn rounding_counts_against_a_motion_by_its_own_size() {
     // A grip point that rests because two speeds cancel may move by their rounding, against a limit of 10³ N.
     heavy.contacts.clear();
     heavy.bodies[0].listed = listed(1.0, 0.0, 0.0);
-    heavy = heavy.settled();
+    heavy = heavy.with_summed_loads();
     let motion = [moving(0, 3.0, 4.0, 2.0)];
     let exact = {
         heavy.grips = vec![grip(0, 0.0, 0.0, 0.0)];
@@ -361,7 +362,7 @@ fn every_sum_of_a_motion_is_taken_at_its_worst() {
     let mut alone = on_ground(listed(1.0, 0.0, 1.0));
     alone.contacts.clear();
     alone.bodies[0].weight = 0.0;
-    alone = alone.settled();
+    alone = alone.with_summed_loads();
     let motion = [moving(0, 1.0, 0.0, 1.0)];
     let watts = |assembly: &Assembly, motion: &[Motion]| {
         let unit = moving_load(assembly, motion) * fastest(&assembly.bodies[0], &motion[0]);
@@ -371,13 +372,13 @@ fn every_sum_of_a_motion_is_taken_at_its_worst() {
     assert!(found <= 2.0 - 12.0 * EPSILON && found > 2.0 - 1e-13);
     // A moment of 10⁸ N·m that turns by 10⁻⁸ gives 1 W to as many digits.
     alone.bodies[0].listed = listed(0.0, 0.0, 1e8);
-    alone = alone.settled();
+    alone = alone.with_summed_loads();
     assert_near(watts(&alone, &[moving(0, 0.0, 0.0, 1e-8)]), 1.0, 1e-13);
     // A robot that takes 1 W: eight roundings of its speed, and nine of the sum.
     let mut held = on_ground(listed(0.0, 0.0, 1.0));
     held.contacts.clear();
     held.bodies[0].weight = 0.0;
-    held = held.settled();
+    held = held.with_summed_loads();
     held.grips = vec![grip(0, 1.0, 0.0, 0.0)];
     let found = watts(&held, &[moving(0, 1.0, 0.0, 0.0)]);
     assert!(found <= -1.0 - 12.0 * EPSILON && found > -1.0 - 1e-13);
@@ -390,7 +391,7 @@ fn every_sum_of_a_motion_is_taken_at_its_worst() {
     // What weighs nothing proves nothing by its motion.
     let mut weightless = on_ground(LoadVector::NONE);
     weightless.bodies[0].weight = 0.0;
-    let still = driven(&weightless.settled(), &[moving(0, 1.0, 1.0, 0.0)]);
+    let still = driven(&weightless.with_summed_loads(), &[moving(0, 1.0, 1.0, 0.0)]);
     assert_eq!(still, [0.0, 0.0]);
 }
 
@@ -398,7 +399,7 @@ fn every_sum_of_a_motion_is_taken_at_its_worst() {
 fn a_motion_bounds_the_sum_of_forces_from_below() {
     let forces = Forces {
         contacts: vec![pressed(1.0, 2.0, -3.0)],
-        grips: vec![Held {
+        grips: vec![GripForces {
             force: Vector::new(4.0, -5.0),
             torque: -6.0,
         }],
@@ -407,15 +408,22 @@ fn a_motion_bounds_the_sum_of_forces_from_below() {
     // The ground presses with the weight at least, however fast the box is let down.
     let mut alone = on_ground(LoadVector::NONE);
     for speed in [1.0, 2.0] {
-        let bound = least_sum(&alone, &[moving(0, 0.0, -speed, 0.0)]);
+        let bound = force_sum_lower_bound(&alone, &[moving(0, 0.0, -speed, 0.0)]);
         assert_near(bound, 10.0, 1e-12);
     }
     // A motion slower than what a unit of force costs says less.
-    assert_near(least_sum(&alone, &[moving(0, 0.0, -0.5, 0.0)]), 5.0, 1e-12);
-    assert_eq!(least_sum(&alone, &[moving(0, 0.0, 1.0, 0.0)]), 0.0);
+    assert_near(
+        force_sum_lower_bound(&alone, &[moving(0, 0.0, -0.5, 0.0)]),
+        5.0,
+        1e-12,
+    );
+    assert_eq!(
+        force_sum_lower_bound(&alone, &[moving(0, 0.0, 1.0, 0.0)]),
+        0.0
+    );
     // A box beside it hangs on a robot: 10 + 4 · 6 W; of the robot's 3 N counts what is faster than 1.
     alone.bodies.push(body(1, 3.0, 2.0, 6.0, LoadVector::NONE));
-    let mut both = alone.settled();
+    let mut both = alone.with_summed_loads();
     let motions = [moving(0, 0.0, -1.0, 0.0), moving(1, 0.0, -4.0, 0.0)];
     for (limits, bound) in [
         ((0.0, 3.0, 0.0), 34.0 - 3.0 * 3.0),
@@ -425,15 +433,19 @@ fn a_motion_bounds_the_sum_of_forces_from_below() {
         ((f64::INFINITY, 0.0, f64::INFINITY), 34.0),
     ] {
         both.grips = vec![grip(1, limits.0, limits.1, limits.2)];
-        assert_near(least_sum(&both, &motions), bound, 1e-12);
+        assert_near(force_sum_lower_bound(&both, &motions), bound, 1e-12);
     }
     // Along x, at the height of its centroid by −0.5, 1 m above the grip by +1 · 2.5 more, and a torque by the turning.
     both.grips = vec![grip(1, 3.0, 0.0, 0.0)];
     let turning = [moving(0, 0.0, -1.0, 0.0), moving(1, -5.0, -4.0, -2.5)];
-    assert_near(least_sum(&both, &turning), 34.0 - 3.0 * (7.5 - 1.0), 1e-12);
+    assert_near(
+        force_sum_lower_bound(&both, &turning),
+        34.0 - 3.0 * (7.5 - 1.0),
+        1e-12,
+    );
     both.grips = vec![grip(1, 0.0, 0.0, 8.0)];
     assert_near(
-        least_sum(&both, &turning),
+        force_sum_lower_bound(&both, &turning),
         34.0 - 8.0 / 2.0 * (2.5 * 2.0 - 1.0),
         1e-12,
     );
@@ -447,7 +459,7 @@ fn a_proof_holds_where_it_comes_to_what_is_demanded() {
         worst_pull: pull,
         worst_slip: slip,
     };
-    let band = Proof::BAND;
+    let band = Proof::IMBALANCE_TOL;
     assert!(balances(band, band, band).holds());
     for over in [
         balances(2.0 * band, 0.0, 0.0),
@@ -455,20 +467,20 @@ fn a_proof_holds_where_it_comes_to_what_is_demanded() {
         balances(0.0, 0.0, 2.0 * band),
     ] {
         assert!(!over.holds());
-        assert_eq!(over.rules_out(), 0.0);
+        assert_eq!(over.excluded_force_sum(), 0.0);
     }
-    assert!(!balances(band, 0.0, 0.0).meets(Demand::STRICT));
+    assert!(!balances(band, 0.0, 0.0).meets(ProofThreshold::STRICT));
     let moves = |power, worst_violation| Proof::Mechanism {
         power,
         worst_violation,
     };
     assert!(moves(0.5, 5e-8).holds());
     assert!(!moves(0.5, 6e-8).holds());
-    assert!(!moves(0.5, 5e-8).meets(Demand::STRICT));
+    assert!(!moves(0.5, 5e-8).meets(ProofThreshold::STRICT));
     assert!(!moves(0.0, 0.0).holds() && !moves(-0.5, 0.0).holds());
-    assert_eq!(moves(0.5, 0.25).rules_out(), 2.0);
-    assert_eq!(moves(0.0, 0.0).rules_out(), 0.0);
-    assert_eq!(moves(-0.5, 0.25).rules_out(), 0.0);
+    assert_eq!(moves(0.5, 0.25).excluded_force_sum(), 2.0);
+    assert_eq!(moves(0.0, 0.0).excluded_force_sum(), 0.0);
+    assert_eq!(moves(-0.5, 0.25).excluded_force_sum(), 0.0);
 }
 
 #[test]

@@ -9,7 +9,9 @@ use super::frame::Frame;
 use super::path::Trail;
 use super::problem;
 use super::{BlockId, Body, BodyId, size};
-use crate::geometry::{Aabb, BoxIndex, Cell, Lattice, Pieces, Point, Polygon, Vector, overlap};
+use crate::geometry::{
+    Aabb, BoxIndex, Cell, ConvexPieces, Lattice, Point, Polygon, Vector, overlap,
+};
 
 /// So many overlaps are listed; a scene with more has one cause for them all.
 const MOST: usize = 1000;
@@ -198,7 +200,7 @@ fn on_lattice(bodies: &[Numbered<'_>], lattice: Lattice, presence: &Presence) ->
                 .iter()
                 .fold(Vector::zeros(), |s, c| s + lattice.cell_centre(*c).coords);
             let count = cells.len() as f64;
-            let pieces = |id: BodyId| polygons.get(&id).copied().map(Pieces::new);
+            let pieces = |id: BodyId| polygons.get(&id).copied().map(ConvexPieces::new);
             let deep = pieces(bodies[0])
                 .zip(pieces(bodies[1]))
                 .and_then(|(a, b)| overlap(&a, &b, 0.0));
@@ -219,16 +221,16 @@ fn off_lattice(bodies: &[Numbered<'_>], presence: &Presence) -> Vec<Found> {
         .iter()
         .map(|(_, body)| Aabb::leaning(body.polygon.outline()))
         .collect();
-    let pieces: Vec<Pieces> = bodies
+    let pieces: Vec<ConvexPieces> = bodies
         .iter()
-        .map(|(_, body)| Pieces::new(&body.polygon))
+        .map(|(_, body)| ConvexPieces::new(&body.polygon))
         .collect();
     let nearby = BoxIndex::new((0..bodies.len()).collect(), |i: &usize| boxes[*i]);
     let mut found = Vec::new();
     let mut near: Vec<usize> = Vec::new();
     for (i, (id, _)) in bodies.iter().enumerate() {
         near.clear();
-        let others = nearby.near(boxes[i]).copied();
+        let others = nearby.intersecting(boxes[i]).copied();
         near.extend(others.filter(|j| bodies[*j].0 < *id));
         near.sort_unstable();
         for j in near.iter().copied() {

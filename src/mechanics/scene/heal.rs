@@ -227,7 +227,7 @@ impl Scene {
     /// How close two bodies have to be to touch: the smaller of their own gaps. What is rounding is the larger of theirs.
     pub(crate) fn tolerance_between(&self, a: BodyId, b: BodyId) -> Tolerance {
         let (a, b) = (self.body(a), self.body(b));
-        Tolerance::within(a.gap.min(b.gap)).exact_to(a.rounding.max(b.rounding))
+        Tolerance::from_gap(a.gap.min(b.gap)).with_rounding(a.rounding.max(b.rounding))
     }
 
     /// The scene with everything within `gap` metres brought together, and a contact where that cannot be done.
@@ -243,7 +243,7 @@ impl Scene {
         scene.healed = heal(&mut ground, &mut blocks, reach);
         scene.ground = ground.into_iter().flatten().collect();
         scene.blocks = blocks.into_iter().flatten().collect();
-        scene.tolerance = Tolerance::within(gap);
+        scene.tolerance = Tolerance::from_gap(gap);
         scene.penetrations.clear();
         scene
     }

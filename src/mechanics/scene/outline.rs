@@ -5,7 +5,7 @@ use super::format::{CellEntry, CellHalf, Pair};
 use super::number::{SMALLEST_EXTENT, is_sane};
 use super::path::Trail;
 use super::problem;
-use crate::geometry::{Cell, Flaw, Half, Lattice, LatticeKind, Point, Polygon, Vector};
+use crate::geometry::{Cell, Half, Lattice, LatticeKind, Point, Polygon, PolygonError, Vector};
 
 /// Largest lattice coordinate: sums and products of a few of them stay exact.
 pub(super) const REACH: f64 = 1e6;
@@ -59,7 +59,7 @@ pub(super) fn polygon(
                 return Some(Outline::Polygon(polygon));
             }
             // An area so small that a float cannot hold it.
-            vec![Flaw::ZeroArea { ring: 0 }]
+            vec![PolygonError::ZeroArea { ring: 0 }]
         }
         Err(flaws) => flaws,
     };
@@ -75,13 +75,13 @@ fn note(
     inner: &Trail<'_>,
     corners: &[Pair],
     holes: &[Vec<Pair>],
-    flaw: Flaw,
+    flaw: PolygonError,
 ) {
     let ring = match flaw {
-        Flaw::TooFewCorners { ring, .. } | Flaw::ZeroArea { ring } | Flaw::HoleOutside { ring } => {
-            ring
-        }
-        Flaw::Crossing { rings, .. } => rings[0],
+        PolygonError::TooFewCorners { ring, .. }
+        | PolygonError::ZeroArea { ring }
+        | PolygonError::HoleOutside { ring } => ring,
+        PolygonError::Crossing { rings, .. } => rings[0],
     };
     let hole;
     let at = if ring == 0 {
@@ -91,12 +91,12 @@ fn note(
         &hole
     };
     match flaw {
-        Flaw::TooFewCorners { corners, .. } => {
+        PolygonError::TooFewCorners { corners, .. } => {
             findings.add(at, problem::outline::too_few_corners(corners))
         }
-        Flaw::ZeroArea { .. } => findings.add(at, problem::outline::zero_area()),
-        Flaw::HoleOutside { .. } => findings.add(at, problem::outline::hole_outside()),
-        Flaw::Crossing {
+        PolygonError::ZeroArea { .. } => findings.add(at, problem::outline::zero_area()),
+        PolygonError::HoleOutside { .. } => findings.add(at, problem::outline::hole_outside()),
+        PolygonError::Crossing {
             rings,
             corners: first,
             at: point,

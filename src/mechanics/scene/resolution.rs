@@ -255,7 +255,7 @@ impl<'f> Resolution<'f> {
             tolerance: if exact {
                 Tolerance::EXACT
             } else {
-                Tolerance::within(reach.gap())
+                Tolerance::from_gap(reach.gap())
             },
             healed,
             penetrations,

@@ -13,7 +13,7 @@ pub use refusal::SessionError;
 
 use crate::analysis::{Analysis, Options, Source, Verdict, WarmStart, hinges_on_gaps};
 use crate::geometry::{Cell, Point};
-use crate::interface::{Edges, Interfaces};
+use crate::interface::{Interfaces, LatticeEdges};
 use crate::scene::format::{BlockEntry, SceneFile};
 use crate::scene::{BlockId, BodyId, Hold, RobotId, Scene, SceneError};
 
@@ -61,7 +61,7 @@ struct Lookup {
     numbers: BTreeMap<String, BlockId>,
     /// On a lattice: who is in which cell, and who has which edges.
     cells: BTreeMap<Cell, BodyId>,
-    edges: Edges,
+    edges: LatticeEdges,
 }
 
 impl Session {

@@ -5,7 +5,7 @@ use super::{
     least_squares_amounts, of_velocities, once_within, refined, remainder, settled,
     solved_with_retry,
 };
-use crate::program::{Program, columns, kinematic};
+use crate::program::{Program, columns, kinematic_dual};
 
 /// What the hard program gave.
 #[derive(Clone, Debug)]
@@ -96,7 +96,7 @@ pub fn balance_at_first_look(program: &Program, settings: SolverSettings) -> Bal
 fn balance_within(program: &Program, settings: SolverSettings, short: usize) -> Balance {
     let mut effort = Effort::default();
     let whole = Face::whole(&program.loads, columns(program));
-    let (conic, row_of) = kinematic(&whole.loads, &whole.columns, |c| c.cost);
+    let (conic, row_of) = kinematic_dual(&whole.loads, &whole.columns, |c| c.cost);
     let answer = if settings.conditioning == Conditioning::Plain && program.blocks >= MANY_BLOCKS {
         once_within(&conic, settings, short, &mut effort)
     } else {

@@ -1,4 +1,4 @@
-//! The one door to the solvers: a [`Conic`] goes in, a status of our own and plain vectors come out.
+//! The one door to the solvers: a [`QuadraticProgram`] goes in, a status of our own and plain vectors come out.
 //!
 //! Linear programs of many blocks go to the normal equations first ([`super::normal`]), all others to clarabel, and so does
 //! what ended there without a status: of chains at once, of others when it is tried again with full conditioning.
@@ -14,7 +14,7 @@ use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
 
 use super::normal::{self, Limits};
-use crate::program::Conic;
+use crate::program::QuadraticProgram;
 
 thread_local! {
     /// When this thread's programs are to be given up.
@@ -74,7 +74,7 @@ pub struct Answer {
 
 impl Answer {
     /// The answer of a solver that has none.
-    pub(super) fn none(problem: &Conic) -> Answer {
+    pub(super) fn none(problem: &QuadraticProgram) -> Answer {
         Answer {
             status: Status::Unsolved,
             x: vec![0.0; problem.unknowns],
@@ -162,7 +162,7 @@ pub enum Conditioning {
 ///
 /// # Panics
 /// If the data hold a number that is not finite: scenes are checked at the door, so that is our own mistake.
-pub fn solve(problem: &Conic, tolerance: f64, conditioning: Conditioning) -> Answer {
+pub fn solve(problem: &QuadraticProgram, tolerance: f64, conditioning: Conditioning) -> Answer {
     let settings = SolverSettings {
         tolerance,
         ..conditioning.into()
@@ -174,7 +174,11 @@ pub fn solve(problem: &Conic, tolerance: f64, conditioning: Conditioning) -> Ans
 ///
 /// # Panics
 /// As [`solve`].
-pub fn solve_within(problem: &Conic, settings: SolverSettings, iterations: usize) -> Answer {
+pub fn solve_within(
+    problem: &QuadraticProgram,
+    settings: SolverSettings,
+    iterations: usize,
+) -> Answer {
     let SolverSettings {
         tolerance,
         conditioning,
@@ -205,7 +209,11 @@ pub fn solve_within(problem: &Conic, settings: SolverSettings, iterations: usize
 }
 
 /// Solves a conic problem of finite numbers by clarabel, whatever its size.
-pub fn by_clarabel(problem: &Conic, settings: SolverSettings, iterations: usize) -> Answer {
+pub fn by_clarabel(
+    problem: &QuadraticProgram,
+    settings: SolverSettings,
+    iterations: usize,
+) -> Answer {
     let SolverSettings {
         tolerance,
         conditioning,

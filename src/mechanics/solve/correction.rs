@@ -1,7 +1,7 @@
 //! Corrections of amounts: what they leave unbalanced is scaled up and solved for once more.
 
 use super::{Conditioning, Effort, SolverSettings, Status, largest, remainder, solved_with_retry};
-use crate::program::{Column, Correction, least_squares, smallest};
+use crate::program::{Column, Correction, least_norm, least_squares};
 
 /// Amounts with the smallest change that undoes what they leave unbalanced: one system of equations, no inequality. One
 /// that would fall below 0 is cut there, so that what it cost shows in the balance.
@@ -18,7 +18,7 @@ pub(super) fn settled(
         return amounts;
     }
     let scaled: Vec<f64> = rest.iter().map(|v| v / size).collect();
-    let answer = solved_with_retry(&smallest(&scaled, columns), settings, effort);
+    let answer = solved_with_retry(&least_norm(&scaled, columns), settings, effort);
     if answer.status != Status::Solved {
         return amounts;
     }

@@ -362,7 +362,7 @@ mod tests {
             let motion = found.motion.unwrap();
             let fastest = motion.iter().fold(1.0, |m: f64, v| m.max(v.abs()));
             for column in &all {
-                let cost = if column.force.sticks() { 1.0 } else { 0.0 };
+                let cost = if column.force.is_sticking() { 1.0 } else { 0.0 };
                 assert!(-column.dot(&motion) <= cost + 1e-10 * fastest);
             }
             let power = |motion: &[f64]| -> f64 {

@@ -9,7 +9,7 @@ use super::slanted::Slanted;
 use super::{
     Amounts, Conditioning, Effort, Face, Status, TOLERANCE, dual, largest, settled, solve,
 };
-use crate::program::{Column, Force, Program, columns, most_of};
+use crate::program::{Column, Force, Program, columns, load_factor_dual};
 
 /// The end of what a program allows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,7 +73,7 @@ pub fn most(program: &Program, toward: &[f64]) -> Extreme {
     let scaled = |list: &[f64], by: f64| -> Vec<f64> { list.iter().map(|v| v / by).collect() };
     let (loads, along) = (scaled(&program.loads, load), scaled(toward, size));
     let columns = Slanted::new(&columns_in(program, load)).columns;
-    let (mut conic, row_of) = most_of(&loads, &along, &columns);
+    let (mut conic, row_of) = load_factor_dual(&loads, &along, &columns);
     let many = program.blocks >= MANY_BLOCKS;
     let work = if many { WORK } else { 1.0 };
     // The last row asks for the work.

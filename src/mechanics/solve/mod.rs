@@ -43,7 +43,9 @@ pub use tangent::Tangent;
 pub use wedge::{RuledOut, SelfStress, SelfStressCheck, Slide, reach};
 
 use crate::geometry::{Vector, cross, quarter_turn};
-use crate::program::{Column, Conic, Force, Program, force_form, kinematic, least_squares};
+use crate::program::{
+    Column, Force, Program, QuadraticProgram, force_primal, kinematic_dual, least_squares,
+};
 use correction::{refined, settled};
 
 /// Amounts of the forces of a program, pure numbers.
@@ -272,7 +274,7 @@ impl Face {
         let chosen = self.columns.iter().zip(self.amounts.iter().copied());
         let full = self.full.iter().map(|c| (c, c.limit));
         for (column, amount) in chosen.chain(full) {
-            let to = if column.force.sticks() {
+            let to = if column.force.is_sticking() {
                 &mut sticking
             } else {
                 &mut admissible
@@ -291,7 +293,7 @@ pub fn dual(
     effort: &mut Effort,
     cost: impl Fn(&Column) -> f64,
 ) -> Dual {
-    let (conic, row_of) = kinematic(loads, columns, cost);
+    let (conic, row_of) = kinematic_dual(loads, columns, cost);
     let answer = solved_with_retry(&conic, settings, effort);
     of_velocities(loads, columns, &conic, &row_of, &answer)
 }
@@ -300,7 +302,7 @@ pub fn dual(
 fn of_velocities(
     loads: &[f64],
     columns: &[Column],
-    conic: &Conic,
+    conic: &QuadraticProgram,
     row_of: &[usize],
     answer: &Answer,
 ) -> Dual {
@@ -353,7 +355,7 @@ fn in_forces(
     effort: &mut Effort,
     cost: impl Fn(&Column) -> f64,
 ) -> Dual {
-    let conic = force_form(loads, columns, cost, None);
+    let conic = force_primal(loads, columns, cost, None);
     let answer = once(&conic, settings.into(), effort);
     let n = columns.len();
     let mut solved = Dual {
@@ -393,7 +395,7 @@ fn in_forces(
 
 /// Solves, and solves again with full conditioning where the quick way ends without a status.
 fn solved_with_retry(
-    conic: &Conic,
+    conic: &QuadraticProgram,
     settings: impl Into<SolverSettings>,
     effort: &mut Effort,
 ) -> Answer {
@@ -410,13 +412,13 @@ fn solved_with_retry(
 }
 
 /// Solves in one way only.
-fn once(conic: &Conic, settings: SolverSettings, effort: &mut Effort) -> Answer {
+fn once(conic: &QuadraticProgram, settings: SolverSettings, effort: &mut Effort) -> Answer {
     once_within(conic, settings, ITERATIONS, effort)
 }
 
 /// Solves in one way only, in a given number of iterations.
 fn once_within(
-    conic: &Conic,
+    conic: &QuadraticProgram,
     settings: SolverSettings,
     iterations: usize,
     effort: &mut Effort,

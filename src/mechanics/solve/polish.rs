@@ -7,7 +7,7 @@
 //! rounding.
 
 use super::{Conditioning, Effort, SolverSettings, Status, TOLERANCE, solved_with_retry};
-use crate::program::{Column, Force, Program, columns, shortest};
+use crate::program::{Column, Force, Program, columns, least_change};
 
 /// How far contacts are opened, in parts of the fastest speed: beyond the rounding of a speed, and far below what matters.
 const HAIR: f64 = 1e-12;
@@ -85,7 +85,7 @@ fn changed(
                 rows.push((column, wanted));
             }
         }
-        let conic = shortest(motion.len(), &rows, held.len());
+        let conic = least_change(motion.len(), &rows, held.len());
         let settings = SolverSettings {
             tolerance: (ENOUGH * small / worst).clamp(TOLERANCE, COARSEST),
             ..Conditioning::Plain.into()

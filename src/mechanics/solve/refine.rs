@@ -11,8 +11,10 @@
 //! What is left unbalanced is summed with twice the digits, since it is a small difference of large forces.
 
 use super::{Amounts, Conditioning, Effort, Status, solved_with_retry};
-use crate::geometry::{Sum, Vector, quarter_turn};
-use crate::program::{Column, Conic, Correction, Force, Program, columns, least_squares};
+use crate::geometry::{CompensatedSum, Vector, quarter_turn};
+use crate::program::{
+    Column, Correction, Force, Program, QuadraticProgram, columns, least_squares,
+};
 
 /// Rounds of changes; each gains the solver's digits.
 const ROUNDS: usize = 4;
@@ -26,7 +28,7 @@ const AMPLE: [f64; 2] = [1e4, 1e8];
 
 /// What the forces leave unbalanced of a program's loads, and Σ |force| on each block.
 fn rest(program: &Program, amounts: &Amounts) -> (Vec<f64>, Vec<f64>) {
-    let mut sums: Vec<Sum> = vec![Sum::default(); program.loads.len()];
+    let mut sums: Vec<CompensatedSum> = vec![CompensatedSum::default(); program.loads.len()];
     for (sum, load) in sums.iter_mut().zip(&program.loads) {
         sum.add(*load);
     }
@@ -62,7 +64,7 @@ fn rest(program: &Program, amounts: &Amounts) -> (Vec<f64>, Vec<f64>) {
     for (grip, [_, _, moment]) in program.grips.iter().zip(&amounts.grip) {
         sums[3 * grip.block + 2].add(-moment);
     }
-    (sums.into_iter().map(Sum::value).collect(), total)
+    (sums.into_iter().map(CompensatedSum::value).collect(), total)
 }
 
 /// The amounts of a program's columns that make up given forces, inside the friction cones as far as may be.
@@ -143,7 +145,7 @@ fn largest(rest: &[f64], scales: &[f64]) -> f64 {
 }
 
 /// Whether every number of a program is finite: of loads near the smallest numbers there are, no shares can be taken.
-fn is_finite(conic: &Conic) -> bool {
+fn is_finite(conic: &QuadraticProgram) -> bool {
     let entries = conic.matrix.iter().chain(&conic.quadratic).map(|e| e.2);
     let lists = conic.bound.iter().chain(&conic.linear).copied();
     entries.chain(lists).all(f64::is_finite)
@@ -166,7 +168,7 @@ pub fn relative(program: &Program, amounts: &Amounts, effort: &mut Effort) -> Op
         let weights = rays(program, &list, &best);
         let used: Vec<usize> = (0..list.len()).filter(|k| weights[*k] > 0.0).collect();
         let rows = left.len();
-        let mut conic = Conic {
+        let mut conic = QuadraticProgram {
             unknowns: used.len() + rows,
             quadratic: Vec::with_capacity(used.len() + rows),
             linear: vec![0.0; used.len() + rows],

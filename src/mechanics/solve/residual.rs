@@ -13,7 +13,7 @@ use super::{
     Amounts, Conditioning, Effort, Face, Status, in_forces, largest, remainder, settled,
     solved_with_retry,
 };
-use crate::program::{Column, Program, least_left};
+use crate::program::{Column, Program, least_residual_dual};
 
 /// Forces and a motion, of which a proof takes one.
 #[derive(Clone, Debug)]
@@ -108,7 +108,7 @@ pub fn any_balance(program: &Program) -> Residual {
 pub fn least_residual(program: &Program) -> Option<Residual> {
     let posed = Posed::new(program);
     let mut effort = Effort::default();
-    let (conic, row_of) = least_left(&posed.loads, &posed.slanted.columns);
+    let (conic, row_of) = least_residual_dual(&posed.loads, &posed.slanted.columns);
     let answer = solved_with_retry(&conic, Conditioning::Plain, &mut effort);
     if answer.status != Status::Solved {
         return None;

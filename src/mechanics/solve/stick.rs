@@ -15,7 +15,7 @@ use super::{
     Amounts, Conditioning, CrossoverTolerance, Dual, Effort, Face, SolverSettings, Status,
     determinate, dual, in_forces, largest, least_squares_amounts, of_velocities, once, refined,
 };
-use crate::program::{Column, Program, kinematic, sticking_columns};
+use crate::program::{Column, Program, kinematic_dual, sticking_columns};
 
 /// Rounds of concentrating; the count of points rarely falls after the third.
 const ROUNDS: usize = 4;
@@ -166,7 +166,7 @@ fn least_sticking(
 ) -> (Dual, bool) {
     let priced = |price: f64, effort: &mut Effort| {
         dual(&whole.loads, &whole.columns, settings, effort, |c| {
-            if c.force.sticks() {
+            if c.force.is_sticking() {
                 1.0
             } else {
                 price * c.cost
@@ -209,8 +209,8 @@ fn finer(loads: &[f64]) -> CrossoverTolerance {
 /// The least sticking where forces have no price.
 fn without_middles(whole: &Face, settings: SolverSettings, effort: &mut Effort) -> Dual {
     let slanted = Slanted::new(&whole.columns);
-    let cost = |c: &Column| f64::from(u8::from(c.force.sticks()));
-    let (conic, row_of) = kinematic(&whole.loads, &slanted.columns, cost);
+    let cost = |c: &Column| f64::from(u8::from(c.force.is_sticking()));
+    let (conic, row_of) = kinematic_dual(&whole.loads, &slanted.columns, cost);
     let finer = SolverSettings {
         finer: Some(finer(&whole.loads)),
         ..settings
@@ -311,7 +311,7 @@ fn later(
     match size {
         Size::Few => dual(&face.loads, &face.columns, settings, effort, cost),
         Size::Many => {
-            let (conic, row_of) = kinematic(&face.loads, &face.columns, cost);
+            let (conic, row_of) = kinematic_dual(&face.loads, &face.columns, cost);
             let answer = once(&conic, settings, effort);
             of_velocities(&face.loads, &face.columns, &conic, &row_of, &answer)
         }
@@ -334,17 +334,23 @@ fn concentrated(
         Size::Many => ROUNDS_OF_MANY,
     };
     for _ in 0..rounds {
-        if face.columns.iter().filter(|c| c.force.sticks()).count() < 2 {
+        if face
+            .columns
+            .iter()
+            .filter(|c| c.force.is_sticking())
+            .count()
+            < 2
+        {
             break;
         }
         let most = sticking_amounts(&face, &face.amounts).fold(0.0, f64::max);
         for (column, amount) in face.columns.iter_mut().zip(&face.amounts) {
-            if column.force.sticks() {
+            if column.force.is_sticking() {
                 column.cost = 1e-2 * most / (amount + 1e-3 * most);
             }
         }
         let solved = later(&face, size, settings, effort, |c| {
-            if c.force.sticks() { c.cost } else { 0.0 }
+            if c.force.is_sticking() { c.cost } else { 0.0 }
         });
         // The least squares would take ten times as long to find it out.
         if size == Size::Many && solved.status == Status::Unbounded {
@@ -356,7 +362,7 @@ fn concentrated(
         face.amounts = solved.amounts;
         let most = sticking_amounts(&face, &face.amounts).fold(0.0, f64::max);
         let before = face.columns.len();
-        face = face.only(|c, a| !c.force.sticks() || a > little * most);
+        face = face.only(|c, a| !c.force.is_sticking() || a > little * most);
         if face.columns.len() == before {
             break;
         }
@@ -368,7 +374,7 @@ fn sticking_amounts<'a>(face: &'a Face, amounts: &'a [f64]) -> impl Iterator<Ite
     face.columns
         .iter()
         .zip(amounts)
-        .filter(|(c, _)| c.force.sticks())
+        .filter(|(c, _)| c.force.is_sticking())
         .map(|(_, a)| *a)
 }
 

@@ -9,7 +9,7 @@ use super::limit::{columns_in, rebalanced};
 use super::slanted::Slanted;
 use super::{Amounts, Conditioning, Effort, Face, Status, largest, solved_with_retry};
 use crate::geometry::{Vector, quarter_turn};
-use crate::program::{Column, Force, Program, least_left};
+use crate::program::{Column, Force, Program, least_residual_dual};
 
 /// The optimum of the program of the least residual.
 #[derive(Clone, Debug)]
@@ -33,7 +33,7 @@ impl Tangent {
         };
         let loads: Vec<f64> = program.loads.iter().map(|v| v / load).collect();
         let columns = Slanted::new(&columns_in(program, load)).columns;
-        let (conic, row_of) = least_left(&loads, &columns);
+        let (conic, row_of) = least_residual_dual(&loads, &columns);
         let answer = solved_with_retry(&conic, Conditioning::Plain, &mut Effort::default());
         if answer.status != Status::Solved {
             return None;

@@ -154,7 +154,7 @@ fn marks(sketch: &Sketch) -> (Vec<Marked>, Vec<(Option<usize>, String)>) {
     let near = sketch
         .scene
         .as_ref()
-        .map(|scene| Interfaces::new(scene).near);
+        .map(|scene| Interfaces::new(scene).near_misses);
     let near = near.unwrap_or_default();
     for (i, gap) in near.iter().enumerate().take(SHOWN) {
         let number = sketch.problems.list.len().min(SHOWN) + i + 1;

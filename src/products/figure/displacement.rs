@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::analysis::{Analysis, Motion, Verdict};
-use crate::geometry::{Bounds, Pieces, Point, Polygon, Vector, overlap, quarter_turn};
+use crate::geometry::{Bounds, ConvexPieces, Point, Polygon, Vector, overlap, quarter_turn};
 use crate::scene::{BlockId, BodyId};
 
 /// The fastest point goes at least so many unit edges …
@@ -136,7 +136,7 @@ fn dips(analysis: &Analysis, frame: usize, heap: &[Motion], way: f64) -> bool {
             return false;
         };
         let smaller = a.area().min(b.area());
-        let shared = overlap(&Pieces::new(&a), &Pieces::new(&b), 0.0);
+        let shared = overlap(&ConvexPieces::new(&a), &ConvexPieces::new(&b), 0.0);
         shared.is_some_and(|o| o.area > SHARED * smaller)
     })
 }
@@ -283,7 +283,8 @@ mod tests {
         let mut area = 0.0;
         for (i, a) in blocks.iter().enumerate() {
             for b in &blocks[..i] {
-                area += overlap(&Pieces::new(a), &Pieces::new(b), 0.0).map_or(0.0, |o| o.area);
+                area += overlap(&ConvexPieces::new(a), &ConvexPieces::new(b), 0.0)
+                    .map_or(0.0, |o| o.area);
             }
         }
         area

@@ -49,7 +49,7 @@ impl ProofNumbers {
             } => ProofNumbers::Mechanism {
                 power: Number(power),
                 worst_violation: Number(worst_violation),
-                no_balance_below: match proof.rules_out() {
+                no_balance_below: match proof.excluded_force_sum() {
                     sum if sum.is_finite() => Below::Sum(Number(sum)),
                     _ => Below::Unbounded("unbounded"),
                 },

@@ -2,7 +2,9 @@
 
 use super::Task;
 use crate::analysis::{Accuracy, Analysis, Options, Proof, Verdict};
-use crate::program::{Column, Program, Scale, columns, force_form, source, sticking_columns};
+use crate::program::{
+    Column, Program, Scale, columns, force_primal, sticking_columns, vallat_program,
+};
 use crate::solve::{
     Amounts, Choice, Conditioning, Effort, SolverSettings, Status, balance_in, dual, solve,
     stick_in,
@@ -180,7 +182,7 @@ impl Outcome {
 
 /// Sticking that counts, in pure numbers: what the band allows, and what the solver was allowed to leave undone.
 fn counts(tolerance: f64) -> f64 {
-    Scale::HEAVIEST * Proof::BAND.max(10.0 * tolerance)
+    Scale::HEAVIEST * Proof::IMBALANCE_TOL.max(10.0 * tolerance)
 }
 
 fn largest(amounts: &Amounts) -> f64 {
@@ -211,7 +213,7 @@ fn imbalance(loads: &[f64], columns: &[Column], amounts: &[f64]) -> f64 {
 
 /// The source's soft program: it reports what sticks, and stands where nothing does.
 fn as_posed(program: &Program, beta: f64, tolerance: f64) -> Outcome {
-    let conic = source(program, beta);
+    let conic = vallat_program(program, beta);
     let answer = solve(&conic, tolerance, Conditioning::Full);
     let effort = effort(answer.iterations);
     match answer.status {
@@ -257,7 +259,7 @@ fn as_posed(program: &Program, beta: f64, tolerance: f64) -> Outcome {
 }
 
 fn sticking_cost(column: &Column) -> f64 {
-    f64::from(u8::from(column.force.sticks()))
+    f64::from(u8::from(column.force.is_sticking()))
 }
 
 /// Forces as unknowns, no large number.
@@ -266,7 +268,7 @@ fn force(program: &Program, tolerance: f64) -> Outcome {
     let admissible = columns(program);
     let cost = |c: &Column| c.cost;
     let hard = solve(
-        &force_form(loads, &admissible, cost, None),
+        &force_primal(loads, &admissible, cost, None),
         tolerance,
         Conditioning::Full,
     );
@@ -277,7 +279,7 @@ fn force(program: &Program, tolerance: f64) -> Outcome {
     let mut all = admissible;
     all.extend(sticking_columns(program));
     let first = solve(
-        &force_form(loads, &all, sticking_cost, None),
+        &force_primal(loads, &all, sticking_cost, None),
         tolerance,
         Conditioning::Full,
     );
@@ -293,7 +295,7 @@ fn force(program: &Program, tolerance: f64) -> Outcome {
     let least = sum(&first.x);
     let most = least * (1.0 + tolerance) + tolerance;
     let second = solve(
-        &force_form(loads, &all, cost, Some((&sticking_cost, most))),
+        &force_primal(loads, &all, cost, Some((&sticking_cost, most))),
         tolerance,
         Conditioning::Full,
     );
@@ -306,7 +308,7 @@ fn force(program: &Program, tolerance: f64) -> Outcome {
     if !certain && least <= counts(tolerance) {
         return standing(program, &all, x, effort(iterations));
     }
-    let sticks = || all.iter().zip(x).filter(|(c, _)| c.force.sticks());
+    let sticks = || all.iter().zip(x).filter(|(c, _)| c.force.is_sticking());
     let largest = sticks().map(|(_, x)| *x).fold(0.0, f64::max);
     let points = sticks().filter(|(_, x)| **x > 1e-6 * largest).count();
     Outcome::falls(Some(least), points, effort(iterations))
@@ -316,7 +318,7 @@ fn standing(program: &Program, columns: &[Column], x: &[f64], effort: Effort) ->
     let mut amounts = Amounts::none(program);
     let mut own = Vec::with_capacity(columns.len());
     for (column, x) in columns.iter().zip(x) {
-        let x = if column.force.sticks() { 0.0 } else { *x };
+        let x = if column.force.is_sticking() { 0.0 } else { *x };
         own.push(x);
         amounts.add(column.force, x);
     }
@@ -348,7 +350,7 @@ fn kinematic(program: &Program, tolerance: f64) -> Outcome {
     let sticks = || {
         all.iter()
             .zip(&soft.amounts)
-            .filter(|(c, _)| c.force.sticks())
+            .filter(|(c, _)| c.force.is_sticking())
     };
     let least: f64 = sticks().map(|(_, x)| *x).sum();
     let certain = hard.status == Status::Unbounded;

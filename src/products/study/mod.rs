@@ -31,7 +31,7 @@ pub const TOLERANCES: [f64; 6] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-9, 1e-12];
 pub const DEFAULT_TOLERANCE: f64 = crate::solve::TOLERANCE;
 
 /// Where a frame's groups are so near the edge, in parts of the heaviest load, calling a falling one stable is no mistake.
-const BAND: f64 = 10.0 * Proof::BAND;
+const BAND: f64 = 10.0 * Proof::IMBALANCE_TOL;
 
 /// Everything that was measured.
 #[derive(Clone, Debug)]
@@ -148,7 +148,7 @@ impl Task {
             interfaces: &interfaces,
         });
         let programs = assembly
-            .split()
+            .components()
             .iter()
             .filter(|component| component.heaviest() > 0.0)
             .map(|component| Program::new(component, Scale::from_assembly(component)))

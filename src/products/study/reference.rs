@@ -68,7 +68,7 @@ impl Reference {
         }
         let mut all = admissible;
         all.extend(sticking_columns(program));
-        let sticks = |c: &Column| if c.force.sticks() { 1.0 } else { 0.0 };
+        let sticks = |c: &Column| if c.force.is_sticking() { 1.0 } else { 0.0 };
         if let Some(optimum) = optimum(&program.loads, &all, sticks) {
             let largest = program.loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
             let least = optimum.value.near();
@@ -100,7 +100,7 @@ impl Reference {
 
 /// Whether there is a motion against which not even sticking can do anything.
 fn falls_whatever_sticks(loads: &[f64], all: &[Column]) -> bool {
-    let sticks = |c: &Column| if c.force.sticks() { 1.0 } else { 0.0 };
+    let sticks = |c: &Column| if c.force.is_sticking() { 1.0 } else { 0.0 };
     let solved = dual(
         loads,
         all,

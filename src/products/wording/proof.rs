@@ -18,7 +18,7 @@ pub fn short(proof: Proof) -> String {
             )
         }
         Proof::Mechanism { power, .. } => {
-            let ruled_out = match proof.rules_out() {
+            let ruled_out = match proof.excluded_force_sum() {
                 sum if sum.is_finite() => format!("no balance below {} loads", rough(sum)),
                 _ => "no balance at all".into(),
             };
@@ -63,7 +63,7 @@ pub fn numbers(proof: Proof) -> Vec<(&'static str, String)> {
             ),
             (
                 "no balance with less force than, in loads of what moves",
-                match proof.rules_out() {
+                match proof.excluded_force_sum() {
                     sum if sum.is_finite() => rough(sum),
                     _ => "any".into(),
                 },
@@ -82,7 +82,7 @@ pub fn sentence(proof: Proof) -> String {
             ..
         } => {
             let worst = worst_imbalance.max(worst_pull).max(worst_slip);
-            let band = rough(Proof::BAND);
+            let band = rough(Proof::IMBALANCE_TOL);
             if proof.holds() {
                 format!(
                     "The forces listed here, summed again from the outlines and weights alone, hold every block at rest: \
@@ -98,7 +98,7 @@ pub fn sentence(proof: Proof) -> String {
             }
         }
         Proof::Mechanism { .. } => {
-            let ruled_out = match proof.rules_out() {
+            let ruled_out = match proof.excluded_force_sum() {
                 sum if sum.is_finite() => format!(
                     "so no forces balance it whose sum is less than {} times the loads of what moves",
                     rough(sum)

@@ -6,7 +6,7 @@ use super::region::regions;
 use super::track::Track;
 use super::{Remark, Snapped, crowd};
 use crate::geometry::snap::{self, Corner, Rings, polygon};
-use crate::geometry::{Bounds, Flaw, Point, Polygon, Tolerance};
+use crate::geometry::{Bounds, Point, Polygon, PolygonError, Tolerance};
 use crate::scene::Problem;
 
 /// Places farther from the origin than this, in metres, are no places.
@@ -276,10 +276,10 @@ fn closed(
     rings
 }
 
-fn flawed(draft: &mut Draft, part: &Part, flaws: &[Flaw]) {
+fn flawed(draft: &mut Draft, part: &Part, flaws: &[PolygonError]) {
     let point = |p: &Point| format!("({:.4}, {:.4}) m", p.x, p.y);
     let (message, help) = match flaws.first() {
-        Some(Flaw::Crossing { at, .. }) => {
+        Some(PolygonError::Crossing { at, .. }) => {
             let more = match flaws.len() {
                 1 => String::new(),
                 n => format!(", and in {} more places", n - 1),
@@ -292,7 +292,7 @@ fn flawed(draft: &mut Draft, part: &Part, flaws: &[Flaw]) {
                 "draw it without crossings, or in parts",
             )
         }
-        Some(Flaw::HoleOutside { .. }) => (
+        Some(PolygonError::HoleOutside { .. }) => (
             "its holes lie in each other or outside it; left out".into(),
             "draw them apart",
         ),

@@ -94,7 +94,7 @@ impl<'a> Balance<'a> {
 
     /// Whether no sticking helps, not even one that may leave the balance off by the band.
     pub fn is_past_help(&self) -> bool {
-        self.off(self.soft()) > Proof::BAND
+        self.off(self.soft()) > Proof::IMBALANCE_TOL
     }
 
     /// The source's soft program at the limit of its β: sticking has a cost and nothing else.
@@ -170,8 +170,8 @@ impl<'a> Balance<'a> {
     /// Whether the verdict hangs on less than the stated band, either way.
     pub fn is_borderline(&self) -> bool {
         match self.stands() {
-            true => !self.stands_with_margin(Proof::BAND),
-            false => self.stands_within(Proof::BAND),
+            true => !self.stands_with_margin(Proof::IMBALANCE_TOL),
+            false => self.stands_within(Proof::IMBALANCE_TOL),
         }
     }
 

@@ -81,7 +81,7 @@ fn compared(scene: &Scene, exact: bool, with_forces: bool) -> (Standing, Option<
     if touches.len() != frame.contacts.len() {
         return (Standing::TouchesElsewhere, None, None);
     }
-    let ruled_out = (frame.verdict == Verdict::Unstable).then(|| frame.proof.rules_out());
+    let ruled_out = (frame.verdict == Verdict::Unstable).then(|| frame.proof.excluded_force_sum());
     let (standing, error) = judged(scene, &touches, frame, with_forces);
     (standing, error, ruled_out)
 }

@@ -8,7 +8,7 @@ use super::random::Chance;
 
 type Cell = (i64, i64);
 
-/// Pieces of up to four squares, let fall one after the other.
+/// ConvexPieces of up to four squares, let fall one after the other.
 pub fn square_pile(chance: &mut Chance) -> Value {
     let mut taken = BTreeSet::new();
     let mut ground = Vec::new();

@@ -41,7 +41,7 @@ impl<'a> Candidate<'a> {
             return None;
         }
         let assembly = self.case.assembly;
-        for component in assembly.split() {
+        for component in assembly.components() {
             let case = Case {
                 scale: self.case.scale,
                 ..Case::new(&component, self.options)

@@ -2,7 +2,7 @@
 
 use super::Case;
 use crate::geometry::Vector;
-use crate::proof::{self, Forces, Held, Motion, Pressed, Proof, gross_load};
+use crate::proof::{self, ContactForces, Forces, GripForces, Motion, Proof, gross_load};
 use crate::solve::Amounts;
 
 /// By what it is measured how little of a force is noise.
@@ -36,7 +36,7 @@ impl Case<'_> {
         let mut best: Option<(usize, ProvedForces)> = None;
         for noise in [Noise::OfTheWhole, Noise::OfEachBody, Noise::None] {
             let forces = self.in_newtons(amounts, noise);
-            let proof = proof::forces(self.assembly, &forces);
+            let proof = proof::check_forces(self.assembly, &forces);
             let carried = ProvedForces { forces, proof };
             if self.believes(&proof) {
                 return carried;
@@ -52,7 +52,7 @@ impl Case<'_> {
             Some((_, carried)) => carried,
             None => {
                 let forces = Forces::none(self.assembly);
-                let proof = proof::forces(self.assembly, &forces);
+                let proof = proof::check_forces(self.assembly, &forces);
                 ProvedForces { forces, proof }
             }
         }
@@ -71,14 +71,14 @@ impl Case<'_> {
                 spin: v[2] / self.scale.length,
             })
             .collect();
-        let bound = proof::least_sum(self.assembly, &motion);
+        let bound = proof::force_sum_lower_bound(self.assembly, &motion);
         let sum = self.carried(amounts).forces.sum(self.assembly.length);
         (Some(bound), sum <= (1.0 + SAME_SUM) * bound)
     }
 
     /// The proof of amounts with as little dropped from them as may be.
     pub fn carried_plainly(&self, amounts: &Amounts) -> Proof {
-        proof::forces(self.assembly, &self.in_newtons(amounts, Noise::None))
+        proof::check_forces(self.assembly, &self.in_newtons(amounts, Noise::None))
     }
 
     /// Newtons from pure numbers: normal and robot forces below 1e-13 and friction below 1e-10 of what acts there dropped,
@@ -120,7 +120,7 @@ impl Case<'_> {
             let most = contact.friction * pressed;
             let friction = (amounts.friction[k] * unit).clamp(-most, most);
             let still = still.min(1e-10 * most.min(pressed));
-            Pressed {
+            ContactForces {
                 normal,
                 friction: clean(friction, still),
             }
@@ -130,7 +130,7 @@ impl Case<'_> {
             let length = self.scale.length;
             let (noise, _) = limits(grip.body);
             let cut = |v: f64, limit: f64| clean(v, noise).clamp(-limit, limit);
-            Held {
+            GripForces {
                 force: Vector::new(cut(x * unit, grip.limits.fx), cut(y * unit, grip.limits.fy)),
                 torque: cut(m * unit, grip.limits.torque / length) * length,
             }

@@ -7,7 +7,7 @@
 use super::Case;
 use crate::assembly::Assembly;
 use crate::geometry::Point;
-use crate::proof::{self, Forces, Motion, Pressed};
+use crate::proof::{self, ContactForces, Forces, Motion};
 
 /// So many sets of forces, and so many motions, are remembered.
 const KEPT: usize = 4;
@@ -52,7 +52,7 @@ impl ProofCache {
         let mut latest = self.forces.iter().rev();
         latest.any(|acting| {
             let forces = acting.moved_to(case.assembly);
-            forces.is_some_and(|forces| case.believes(&proof::forces(case.assembly, &forces)))
+            forces.is_some_and(|forces| case.believes(&proof::check_forces(case.assembly, &forces)))
         })
     }
 
@@ -82,7 +82,7 @@ impl Acting {
 }
 
 /// Normal forces at two points of a stretch with the resultant of those at two others.
-fn moved(pressed: &Pressed, from: &[Point; 2], to: &[Point; 2]) -> Option<[f64; 2]> {
+fn moved(pressed: &ContactForces, from: &[Point; 2], to: &[Point; 2]) -> Option<[f64; 2]> {
     let [first, second] = pressed.normal;
     let sum = first + second;
     let along = to[1] - to[0];
@@ -112,7 +112,7 @@ mod tests {
     /// 2 N and 6 N at 0 and 4 m have their resultant at 3 m.
     #[test]
     fn a_resultant_is_carried_by_other_points() {
-        let pressed = Pressed {
+        let pressed = ContactForces {
             normal: [2.0, 6.0],
             friction: 1.0,
         };
@@ -126,7 +126,7 @@ mod tests {
         );
         assert_eq!(moved(&pressed, &given, &stretch(1.5, 2.5)), None);
         assert_eq!(moved(&pressed, &given, &stretch(2.0, 2.0)), None);
-        let middle = Pressed {
+        let middle = ContactForces {
             normal: [4.0, 4.0],
             ..pressed
         };

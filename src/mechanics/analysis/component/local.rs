@@ -16,7 +16,7 @@
 use super::forces::ProvedForces;
 use super::{Case, Place};
 use crate::analysis::Verdict;
-use crate::assembly::Part;
+use crate::assembly::Substructure;
 use crate::geometry::Vector;
 use crate::program::{Program, Scale};
 use crate::proof::{self, Motion, Proof};
@@ -90,7 +90,7 @@ impl Case<'_> {
             let mut falling = Vec::new();
             let mut better = false;
             for set in self.assembly.connected(&fails) {
-                let part = self.assembly.part(&set);
+                let part = self.assembly.substructure(&set);
                 match self.part_made_good(&part, &amounts, effort) {
                     PartOutcome::Changed(changed) => {
                         self.enter(&mut amounts, &part, &changed);
@@ -110,7 +110,12 @@ impl Case<'_> {
         Outcome::Open
     }
 
-    fn part_made_good(&self, part: &Part, amounts: &Amounts, effort: &mut Effort) -> PartOutcome {
+    fn part_made_good(
+        &self,
+        part: &Substructure,
+        amounts: &Amounts,
+        effort: &mut Effort,
+    ) -> PartOutcome {
         let case = Case {
             assembly: &part.assembly,
             scale: Scale::from_assembly(&part.assembly),
@@ -169,7 +174,7 @@ impl Case<'_> {
         &self,
         program: &Program,
         mut amounts: Amounts,
-        falling: &[(Part, PartFall)],
+        falling: &[(Substructure, PartFall)],
     ) -> Outcome {
         let mut mechanism: Vec<Motion> = self
             .assembly
@@ -207,7 +212,7 @@ impl Case<'_> {
     }
 
     /// The forces of a part, in the units of its scale.
-    fn taken(&self, amounts: &Amounts, part: &Part, scale: Scale) -> Amounts {
+    fn taken(&self, amounts: &Amounts, part: &Substructure, scale: Scale) -> Amounts {
         let own = Amounts {
             normal: part.contacts.iter().map(|k| amounts.normal[*k]).collect(),
             friction: part.contacts.iter().map(|k| amounts.friction[*k]).collect(),
@@ -217,7 +222,7 @@ impl Case<'_> {
     }
 
     /// Enters the forces of a part, in the units of the whole.
-    fn enter(&self, amounts: &mut Amounts, part: &Part, own: &Amounts) {
+    fn enter(&self, amounts: &mut Amounts, part: &Substructure, own: &Amounts) {
         for (place, number) in part.contacts.iter().enumerate() {
             amounts.normal[*number] = own.normal[place];
             amounts.friction[*number] = own.friction[place];

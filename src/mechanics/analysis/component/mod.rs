@@ -22,8 +22,8 @@ pub(super) use question::{Ends, guessed, judged, learn, only_by_wedging};
 
 use super::{Failure, Options, UndecidedReason, Verdict};
 use crate::assembly::Assembly;
-use crate::program::{Count, Program, Scale, columns, sticking_columns};
-use crate::proof::{Demand, Forces, Motion, Proof, fastest};
+use crate::program::{Program, Scale, UnknownCounts, columns, sticking_columns};
+use crate::proof::{Forces, Motion, Proof, ProofThreshold, fastest};
 use crate::solve::{Amounts, Effort, SolverSettings, determinate};
 use ladder::Decision;
 pub use rung::Method;
@@ -47,7 +47,7 @@ pub(super) struct Findings {
     pub method: Method,
     pub effort: Effort,
     /// The unknowns of its program, and those that sticking has or would have.
-    pub count: Count,
+    pub count: UnknownCounts,
 }
 
 /// Everything one component is judged by.
@@ -56,7 +56,7 @@ struct Case<'a> {
     scale: Scale,
     /// The solver's settings, in the order in which they are tried.
     settings: Vec<SolverSettings>,
-    demand: Demand,
+    demand: ProofThreshold,
     /// Whether what belongs to a verdict is found after it.
     described: bool,
     place: Place,
@@ -66,8 +66,8 @@ struct Case<'a> {
 pub(super) fn solved(assembly: &Assembly, options: Options) -> Findings {
     let case = Case::new(assembly, options);
     let program = Program::new(assembly, case.scale);
-    let count = Count::new(&program, &columns(&program))
-        .and(Count::new(&program, &sticking_columns(&program)));
+    let count = UnknownCounts::new(&program, &columns(&program))
+        .and(UnknownCounts::new(&program, &sticking_columns(&program)));
     if let Some(found) = case.in_closed_form(&program) {
         return Findings { count, ..found };
     }
@@ -142,7 +142,7 @@ impl<'a> Case<'a> {
             proof: carried.proof,
             method: Method::ClosedForm,
             effort: Effort::default(),
-            count: Count::default(),
+            count: UnknownCounts::default(),
         }
     }
 
@@ -183,7 +183,7 @@ impl<'a> Case<'a> {
             proof: decision.proof,
             method: decision.method,
             effort: decision.effort,
-            count: Count::default(),
+            count: UnknownCounts::default(),
         }
     }
 }

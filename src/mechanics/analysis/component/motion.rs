@@ -27,7 +27,7 @@ impl Case<'_> {
         if speed == 0.0 {
             return None;
         }
-        if proof.rules_out().is_finite() {
+        if proof.excluded_force_sum().is_finite() {
             let many = motion.len() >= MANY_BLOCKS;
             let in_pieces = || self.falling_in_pieces(&motion, effort);
             if let Some(found) = many.then(in_pieces).flatten() {
@@ -46,7 +46,7 @@ impl Case<'_> {
         let bodies = self.assembly.bodies.iter();
         let all: f64 = bodies.map(|b| proof::gross_load(self.assembly, b)).sum();
         let load = proof::moving_load(self.assembly, motion);
-        self.believes(proof) && proof.rules_out() * load >= THRUST * all
+        self.believes(proof) && proof.excluded_force_sum() * load >= THRUST * all
     }
 
     /// Whether a proved motion does more work than forces within the proof's band could take up.
@@ -57,17 +57,17 @@ impl Case<'_> {
             .sum();
         let heaviest = self.assembly.heaviest();
         let load = proof::moving_load(self.assembly, motion);
-        matches!(proof, Proof::Mechanism { power, .. } if power * load > 2.0 * Proof::BAND * heaviest * ways)
+        matches!(proof, Proof::Mechanism { power, .. } if power * load > 2.0 * Proof::IMBALANCE_TOL * heaviest * ways)
     }
 
     /// A component that touches no ground and is held by nobody falls with the sum of its loads, all bodies alike.
     pub(super) fn falls_free(&self) -> Option<(Vec<Motion>, Proof)> {
-        if !self.assembly.is_free() {
+        if !self.assembly.is_unsupported() {
             return None;
         }
         let loads = self.assembly.bodies.iter().map(|body| body.load);
         let total = loads.fold(LoadVector::NONE, LoadVector::and).force;
-        if total.norm() <= Proof::BAND * self.assembly.heaviest() {
+        if total.norm() <= Proof::IMBALANCE_TOL * self.assembly.heaviest() {
             return None;
         }
         let velocity = total.normalize();
@@ -83,7 +83,7 @@ impl Case<'_> {
     }
 
     pub(super) fn mechanism(&self, motion: &[Motion]) -> Proof {
-        proof::mechanism(self.assembly, motion)
+        proof::check_mechanism(self.assembly, motion)
     }
 
     /// The speed of the fastest point in pure numbers, and every body's motion in metres, that point with speed 1.

@@ -6,7 +6,7 @@
 
 use super::Case;
 use super::motion::to_speed_one;
-use crate::assembly::{Assembly, Sets};
+use crate::assembly::{Assembly, DisjointSets};
 use crate::geometry::{Vector, quarter_turn};
 use crate::program::Program;
 use crate::proof::{Motion, Proof};
@@ -30,7 +30,7 @@ impl Case<'_> {
     ) -> Option<(Vec<Motion>, Proof)> {
         AS_ONE.into_iter().find_map(|tolerance| {
             let piece = pieces(self.assembly, motion, tolerance);
-            let joined = self.assembly.joined(&piece);
+            let joined = self.assembly.merged(&piece);
             if joined.bodies.is_empty() || FEWEST * joined.bodies.len() > motion.len() {
                 return None;
             }
@@ -70,7 +70,7 @@ impl Case<'_> {
 fn pieces(assembly: &Assembly, motion: &[Motion], tolerance: f64) -> Vec<Option<usize>> {
     let bodies = &assembly.bodies;
     let ground = bodies.len();
-    let mut sets = Sets::alone(bodies.len() + 1);
+    let mut sets = DisjointSets::new(bodies.len() + 1);
     let radii: Vec<f64> = bodies.iter().map(|body| body.radius()).collect();
     for contact in &assembly.contacts {
         let (on, at) = (contact.on, contact.points[0]);
@@ -82,15 +82,15 @@ fn pieces(assembly: &Assembly, motion: &[Motion], tolerance: f64) -> Vec<Option<
             reach = reach.max(radii[from]);
         }
         if apart.norm() + turn.abs() * reach <= tolerance {
-            sets.join(on, contact.from.unwrap_or(ground));
+            sets.union(on, contact.from.unwrap_or(ground));
         }
     }
-    let resting = sets.of(ground);
+    let resting = sets.find(ground);
     let mut number = vec![None; bodies.len() + 1];
     let mut count = 0;
     (0..bodies.len())
         .map(|body| {
-            let first = sets.of(body);
+            let first = sets.find(body);
             if first == resting {
                 return None;
             }

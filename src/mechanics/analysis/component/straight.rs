@@ -29,7 +29,7 @@ impl Case<'_> {
     fn least_with_straight_joints(&self, program: &Program, effort: &mut Effort) -> Option<Least> {
         let wanted = |s: &&SolverSettings| s.choice != Choice::Any;
         let settings = self.settings.iter().find(wanted)?;
-        let straight = program.with_straight_joints()?;
+        let straight = program.with_parallel_joints()?;
         let attempt = Strategy::Force(*settings).attempt(&straight);
         *effort = effort.and(attempt.effort);
         let amounts = corrected(program, attempt.forces.as_ref()?, effort)?;

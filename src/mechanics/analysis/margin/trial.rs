@@ -10,7 +10,7 @@ use crate::analysis::component::{Ends, Place, ProofCache, guessed, judged, learn
 use crate::assembly::{Assembly, LoadVector};
 use crate::geometry::quarter_turn;
 use crate::program::{Program, Scale};
-use crate::proof::{Forces, Held, Motion, Pressed};
+use crate::proof::{ContactForces, Forces, GripForces, Motion};
 use crate::scene::{Limits, RobotId};
 use crate::solve::{Extreme, Tangent};
 
@@ -296,12 +296,12 @@ fn limits(given: Limits, number: usize, setting: Limited) -> Limits {
 fn between(first: &Forces, last: &Forces, share: f64) -> Forces {
     let mix = |a: f64, b: f64| a + share * (b - a);
     let contacts = first.contacts.iter().zip(&last.contacts);
-    let contacts = contacts.map(|(a, b)| Pressed {
+    let contacts = contacts.map(|(a, b)| ContactForces {
         normal: [0, 1].map(|k| mix(a.normal[k], b.normal[k])),
         friction: mix(a.friction, b.friction),
     });
     let grips = first.grips.iter().zip(&last.grips);
-    let grips = grips.map(|(a, b)| Held {
+    let grips = grips.map(|(a, b)| GripForces {
         force: a.force + (b.force - a.force) * share,
         torque: mix(a.torque, b.torque),
     });

@@ -113,7 +113,7 @@ fn pairs_of_free_forces_are_one_row_each_and_no_others() {
     program.grips.push(other);
     let all = columns(&program);
     assert_eq!(all.len(), 3 + 6 + 6);
-    let (conic, row_of) = kinematic(&program.loads, &all, |_| 0.0);
+    let (conic, row_of) = kinematic_dual(&program.loads, &all, |_| 0.0);
     // The first robot's vertical force, then all of the second one's.
     assert_eq!(conic.equalities, 4);
     let pairs = [(5, 6), (9, 10), (11, 12), (13, 14)];
@@ -123,10 +123,10 @@ fn pairs_of_free_forces_are_one_row_each_and_no_others() {
     let others = [0, 1, 2, 3, 4, 7, 8].map(|k| row_of[k]);
     assert_eq!(others, [4, 5, 6, 7, 8, 9, 10]);
     // The last of all columns has no partner behind it; a pair the other way round is none.
-    let (conic, _) = kinematic(&program.loads, &all[..14], |_| 0.0);
+    let (conic, _) = kinematic_dual(&program.loads, &all[..14], |_| 0.0);
     assert_eq!(conic.equalities, 3);
     let turned = [all[12], all[11]];
-    let (conic, _) = kinematic(&program.loads, &turned, |_| 0.0);
+    let (conic, _) = kinematic_dual(&program.loads, &turned, |_| 0.0);
     assert_eq!(conic.equalities, 0);
 }
 
@@ -135,7 +135,7 @@ fn pairs_of_free_forces_are_one_row_each_and_no_others() {
 fn the_source_poses_every_unknown_with_its_opposite() {
     let beta = 1e6;
     let program = held(0.0, f64::INFINITY, 8.0);
-    let conic = source(&program, beta);
+    let conic = vallat_program(&program, beta);
     assert_eq!((conic.unknowns, conic.equalities), (24, 3));
     assert_eq!(conic.linear[..12], [1.0; 12]);
     assert_eq!(conic.linear[12..], [beta; 12]);
@@ -184,13 +184,13 @@ fn the_source_poses_every_unknown_with_its_opposite() {
 fn the_form_in_forces_sums_costs_and_caps_another_sum() {
     let program = example();
     let all = columns(&program);
-    let free = force_form(&program.loads, &all, |c| 2.0 * c.cost, None);
+    let free = force_primal(&program.loads, &all, |c| 2.0 * c.cost, None);
     let plain = least_squares(&program.loads, &all, None);
     assert_eq!(free.linear, [2.0; 12]);
     assert!(free.quadratic.is_empty());
     assert_eq!((&free.bound, &free.matrix), (&plain.bound, &plain.matrix));
     let robots = |c: &Column| f64::from(u8::from(matches!(c.force, Force::Grip { .. })));
-    let capped = force_form(&program.loads, &all, |c| c.cost, Some((&robots, 7.0)));
+    let capped = force_primal(&program.loads, &all, |c| c.cost, Some((&robots, 7.0)));
     let last = plain.bound.len();
     assert_eq!((capped.bound.len(), capped.bound[last]), (last + 1, 7.0));
     let expected: Vec<f64> = (0..12).map(|k| if k < 6 { 0.0 } else { 1.0 }).collect();
@@ -205,12 +205,12 @@ fn joints_nearly_parallel_or_square_are_made_so_together() {
     let (up, side) = (core::f64::consts::FRAC_PI_2, 0.0);
     let both = [up, up + 1e-13].map(turned);
     (program.contacts.iter_mut().zip(both)).for_each(|(c, n)| c.normal = n);
-    assert!(program.with_straight_joints().is_none());
+    assert!(program.with_parallel_joints().is_none());
     let more = program.contacts.clone();
     program.contacts.extend(more);
     let normals = [up + 3e-6, up - 1e-6, side + 1e-6, 0.01].map(turned);
     (program.contacts.iter_mut().zip(normals)).for_each(|(c, n)| c.normal = n);
-    let straight = program.with_straight_joints().expect("some turn");
+    let straight = program.with_parallel_joints().expect("some turn");
     // All by the mean of 3, −1 and 1 millionths; the last one stays.
     let expected = [up + 1e-6, up + 1e-6, side + 1e-6, 0.01].map(turned);
     for (contact, normal) in straight.contacts.iter().zip(expected) {

@@ -30,7 +30,7 @@ fn a_torque_counts_by_its_own_amount() {
     // robot 3.2 N and the joint's two points 4 N.
     let mut held = on_ground(listed(0.0, 0.0, 7.0));
     held.grips = vec![grip(0, 2.0, 4.0, 9.0)];
-    let gives = Held {
+    let gives = GripForces {
         force: Vector::zeros(),
         torque: -8.0,
     };
@@ -55,7 +55,8 @@ fn a_rounding_of_all_forces_is_granted_to_what_loads_a_body() {
 fn a_rounding_is_granted_to_friction_within_its_cone_and_to_no_more_than_the_load() {
     let side = 1e-8;
     let light = |friction: f64| squeezed(1e-9, friction, listed(side, 0.0, 0.0));
-    let imbalance = |friction: f64, at: [Pressed; 2]| found(&light(friction), at.into(), vec![])[0];
+    let imbalance =
+        |friction: f64, at: [ContactForces; 2]| found(&light(friction), at.into(), vec![])[0];
     let both = |f: f64| [pressed(1000.0, 1000.0, f), pressed(1000.0, 1000.0, f)];
     // Two cones of 16 ε · 4 000 N/10⁻⁹ each, beside the load's own 10⁻⁸ N and as much again of the granted.
     let cones = 2.0 * granted(4000.0);
@@ -99,7 +100,7 @@ fn imbalance_knows_no_unit() {
     let alone = |unit: f64| {
         let mut there = on_ground(LoadVector::NONE);
         there.bodies[0].weight = 10.0 * unit;
-        let there = there.settled();
+        let there = there.with_summed_loads();
         let all = found(&there, vec![pressed(5.5 * unit, 5.5 * unit, 0.0)], vec![]);
         (all[0], all[1])
     };

@@ -8,9 +8,10 @@ fn a_bound_from_below_has_every_rounding_taken_off() {
     // A box let down at 1, another that hangs on a robot at 4: 34 W.
     let mut both = on_ground(LoadVector::NONE);
     both.bodies.push(body(1, 3.0, 2.0, 6.0, LoadVector::NONE));
-    let mut both = both.settled();
-    let bound =
-        |assembly: &Assembly, last: Motion| least_sum(assembly, &[moving(0, 0.0, -1.0, 0.0), last]);
+    let mut both = both.with_summed_loads();
+    let bound = |assembly: &Assembly, last: Motion| {
+        force_sum_lower_bound(assembly, &[moving(0, 0.0, -1.0, 0.0), last])
+    };
     // Ten roundings of the power, eight of the speed.
     both.grips = vec![grip(1, 0.0, f64::INFINITY, 0.0)];
     let found = bound(&both, moving(1, 0.0, -4.0, 0.0)) / (34.0 / 4.0);

@@ -32,7 +32,7 @@ mod tests;
 use std::time::Instant;
 
 use super::{Answer, CrossoverTolerance, Status};
-use crate::program::Conic;
+use crate::program::QuadraticProgram;
 use cholesky::Cholesky;
 use elements::Elements;
 use interior::{Ended, Optimum, Posed};
@@ -66,7 +66,7 @@ pub(super) struct Limits {
 }
 
 /// An optimum, a certificate, or no status; `None` where clarabel is to be asked: of other programs, and of few blocks.
-pub(super) fn solve(problem: &Conic, limits: Limits) -> Option<Answer> {
+pub(super) fn solve(problem: &QuadraticProgram, limits: Limits) -> Option<Answer> {
     let rows = match problem.equalities {
         0 => problem.unknowns,
         equalities => equalities,
@@ -78,12 +78,12 @@ pub(super) fn solve(problem: &Conic, limits: Limits) -> Option<Answer> {
 }
 
 /// Whether a problem wants the least squares of forces.
-pub(super) fn is_squares(problem: &Conic) -> bool {
+pub(super) fn is_squares(problem: &QuadraticProgram) -> bool {
     problem.equalities > 0 && !problem.quadratic.is_empty()
 }
 
 /// The same of every size; a chain's factor takes fewer operations for an unknown than so many.
-fn solve_where(problem: &Conic, limits: Limits, least_work: f64) -> Option<Answer> {
+fn solve_where(problem: &QuadraticProgram, limits: Limits, least_work: f64) -> Option<Answer> {
     let Some(form) = Form::new(problem) else {
         return is_squares(problem)
             .then(|| squares::solve(problem, limits))
@@ -170,7 +170,7 @@ enum Form {
 }
 
 impl Form {
-    fn new(problem: &Conic) -> Option<Form> {
+    fn new(problem: &QuadraticProgram) -> Option<Form> {
         let squares = problem.quadratic.iter().enumerate();
         let all_squared = problem.quadratic.len() == problem.unknowns
             && squares.clone().all(|(k, entry)| *entry == (k, k, 1.0));
@@ -202,7 +202,7 @@ impl Form {
     }
 
     /// The columns, their costs and the loads.
-    fn posed(self, problem: &Conic) -> (Elements, Vec<f64>, Vec<f64>) {
+    fn posed(self, problem: &QuadraticProgram) -> (Elements, Vec<f64>, Vec<f64>) {
         match self {
             Form::Kinematic | Form::Shortest => (
                 Elements::new(
@@ -230,7 +230,7 @@ impl Form {
     }
 
     /// The optimum of a pair in the terms of the problem as it was written down.
-    fn answer(self, problem: &Conic, found: Optimum, velocities: Vec<f64>) -> Answer {
+    fn answer(self, problem: &QuadraticProgram, found: Optimum, velocities: Vec<f64>) -> Answer {
         let in_amounts = self == Form::Forces;
         let status = match found.ended {
             None => Status::Unsolved,

@@ -17,7 +17,7 @@ use super::elements::Elements;
 use super::point::{LEAST_PIVOT, NEARLY, largest};
 use super::product::dot;
 use super::{Answer, Limits, Status};
-use crate::program::Conic;
+use crate::program::QuadraticProgram;
 
 /// Columns of one contact: three for each of its two application points.
 const MOST_COLUMNS: usize = 6;
@@ -38,7 +38,7 @@ const IDLE_STEPS: usize = 3;
 ///
 /// Chains are welcome: of an arch of 10 000 stones clarabel calls the least squares infeasible, whose forces are thousands of
 /// loads.
-pub(super) fn solve(problem: &Conic, limits: Limits) -> Option<Answer> {
+pub(super) fn solve(problem: &QuadraticProgram, limits: Limits) -> Option<Answer> {
     let squares = Squares::new(problem)?;
     let mut run = Run::new(squares, problem)?;
     run.start();
@@ -82,7 +82,7 @@ struct Squares {
 
 impl Squares {
     /// `None` where columns are coupled across more than a few, or floors are not the only inequalities.
-    fn new(problem: &Conic) -> Option<Squares> {
+    fn new(problem: &QuadraticProgram) -> Option<Squares> {
         let n = problem.unknowns;
         let is_floor = |(row, column, value): &(usize, usize, f64)| {
             *row - problem.equalities == *column && *value == -1.0
@@ -188,7 +188,7 @@ struct Direction {
 }
 
 impl Run {
-    fn new(squares: Squares, problem: &Conic) -> Option<Run> {
+    fn new(squares: Squares, problem: &QuadraticProgram) -> Option<Run> {
         let n = problem.unknowns;
         let balance = problem
             .matrix

@@ -35,9 +35,9 @@ fn elements(unknowns: usize, columns: &[Vec<(usize, f64)>]) -> Elements {
 }
 
 /// max loadsᵀy  s.t.  columnᵀy ≤ cost.
-fn kinematic(loads: &[f64], columns: &[Vec<(usize, f64)>], cost: &[f64]) -> Conic {
+fn kinematic(loads: &[f64], columns: &[Vec<(usize, f64)>], cost: &[f64]) -> QuadraticProgram {
     let entries = columns.iter().enumerate();
-    Conic {
+    QuadraticProgram {
         unknowns: loads.len(),
         quadratic: Vec::new(),
         linear: loads.iter().map(|v| -v).collect(),
@@ -50,11 +50,11 @@ fn kinematic(loads: &[f64], columns: &[Vec<(usize, f64)>], cost: &[f64]) -> Coni
 }
 
 /// min costᵀamount  s.t.  Σ amount·column = loads, amount ≥ 0.
-fn forces(loads: &[f64], columns: &[Vec<(usize, f64)>], cost: &[f64]) -> Conic {
+fn forces(loads: &[f64], columns: &[Vec<(usize, f64)>], cost: &[f64]) -> QuadraticProgram {
     let entries = columns.iter().enumerate();
     let balance = entries.flat_map(|(k, column)| column.iter().map(move |(i, v)| (*i, k, *v)));
     let signs = (0..columns.len()).map(|k| (loads.len() + k, k, -1.0));
-    Conic {
+    QuadraticProgram {
         unknowns: columns.len(),
         quadratic: Vec::new(),
         linear: cost.to_vec(),
@@ -73,7 +73,7 @@ fn limits() -> Limits {
     }
 }
 
-fn solved(problem: &Conic) -> Answer {
+fn solved(problem: &QuadraticProgram) -> Answer {
     solve_where(problem, limits(), 0.0).expect("of this kind")
 }
 
@@ -82,7 +82,7 @@ fn product(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// Ax.
-fn rows(problem: &Conic, x: &[f64]) -> Vec<f64> {
+fn rows(problem: &QuadraticProgram, x: &[f64]) -> Vec<f64> {
     let mut rows = vec![0.0; problem.bound.len()];
     for (row, column, value) in &problem.matrix {
         rows[*row] += value * x[*column];
@@ -91,7 +91,7 @@ fn rows(problem: &Conic, x: &[f64]) -> Vec<f64> {
 }
 
 /// Aᵀz.
-fn columns(problem: &Conic, z: &[f64]) -> Vec<f64> {
+fn columns(problem: &QuadraticProgram, z: &[f64]) -> Vec<f64> {
     let mut sums = vec![0.0; problem.unknowns];
     for (row, column, value) in &problem.matrix {
         sums[*column] += value * z[*row];
@@ -295,7 +295,7 @@ fn other_kinds_of_programs_are_left_to_clarabel() {
     let (unknowns, list) = lattice(5, 5, &mut numbers);
     let (loads, cost) = (vec![1.0; unknowns], vec![1.0; list.len()]);
     let plain = kinematic(&loads, &list, &cost);
-    let taken = |problem: &Conic| solve_where(problem, limits(), 0.0).is_some();
+    let taken = |problem: &QuadraticProgram| solve_where(problem, limits(), 0.0).is_some();
     assert!(taken(&plain) && taken(&forces(&loads, &list, &cost)));
     assert!(solve(&plain, limits()).is_none(), "too small");
     let few = Limits {

@@ -1,6 +1,6 @@
 //! That the rows of a case contradict each other: multipliers z with Aᵀz = 0 and bᵀz < 0, z ≥ 0 on inequalities.
 
-use crate::program::{Conic, Program};
+use crate::program::{Program, QuadraticProgram};
 use crate::solve::{Conditioning, Status, TOLERANCE, solve};
 
 /// Displacements and forces up to so many times the loads are ruled out; multipliers are only as exact as that wants.
@@ -17,14 +17,14 @@ const NONE: f64 = 1e-6;
 
 /// Whether multipliers show that a case's rows contradict each other: those given, corrected where they are too rough for
 /// it, or those that show it most clearly.
-pub(super) fn contradicts(conic: &Conic, z: &[f64], program: &Program) -> bool {
+pub(super) fn contradicts(conic: &QuadraticProgram, z: &[f64], program: &Program) -> bool {
     made_to(conic, z, program)
         || clearest(conic).is_some_and(|clearest| made_to(conic, &clearest, program))
 }
 
 /// The multipliers of largest gain −bᵀz with Aᵀz = 0 and |z| ≤ 1: as far from 0 as they may be, where a certificate that
 /// comes with a solver's status may be so near to it that corrections make it vanish.
-fn clearest(conic: &Conic) -> Option<Vec<f64>> {
+fn clearest(conic: &QuadraticProgram) -> Option<Vec<f64>> {
     let rows = conic.bound.len();
     let size = conic.bound.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     if size == 0.0 {
@@ -41,7 +41,7 @@ fn clearest(conic: &Conic) -> Option<Vec<f64>> {
         matrix.push((bound.len() + 1, row, -1.0));
         bound.extend([1.0, least]);
     }
-    let problem = Conic {
+    let problem = QuadraticProgram {
         unknowns: rows,
         quadratic: Vec::new(),
         linear: conic.bound.iter().map(|v| v / size).collect(),
@@ -55,7 +55,7 @@ fn clearest(conic: &Conic) -> Option<Vec<f64>> {
 }
 
 /// Whether multipliers, corrected where they are too rough for it, show that a case's rows contradict each other.
-fn made_to(conic: &Conic, z: &[f64], program: &Program) -> bool {
+fn made_to(conic: &QuadraticProgram, z: &[f64], program: &Program) -> bool {
     let most = z.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     // Rows that hardly count are left out: the others make up for what they would add.
     let mut z: Vec<f64> = z.to_vec();
@@ -77,7 +77,7 @@ fn made_to(conic: &Conic, z: &[f64], program: &Program) -> bool {
 }
 
 /// Multipliers changed least so that Aᵀz = 0; those of inequalities that the change would make negative become 0.
-fn corrected(conic: &Conic, z: &[f64]) -> Option<Vec<f64>> {
+fn corrected(conic: &QuadraticProgram, z: &[f64]) -> Option<Vec<f64>> {
     let off = product(conic, z);
     let size = off.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     if size == 0.0 {
@@ -89,7 +89,7 @@ fn corrected(conic: &Conic, z: &[f64]) -> Option<Vec<f64>> {
         .enumerate()
         .for_each(|(k, row)| number[*row] = k);
     let entries = conic.matrix.iter();
-    let correction = Conic {
+    let correction = QuadraticProgram {
         unknowns: rows.len(),
         quadratic: (0..rows.len()).map(|k| (k, k, 1.0)).collect(),
         linear: vec![0.0; rows.len()],
@@ -114,7 +114,7 @@ fn corrected(conic: &Conic, z: &[f64]) -> Option<Vec<f64>> {
     Some(corrected)
 }
 
-fn product(conic: &Conic, z: &[f64]) -> Vec<f64> {
+fn product(conic: &QuadraticProgram, z: &[f64]) -> Vec<f64> {
     let mut product = vec![0.0; conic.unknowns];
     for (row, column, value) in &conic.matrix {
         product[*column] += value * z[*row];
@@ -123,7 +123,7 @@ fn product(conic: &Conic, z: &[f64]) -> Vec<f64> {
 }
 
 /// Whether Aᵀz = 0 and bᵀz < 0 with z ≥ 0 on inequalities, so that no x has Ax ≤ b: in numbers, none within [`FAR`].
-fn rules_out(conic: &Conic, z: &[f64], program: &Program) -> bool {
+fn rules_out(conic: &QuadraticProgram, z: &[f64], program: &Program) -> bool {
     let z: Vec<f64> = z
         .iter()
         .enumerate()

@@ -8,7 +8,7 @@
 
 use super::certificate::contradicts;
 use super::spring::{Pattern, Slide, Springs};
-use crate::program::{Column, Conic, Program};
+use crate::program::{Column, Program, QuadraticProgram};
 use crate::solve::{Conditioning, Status, TOLERANCE, solve};
 
 /// Cases looked at before the question stays open.
@@ -216,7 +216,7 @@ impl Layout {
     }
 
     /// A case as a problem for the solver: the least sum of N and N + g at the points of which it says nothing.
-    fn posed(&self, springs: &Springs, case: &Case) -> Conic {
+    fn posed(&self, springs: &Springs, case: &Case) -> QuadraticProgram {
         let loads = &springs.program.loads;
         let (mut equal, mut less) = (Rows::default(), Rows::default());
         let mut balance = vec![Vec::new(); loads.len()];
@@ -313,7 +313,7 @@ impl Layout {
             .entries
             .into_iter()
             .map(|(r, k, v)| (r + equalities, k, v));
-        Conic {
+        QuadraticProgram {
             unknowns: self.end,
             quadratic: (0..self.end).map(|k| (k, k, 1e-3 / self.size)).collect(),
             linear,

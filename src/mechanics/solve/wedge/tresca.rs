@@ -6,7 +6,7 @@
 
 use super::law::normal_sums;
 use super::spring::{Pattern, Rest, Slide, Springs};
-use crate::program::Conic;
+use crate::program::QuadraticProgram;
 use crate::solve::{Conditioning, Status, TOLERANCE, solve};
 
 /// Turns at most. Each halves the springs to the ground.
@@ -69,13 +69,13 @@ impl Springs<'_> {
     /// The least energy where friction yields at given forces: displacements u, what points are pressed by p ≥ 0, p ≥ −g,
     /// what springs along faces are stretched by e, and how far faces slide beyond it q ≥ |s − e|;
     /// min ½Σp² + ½ρΣe² + Σ yields·q + ½ ground Σu² + loads·u.
-    fn held_at(&self, yields: &[f64], ground: f64) -> Conic {
+    fn held_at(&self, yields: &[f64], ground: f64) -> QuadraticProgram {
         let (rows, points) = (self.program.loads.len(), self.points.len());
         let faces = self.tangents.len();
         let (pressed, stretched) = (rows, rows + points);
         let slid = stretched + faces;
         let unknowns = slid + faces;
-        let mut conic = Conic {
+        let mut conic = QuadraticProgram {
             unknowns,
             quadratic: Vec::with_capacity(unknowns),
             linear: vec![0.0; unknowns],

@@ -7,11 +7,11 @@ impl Assembly {
     ///
     /// Two bodies are in one component when a chain of contacts leads from one to the other without passing the ground.
     /// L stays that of the whole, so that torques weigh alike everywhere.
-    pub fn split(&self) -> Vec<Assembly> {
-        let mut sets = Sets::alone(self.bodies.len());
+    pub fn components(&self) -> Vec<Assembly> {
+        let mut sets = DisjointSets::new(self.bodies.len());
         for contact in &self.contacts {
             if let Some(from) = contact.from {
-                sets.join(contact.on, from);
+                sets.union(contact.on, from);
             }
         }
         let mut parts: Vec<Assembly> = Vec::new();
@@ -19,7 +19,7 @@ impl Assembly {
         let mut part_of_root: Vec<Option<usize>> = vec![None; self.bodies.len()];
         let mut place = Vec::with_capacity(self.bodies.len());
         for (number, body) in self.bodies.iter().enumerate() {
-            let root = sets.of(number);
+            let root = sets.find(number);
             let part = *part_of_root[root].get_or_insert_with(|| {
                 parts.push(Assembly {
                     bodies: Vec::new(),
@@ -48,26 +48,26 @@ impl Assembly {
     }
 
     /// Whether it touches no ground and nobody holds it.
-    pub fn is_free(&self) -> bool {
+    pub fn is_unsupported(&self) -> bool {
         self.grips.is_empty() && self.contacts.iter().all(|c| c.from.is_some())
     }
 }
 
 /// Disjoint sets of numbers, each known by its least member.
-pub(crate) struct Sets {
+pub(crate) struct DisjointSets {
     above: Vec<usize>,
 }
 
-impl Sets {
+impl DisjointSets {
     /// So many numbers, each a set of its own.
-    pub fn alone(count: usize) -> Sets {
-        Sets {
+    pub fn new(count: usize) -> DisjointSets {
+        DisjointSets {
             above: (0..count).collect(),
         }
     }
 
     /// The least member of a number's set.
-    pub fn of(&mut self, mut number: usize) -> usize {
+    pub fn find(&mut self, mut number: usize) -> usize {
         while self.above[number] != number {
             self.above[number] = self.above[self.above[number]];
             number = self.above[number];
@@ -76,8 +76,8 @@ impl Sets {
     }
 
     /// Makes the sets of two numbers one.
-    pub fn join(&mut self, one: usize, other: usize) {
-        let (one, other) = (self.of(one), self.of(other));
+    pub fn union(&mut self, one: usize, other: usize) {
+        let (one, other) = (self.find(one), self.find(other));
         self.above[one.max(other)] = one.min(other);
     }
 }

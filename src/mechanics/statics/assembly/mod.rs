@@ -1,19 +1,19 @@
 //! [`Assembly`]: one frame of a scene, resolved: what is balanced, by which forces, in metres and newtons.
 //!
 //! An assembly knows bodies with their load vectors, contacts with their application points, and grips with their limits,
-//! and nothing of files, steps or materials. The effects of [`crate::effect`] put it together; [`Assembly::split`] parts it
+//! and nothing of files, steps or materials. The effects of [`crate::effect`] put it together; [`Assembly::components`] parts it
 //! into components that cannot influence each other; the `with_…` functions make the changed assemblies that margins are
 //! found from, without touching the scene. Invariant: body, contact and grip numbers are indices into its own lists, every
-//! contact's first body is in it, and each load vector is the sum that [`Assembly::settled`] makes of the weight and the
+//! contact's first body is in it, and each load vector is the sum that [`Assembly::with_summed_loads`] makes of the weight and the
 //! listed loads.
 
 mod component;
-mod joined;
-mod part;
+mod merge;
+mod substructure;
 mod variation;
 
-pub(crate) use component::Sets;
-pub use part::Part;
+pub(crate) use component::DisjointSets;
+pub use substructure::Substructure;
 
 use std::sync::Arc;
 
@@ -156,7 +156,7 @@ pub struct AssemblyGrip {
 
 impl Assembly {
     /// The placed bodies of a frame with nothing that acts on them: what effects contribute to.
-    pub fn bare(scene: &Scene, frame: &Frame, interfaces: &[&Interface]) -> Assembly {
+    pub fn without_effects(scene: &Scene, frame: &Frame, interfaces: &[&Interface]) -> Assembly {
         let mut placed = frame.placed.clone();
         placed.sort();
         let bodies = placed.into_iter().map(|block| {
@@ -190,7 +190,7 @@ impl Assembly {
     }
 
     /// The assembly with every load vector summed anew from weight, pull and listed loads.
-    pub fn settled(mut self) -> Assembly {
+    pub fn with_summed_loads(mut self) -> Assembly {
         for body in &mut self.bodies {
             let weight = LoadVector {
                 force: self.pull * body.weight,

@@ -24,13 +24,13 @@ impl Assembly {
     /// With another pull of gravity, in newtons per newton of weight: turned, or stretched.
     pub fn with_gravity(mut self, pull: Vector) -> Assembly {
         self.pull = pull;
-        self.settled()
+        self.with_summed_loads()
     }
 
     /// With the listed loads times a factor.
     pub fn with_load_factor(mut self, factor: f64) -> Assembly {
         self.load_factor = factor;
-        self.settled()
+        self.with_summed_loads()
     }
 
     /// With other limits of the grip with this number.

@@ -141,7 +141,8 @@ const EFFECTS: [Effect; 8] = [
 ///
 /// The reports of simulated effects hold 0 unknowns until they are counted from the programs posed.
 pub fn assemble(situation: &FrameContext) -> (Assembly, Vec<EffectReport>) {
-    let mut assembly = Assembly::bare(situation.scene, situation.frame, situation.interfaces);
+    let mut assembly =
+        Assembly::without_effects(situation.scene, situation.frame, situation.interfaces);
     let mut reports = Vec::with_capacity(EFFECTS.len());
     for effect in &EFFECTS {
         reports.push(match (effect.called_for)(situation) {
@@ -153,7 +154,7 @@ pub fn assemble(situation: &FrameContext) -> (Assembly, Vec<EffectReport>) {
         });
     }
     assembly.contacts.sort_by_key(|contact| contact.interface);
-    (assembly.settled(), reports)
+    (assembly.with_summed_loads(), reports)
 }
 
 /// `1 thing`, `2 things`.

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::held::{FLAT, propped};
-use super::{ContactKind, Interface, Interfaces, Near, bodies, ordered};
+use super::pinned::{FLAT, pinned_gaps};
+use super::{ContactKind, Interface, Interfaces, NearMiss, bodies, ordered};
 use crate::geometry::{Aabb, BoxIndex, Edge, Point, Tolerance, Vector, cross, quarter_turn};
 use crate::scene::{BodyId, Scene, size};
 
@@ -39,7 +39,7 @@ impl Side {
     /// the stones of an arch, thin and leaning, boxes overlap by the hundred, and every joint has a direction of its own.
     fn around(&self) -> Aabb<3> {
         let along = self.edge.vector();
-        let angle = (2.0 * self.near / along.norm()).clamp(PARALLEL, Tolerance::ANGLE);
+        let angle = (2.0 * self.near / along.norm()).clamp(PARALLEL, Tolerance::MAX_ANGLE);
         // A sine is less than its angle by less than a thousandth, and directions differ by less than angles.
         let angle = 1.001 * angle;
         let (flat, direction) = (self.edge.around(), direction(along));
@@ -62,7 +62,7 @@ impl Side {
             turned.max[2] += by;
             turned
         });
-        let margin = 2.0 * Tolerance::ANGLE;
+        let margin = 2.0 * Tolerance::MAX_ANGLE;
         let is_one =
             move |around: &Aabb<3>| around.max[2] >= -margin && around.min[2] <= TURN + margin;
         turned.into_iter().filter(is_one)
@@ -122,7 +122,7 @@ pub(super) fn find(scene: &Scene) -> Interfaces {
         Vec::with_capacity(2 * scene.blocks.len());
     let sides = nearby.all().map(|(_, side)| side);
     for a in sides.filter(|a| matches!(a.body, BodyId::Block(_))) {
-        for b in a.facing().flat_map(|around| nearby.near(around)) {
+        for b in a.facing().flat_map(|around| nearby.intersecting(around)) {
             let Some(pair) = ordered(a.body, b.body).filter(|p| p[0] == a.body && a.body != b.body)
             else {
                 continue;
@@ -144,7 +144,7 @@ pub(super) fn find(scene: &Scene) -> Interfaces {
             match meeting {
                 Meeting::Stretch(interface, distance) => {
                     if distance > 0.0 && FLAT * distance >= smallest {
-                        narrow.push(Near {
+                        narrow.push(NearMiss {
                             bodies: pair,
                             at: interface.middle(),
                             distance,
@@ -162,7 +162,7 @@ pub(super) fn find(scene: &Scene) -> Interfaces {
                     if distance <= NEAR * tolerance.gap {
                         notices.apart(scene, pair, distance);
                     }
-                    near.push(Near {
+                    near.push(NearMiss {
                         bodies: pair,
                         at,
                         distance,
@@ -175,12 +175,12 @@ pub(super) fn find(scene: &Scene) -> Interfaces {
             all.extend(joined(stretches, tolerance));
         }
     }
-    let propped = propped(scene, &all, &narrow);
+    let pinned_gaps = pinned_gaps(scene, &all, &narrow);
     Interfaces {
         all,
-        near,
+        near_misses: near,
         slivers,
-        propped,
+        pinned_gaps,
         notices: notices.words(scene.tolerance),
     }
 }
@@ -208,7 +208,7 @@ fn meeting(scene: &Scene, bodies: [BodyId; 2], a: &Side, b: &Side) -> Option<Mee
     let (a0, a1, b0, b1) = (0.0, from_a(a.to), from_a(b.to), from_a(b.from));
     let (s0, s1) = (f64::max(a0, b0), f64::min(a1, b1));
     let length = s1 - s0;
-    if length < -tolerance.stretch {
+    if length < -tolerance.min_length {
         return None;
     }
     let outward = Vector::new(along.y, -along.x);
@@ -230,9 +230,9 @@ fn meeting(scene: &Scene, bodies: [BodyId; 2], a: &Side, b: &Side) -> Option<Mee
     if !within(tolerance.gap) {
         return None;
     }
-    let is_short = length <= tolerance.shortest(la.min(lb));
+    let is_short = length <= tolerance.min_contact_length(la.min(lb));
     // Less than a thousandth of the limit is the rounding of a corner that touches, not a contact.
-    if is_short && length <= 1e-3 * tolerance.stretch {
+    if is_short && length <= 1e-3 * tolerance.min_length {
         return None;
     }
     let middle = |s: f64| a.from + along * s + outward * ((height(a, s) + height(b, s)) / 2.0);
@@ -400,7 +400,7 @@ impl Notices {
     fn short(&mut self, length: f64, tolerance: Tolerance) {
         self.shorts += 1;
         self.longest = self.longest.max(length);
-        self.limit = self.limit.max(tolerance.stretch);
+        self.limit = self.limit.max(tolerance.min_length);
     }
 
     fn apart(&mut self, scene: &Scene, pair: [BodyId; 2], distance: f64) {

@@ -13,11 +13,11 @@ type Node = (i64, i64);
 
 /// Who has which unit edges of a lattice: what a growing structure touches is looked up here, and not searched anew.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Edges {
+pub(crate) struct LatticeEdges {
     owners: BTreeMap<(Node, Node), Vec<BodyId>>,
 }
 
-impl Edges {
+impl LatticeEdges {
     /// Enters a body of cells.
     pub(crate) fn add(&mut self, id: BodyId, cells: &[Cell]) {
         for step in boundary(cells) {
@@ -71,7 +71,7 @@ impl Edges {
 
 /// All edge interfaces of a scene made of cells.
 pub(super) fn find(scene: &Scene, lattice: &Lattice) -> Vec<Interface> {
-    let mut edges = Edges::default();
+    let mut edges = LatticeEdges::default();
     for id in bodies(scene) {
         if let Some(cells) = &scene.body(id).cells {
             edges.add(id, cells);

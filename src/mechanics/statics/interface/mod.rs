@@ -6,13 +6,13 @@
 
 mod corner;
 mod edge;
-mod held;
+mod pinned;
 mod lattice;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use held::{Touching, held_open};
-pub(crate) use lattice::Edges;
+pub(crate) use lattice::LatticeEdges;
+pub(crate) use pinned::{ContactsByBody, pinning_stone};
 
 use crate::geometry::{Point, Vector, quarter_turn};
 use crate::scene::{BlockId, BodyId, Frame, Scene};
@@ -85,7 +85,7 @@ pub fn application_points(ends: [Point; 2], kernel: f64) -> [Point; 2] {
 
 /// Two edges that face each other with less than a hundredth of the smaller block's size between them, and do not touch.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Near {
+pub struct NearMiss {
     /// The two bodies, as an interface would name them.
     pub bodies: [BodyId; 2],
     /// Around where.
@@ -96,14 +96,14 @@ pub struct Near {
 
 /// Where a stone keeps two bodies apart that would touch within the tolerance: it is as high as the gap is wide.
 #[derive(Clone, Debug)]
-pub(crate) struct Propped {
+pub(crate) struct PinnedGap {
     /// The two bodies and the gap.
-    gap: Near,
+    gap: NearMiss,
     /// The stone.
     stone: BlockId,
 }
 
-impl Propped {
+impl PinnedGap {
     /// Whether an interface lies in the gap.
     fn parts(&self, interface: &Interface) -> bool {
         let off = self.gap.at - interface.middle();
@@ -119,11 +119,11 @@ pub struct Interfaces {
     /// In the order of the bodies' numbers, then of the place along them.
     pub all: Vec<Interface>,
     /// What nearly touches; a verdict may hinge on it.
-    pub near: Vec<Near>,
+    pub near_misses: Vec<NearMiss>,
     /// Stretches of long edges that are too short to count, and longer than rounding; a verdict may hinge on them.
     pub slivers: Vec<Interface>,
     /// Two bodies, a place where they touch within the tolerance and no nearer, and a stone that keeps them apart there.
-    pub(crate) propped: Vec<Propped>,
+    pub(crate) pinned_gaps: Vec<PinnedGap>,
     /// What was too short or too far apart to count, in words.
     pub notices: Vec<String>,
 }
@@ -137,9 +137,9 @@ impl Interfaces {
         let mut found = match (&scene.lattice, scene.exact) {
             (Some(lattice), true) => Interfaces {
                 all: lattice::find(scene, lattice),
-                near: Vec::new(),
+                near_misses: Vec::new(),
                 slivers: Vec::new(),
-                propped: Vec::new(),
+                pinned_gaps: Vec::new(),
                 notices: Vec::new(),
             },
             _ => edge::find(scene),
@@ -182,8 +182,8 @@ impl Interfaces {
             BodyId::Block(id) => placed[id.0],
         };
         let is_open = |i: &Interface| {
-            let mut propped = self.propped.iter();
-            propped.any(|p| stands(BodyId::Block(p.stone)) && p.parts(i))
+            let mut pinned_gaps = self.pinned_gaps.iter();
+            pinned_gaps.any(|p| stands(BodyId::Block(p.stone)) && p.parts(i))
         };
         self.all
             .iter()

@@ -5,7 +5,7 @@ use crate::scene::format::{BlockEntry, CellEntry, CellHalf, GridKind, GroundEntr
 
 mod corner;
 mod edge;
-mod held;
+mod pinned;
 mod lattice;
 
 /// Coordinates times this have all their digits, so that no scene here takes them for rounded and moves corners.
@@ -165,7 +165,7 @@ fn edges_meet_within_the_tolerance_and_beyond_it_are_told_apart() {
     };
     let gap = gap(&at(0.0, 0.0), BodyId::Ground(0));
     let found = Interfaces::new(&at(0.9 * gap, 0.0));
-    assert_eq!((found.all.len(), found.near.len()), (2, 0));
+    assert_eq!((found.all.len(), found.near_misses.len()), (2, 0));
     assert!(found.notices.is_empty(), "{:?}", found.notices);
     // The shared stretch, from x = −0.75 to 1, half way up the gap.
     let stretch = &found.all[0];
@@ -174,8 +174,8 @@ fn edges_meet_within_the_tolerance_and_beyond_it_are_told_apart() {
     assert!((stretch.middle().y - 0.45 * gap).abs() < 1e-12);
 
     let apart = Interfaces::new(&at(29.0 * gap, 0.0));
-    assert_eq!((apart.all.len(), apart.near.len()), (1, 1));
-    let miss = apart.near[0];
+    assert_eq!((apart.all.len(), apart.near_misses.len()), (1, 1));
+    let miss = apart.near_misses[0];
     assert_eq!(miss.bodies, [FIRST, BodyId::Ground(0)]);
     assert!((miss.distance - 29.0 * gap).abs() < 1e-12);
     assert!((miss.at.x - 0.125 * ODD).abs() < 1e-9 && (miss.at.y - 29.0 * gap).abs() < 1e-12);
@@ -192,10 +192,13 @@ fn edges_meet_within_the_tolerance_and_beyond_it_are_told_apart() {
     );
     // Farther apart is told without a notice, and beyond a hundredth of the block not at all.
     let apart = Interfaces::new(&at(31.0 * gap, 0.0));
-    assert_eq!((apart.near.len(), apart.notices.len()), (1, 0));
+    assert_eq!((apart.near_misses.len(), apart.notices.len()), (1, 0));
     let size = crate::scene::size(&at(0.0, 0.0).body(FIRST).polygon);
     for (share, seen) in [(0.0099, 1), (0.0101, 0)] {
-        assert_eq!(Interfaces::new(&at(share * size, 0.0)).near.len(), seen);
+        assert_eq!(
+            Interfaces::new(&at(share * size, 0.0)).near_misses.len(),
+            seen
+        );
     }
 }
 
@@ -210,7 +213,7 @@ fn a_stretch_too_short_to_count_is_told_with_its_length() {
             rectangle(-2.0 + 1e-7, 1.0, 2.0, 1.0),
         ],
     );
-    let limit = scene.tolerance_between(FIRST, SECOND).stretch;
+    let limit = scene.tolerance_between(FIRST, SECOND).min_length;
     let found = Interfaces::new(&scene);
     let short = format!(
         "1 contact(s) up to 1.0e-7 m long are shorter than {limit:.1e} m and count as touching corners, which carry no force"

@@ -41,13 +41,21 @@ fn edges_are_found_on_every_side_of_a_block() {
         let gap = gap(&at(0.0), BodyId::Ground(0));
         let outward = quarters([0.0, 1.0], times);
         let found = Interfaces::new(&at(0.9 * gap));
-        assert_eq!((found.all.len(), found.near.len()), (1, 0), "{times}");
+        assert_eq!(
+            (found.all.len(), found.near_misses.len()),
+            (1, 0),
+            "{times}"
+        );
         assert!(near(found.all[0].normal, outward));
         let apart = Interfaces::new(&at(29.0 * gap));
-        assert_eq!((apart.all.len(), apart.near.len()), (0, 1), "{times}");
+        assert_eq!(
+            (apart.all.len(), apart.near_misses.len()),
+            (0, 1),
+            "{times}"
+        );
         let place = quarters([0.125 * ODD, 29.0 * gap], times);
-        let off = apart.near[0].at - Point::new(place[0], place[1]);
-        assert!(off.norm() < 1e-9, "{:?}", apart.near[0]);
+        let off = apart.near_misses[0].at - Point::new(place[0], place[1]);
+        assert!(off.norm() < 1e-9, "{:?}", apart.near_misses[0]);
     }
 }
 
@@ -61,9 +69,9 @@ fn edges_are_apart_by_the_smaller_blocks_size() {
     let floor = vec![rectangle(-5.0, -1.0, 20.0, 1.0)];
     for (share, seen) in [(0.009, 1), (0.011, 0), (0.03, 0)] {
         let there = scene(floor.clone(), vec![small(share), large.clone()]);
-        assert_eq!(Interfaces::new(&there).near.len(), seen, "{share}");
+        assert_eq!(Interfaces::new(&there).near_misses.len(), seen, "{share}");
         let there = scene(floor.clone(), vec![large.clone(), small(share)]);
-        assert_eq!(Interfaces::new(&there).near.len(), seen, "{share}");
+        assert_eq!(Interfaces::new(&there).near_misses.len(), seen, "{share}");
     }
 }
 
@@ -89,7 +97,7 @@ fn edges_that_share_less_than_they_are_apart_do_not_face_each_other() {
         let found = Interfaces::new(&at(shared * gap, apart * gap));
         let edges = found.all.iter().filter(|i| i.kind == ContactKind::Edge);
         assert_eq!(edges.count(), 1, "{shared} {apart}");
-        assert_eq!(found.near.len(), seen, "{shared} {apart}");
+        assert_eq!(found.near_misses.len(), seen, "{shared} {apart}");
         assert_eq!(found.notices.len(), seen, "{shared} {apart}");
     }
 }
@@ -109,8 +117,8 @@ fn askew(rise: f64, width: f64) -> (Scene, f64) {
 fn a_joint_that_opens_to_one_side_is_apart_by_its_wider_end() {
     let (scene, gap) = askew(5.0, 4.0);
     let found = Interfaces::new(&scene);
-    assert_eq!(found.near.len(), 1);
-    let miss = found.near[0];
+    assert_eq!(found.near_misses.len(), 1);
+    let miss = found.near_misses[0];
     assert!((miss.distance - 5.0 * gap).abs() < 1e-12, "{miss:?}");
     assert!((miss.at.x - ODD).abs() < 1e-5);
     assert!(found.all.iter().all(|i| i.kind == ContactKind::Corner));
@@ -246,8 +254,8 @@ fn how_far_edges_are_apart_counts_where_both_are() {
     let gap = gap(&at(0.0, 1.0), BodyId::Ground(0));
     for (begin, apart) in [(1.0, 5.0), (0.5, 7.5), (-1.0, 10.0)] {
         let found = Interfaces::new(&at(10.0 * gap, begin));
-        assert_eq!(found.near.len(), 1, "{begin}");
-        let off = (found.near[0].distance - apart * gap).abs();
-        assert!(off < 1e-9, "{begin} {:?}", found.near[0]);
+        assert_eq!(found.near_misses.len(), 1, "{begin}");
+        let off = (found.near_misses[0].distance - apart * gap).abs();
+        assert!(off < 1e-9, "{begin} {:?}", found.near_misses[0]);
     }
 }

@@ -1,7 +1,7 @@
 //! Contacts of scenes made of cells.
 
 use super::*;
-use crate::interface::lattice::Edges;
+use crate::interface::lattice::LatticeEdges;
 
 fn squares(list: &[(f64, f64)]) -> Vec<CellEntry> {
     let cells = list.iter().map(|(x, y)| CellEntry::Square(*x, *y));
@@ -31,7 +31,7 @@ fn lidded() -> Scene {
 fn edges_looked_up_one_body_at_a_time_are_those_found_at_once() {
     let scene = lidded();
     let all = Interfaces::new(&scene);
-    assert!(all.near.is_empty() && all.slivers.is_empty() && all.notices.is_empty());
+    assert!(all.near_misses.is_empty() && all.slivers.is_empty() && all.notices.is_empty());
     let block = |n: usize| BodyId::Block(BlockId(n));
     let pairs: Vec<[BodyId; 2]> = all.all.iter().map(|i| i.bodies).collect();
     let (u, bar, lid) = (block(0), block(1), block(2));
@@ -48,7 +48,7 @@ fn edges_looked_up_one_body_at_a_time_are_those_found_at_once() {
     assert_eq!(pairs, expected);
     let lattice = scene.lattice.expect("a lattice");
     let cells = |id: BodyId| scene.body(id).cells.clone().expect("cells");
-    let mut edges = Edges::default();
+    let mut edges = LatticeEdges::default();
     let mut sorted = Vec::new();
     for id in [ground, u, bar, lid] {
         edges.add(id, &cells(id));

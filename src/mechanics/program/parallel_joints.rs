@@ -15,7 +15,7 @@ impl Program {
     ///
     /// Between faces that are parallel but for 10⁻⁶ a block is a wedge so slender that velocities of 10⁶ open it; then the
     /// least force ends without a status, which it does not where the faces are parallel, or less nearly so.
-    pub fn with_straight_joints(&self) -> Option<Program> {
+    pub fn with_parallel_joints(&self) -> Option<Program> {
         let normals: Vec<Vector> = self.contacts.iter().map(|c| c.normal).collect();
         let turns = turns(&normals);
         if turns.iter().all(|turn| turn.abs() <= ROUNDING) {

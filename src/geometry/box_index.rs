@@ -98,7 +98,7 @@ impl<T, const D: usize> SortedBoxes<T, D> {
         SortedBoxes { all }
     }
 
-    fn near(&self, asked: Aabb<D>) -> impl Iterator<Item = &T> {
+    fn intersecting(&self, asked: Aabb<D>) -> impl Iterator<Item = &T> {
         // Before `begin` all boxes end, and from `end` on all begin, beside the one asked about.
         let left = asked.min[0];
         let begin = self.all.partition_point(|placed| placed.reach < left);
@@ -139,7 +139,7 @@ impl<T, const D: usize> Tree<T, D> {
         }
     }
 
-    fn near(&self, asked: Aabb<D>) -> impl Iterator<Item = &T> {
+    fn intersecting(&self, asked: Aabb<D>) -> impl Iterator<Item = &T> {
         let (mut node, mut things) = (0, [].iter());
         std::iter::from_fn(move || {
             loop {
@@ -240,11 +240,13 @@ impl<T, const D: usize> BoxIndex<T, D> {
     }
 
     /// Those whose boxes share a point with a box, in no order that may matter.
-    pub(crate) fn near(&self, around: Aabb<D>) -> impl Iterator<Item = &T> {
+    pub(crate) fn intersecting(&self, around: Aabb<D>) -> impl Iterator<Item = &T> {
         let (few, many) = self.parts();
-        let few = few.into_iter().flat_map(move |row| row.near(around));
+        let few = few
+            .into_iter()
+            .flat_map(move |row| row.intersecting(around));
         let many = many.into_iter();
-        few.chain(many.flat_map(move |tree| tree.near(around)))
+        few.chain(many.flat_map(move |tree| tree.intersecting(around)))
     }
 
     fn parts(&self) -> (Option<&SortedBoxes<T, D>>, Option<&Tree<T, D>>) {
@@ -273,7 +275,7 @@ mod tests {
         let leaning = |n: &usize| Aabb::leaning(&needle(*n));
         let things = BoxIndex::new((0..100).collect(), leaning);
         for n in 0..100 {
-            assert_eq!(things.near(leaning(&n)).collect::<Vec<_>>(), [&n]);
+            assert_eq!(things.intersecting(leaning(&n)).collect::<Vec<_>>(), [&n]);
         }
     }
 
@@ -284,7 +286,7 @@ mod tests {
             let things = BoxIndex::new((0..side * side).collect(), |n| point(at(*n)));
             assert_eq!(matches!(things, BoxIndex::Few(_)), side * side <= FEW);
             assert_eq!(things.all().count(), side * side);
-            let found = things.near(Aabb {
+            let found = things.intersecting(Aabb {
                 min: [0.5, 1.0],
                 max: [2.0, 3.0],
             });
@@ -319,7 +321,7 @@ mod tests {
             let things = BoxIndex::new((0..count).collect(), |n| around(all[*n]));
             for _ in 0..60 {
                 let asked = any();
-                let mut found: Vec<usize> = things.near(around(asked)).copied().collect();
+                let mut found: Vec<usize> = things.intersecting(around(asked)).copied().collect();
                 found.sort_unstable();
                 let apart = |a: [i32; 4], b: [i32; 4]| a[2] < b[0] || a[3] < b[1];
                 let meets = |n: &usize| !apart(all[*n], asked) && !apart(asked, all[*n]);

@@ -1,7 +1,7 @@
 //! Which stone keeps a gap open, and in which frames it does.
 
 use super::*;
-use crate::interface::held::{Touching, held_open};
+use crate::interface::pinned::{ContactsByBody, pinning_stone};
 
 const GROUND: BodyId = BodyId::Ground(0);
 const STONE: BodyId = BodyId::Block(BlockId(1));
@@ -20,8 +20,8 @@ fn stretch(bodies: [BodyId; 2], middle: [f64; 2], normal: [f64; 2]) -> Interface
 }
 
 /// The gap of 2 m between the first block above and the ground below.
-fn gap() -> Near {
-    Near {
+fn gap() -> NearMiss {
+    NearMiss {
         bodies: [FIRST, GROUND],
         at: Point::new(0.0, 2.0),
         distance: 2.0,
@@ -37,7 +37,7 @@ fn above(x: f64, height: f64) -> Interface {
 }
 
 fn keeps(all: &[Interface], stands: bool, tolerance: f64) -> Option<BlockId> {
-    held_open(&gap(), &Touching::new(all), |_| stands, tolerance)
+    pinning_stone(&gap(), &ContactsByBody::new(all), |_| stands, tolerance)
 }
 
 #[test]
@@ -117,8 +117,8 @@ fn frame(placed: &[usize]) -> Frame {
 fn a_frame_has_what_touches_in_it_and_no_gap_that_its_stones_keep_open() {
     let scene = pinned();
     let found = Interfaces::new(&scene);
-    assert_eq!(found.propped.len(), 1, "{:?}", found.propped);
-    assert_eq!(found.propped[0].stone, BlockId(2));
+    assert_eq!(found.pinned_gaps.len(), 1, "{:?}", found.pinned_gaps);
+    assert_eq!(found.pinned_gaps[0].stone, BlockId(2));
     let block = |n: usize| BodyId::Block(BlockId(n));
     let pairs = |placed: &[usize]| {
         let list = found.in_frame(&scene, &frame(placed));
@@ -137,7 +137,7 @@ fn a_frame_has_what_touches_in_it_and_no_gap_that_its_stones_keep_open() {
 
 #[test]
 fn a_gap_is_where_it_lies_and_no_other_seam_of_the_two_bodies() {
-    let propped = Propped {
+    let pinned_gaps = PinnedGap {
         gap: gap(),
         stone: BlockId(1),
     };
@@ -151,13 +151,13 @@ fn a_gap_is_where_it_lies_and_no_other_seam_of_the_two_bodies() {
         (0.0, 2.9, true),
         (0.0, 3.1, false),
     ] {
-        assert_eq!(propped.parts(&seam(x, y)), inside, "{x} {y}");
+        assert_eq!(pinned_gaps.parts(&seam(x, y)), inside, "{x} {y}");
     }
     let mut long = seam(0.0, 4.1);
     long.ends = [Point::new(9.0, 4.1), Point::new(-9.0, 4.1)];
-    assert!(!propped.parts(&long));
+    assert!(!pinned_gaps.parts(&long));
     long.ends = [Point::new(9.0, 3.9), Point::new(-9.0, 3.9)];
-    assert!(propped.parts(&long));
+    assert!(pinned_gaps.parts(&long));
     let other = stretch([STONE, GROUND], [0.0, 2.0], [0.0, 1.0]);
-    assert!(!propped.parts(&other));
+    assert!(!pinned_gaps.parts(&other));
 }

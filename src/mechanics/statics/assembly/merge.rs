@@ -1,4 +1,4 @@
-//! [`Assembly::joined`]: bodies that move as one, as one body.
+//! [`Assembly::merged`]: bodies that move as one, as one body.
 
 use super::{Assembly, AssemblyBody, AssemblyContact, AssemblyGrip, LoadVector, about};
 use crate::geometry::{Point, Vector};
@@ -7,7 +7,7 @@ impl Assembly {
     /// The assembly with the bodies of each piece as one, and those without a piece as ground.
     ///
     /// A piece's centroid is the mean of its bodies' centroids. Contacts within a piece are left out, and grips on ground.
-    pub fn joined(&self, piece: &[Option<usize>]) -> Assembly {
+    pub fn merged(&self, piece: &[Option<usize>]) -> Assembly {
         let count = piece.iter().flatten().max().map_or(0, |most| most + 1);
         let mut members: Vec<Vec<&AssemblyBody>> = vec![Vec::new(); count];
         for (body, piece) in self.bodies.iter().zip(piece) {
@@ -138,7 +138,7 @@ mod tests {
             length: 1.0,
         };
         // The last rests with the ground.
-        let joined = assembly.joined(&[Some(1), Some(0), Some(1), None]);
+        let joined = assembly.merged(&[Some(1), Some(0), Some(1), None]);
         let [one, two] = &joined.bodies[..] else {
             panic!("two pieces");
         };

@@ -2,22 +2,22 @@
 
 use std::collections::BTreeMap;
 
-use super::{Interface, Near, Propped};
+use super::{Interface, NearMiss, PinnedGap};
 use crate::scene::{BlockId, BodyId, Scene, size};
 
 /// What touches each body.
-pub(crate) struct Touching<'a>(BTreeMap<BodyId, Vec<&'a Interface>>);
+pub(crate) struct ContactsByBody<'a>(BTreeMap<BodyId, Vec<&'a Interface>>);
 
-impl<'a> Touching<'a> {
+impl<'a> ContactsByBody<'a> {
     /// Of these interfaces.
-    pub(crate) fn new(all: &'a [Interface]) -> Touching<'a> {
+    pub(crate) fn new(all: &'a [Interface]) -> ContactsByBody<'a> {
         let mut touching: BTreeMap<BodyId, Vec<&Interface>> = BTreeMap::new();
         for interface in all {
             for body in interface.bodies {
                 touching.entry(body).or_default().push(interface);
             }
         }
-        Touching(touching)
+        ContactsByBody(touching)
     }
 
     fn body(&self, body: BodyId) -> &[&'a Interface] {
@@ -29,9 +29,9 @@ impl<'a> Touching<'a> {
 ///
 /// Such a stone touches both, on opposite sides, and is as high between them as the gap is wide, give or take a tenth and
 /// `tolerance` metres.
-pub(crate) fn held_open(
-    gap: &Near,
-    touching: &Touching,
+pub(crate) fn pinning_stone(
+    gap: &NearMiss,
+    touching: &ContactsByBody,
     stands: impl Fn(&BodyId) -> bool,
     tolerance: f64,
 ) -> Option<BlockId> {
@@ -59,15 +59,15 @@ pub(crate) fn held_open(
 pub(super) const FLAT: f64 = 4.0;
 
 /// Which of some gaps within the tolerance a stone keeps open.
-pub(super) fn propped(scene: &Scene, all: &[Interface], narrow: &[Near]) -> Vec<Propped> {
+pub(super) fn pinned_gaps(scene: &Scene, all: &[Interface], narrow: &[NearMiss]) -> Vec<PinnedGap> {
     if narrow.is_empty() {
         return Vec::new();
     }
-    let touching = Touching::new(all);
+    let touching = ContactsByBody::new(all);
     let held = narrow.iter().filter_map(|gap| {
         let flat = |body: &BodyId| size(&scene.body(*body).polygon) <= FLAT * gap.distance;
-        let stone = held_open(gap, &touching, flat, 0.0)?;
-        Some(Propped { gap: *gap, stone })
+        let stone = pinning_stone(gap, &touching, flat, 0.0)?;
+        Some(PinnedGap { gap: *gap, stone })
     });
     held.collect()
 }

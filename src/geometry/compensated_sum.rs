@@ -5,12 +5,12 @@
 
 /// A sum kept with twice the digits of a number.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Sum {
+pub struct CompensatedSum {
     high: f64,
     low: f64,
 }
 
-impl Sum {
+impl CompensatedSum {
     /// Adds a number.
     pub fn add(&mut self, value: f64) {
         let sum = self.high + value;
@@ -38,12 +38,12 @@ mod tests {
 
     #[test]
     fn sums_keep_what_large_forces_hide() {
-        let mut sum = Sum::default();
+        let mut sum = CompensatedSum::default();
         for value in [1e16, 1.0, -1e16, 1e-16] {
             sum.add(value);
         }
         assert_eq!(sum.value(), 1.0 + 1e-16);
-        let mut sum = Sum::default();
+        let mut sum = CompensatedSum::default();
         sum.add_product(1.0 + f64::EPSILON, 1.0 - f64::EPSILON);
         sum.add(-1.0);
         assert_eq!(sum.value(), -f64::EPSILON * f64::EPSILON);
@@ -58,7 +58,7 @@ mod tests {
             (seed >> 14) as i64 - (1 << 49)
         };
         for count in [1, 2, 7, 100] {
-            let (mut sum, mut exact, mut size) = (Sum::default(), 0_i128, 0.0);
+            let (mut sum, mut exact, mut size) = (CompensatedSum::default(), 0_i128, 0.0);
             for _ in 0..count {
                 let (a, b, c) = (any(), any(), any());
                 sum.add_product(a as f64, b as f64);

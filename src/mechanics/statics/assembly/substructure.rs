@@ -4,7 +4,7 @@ use super::{Assembly, AssemblyGrip};
 
 /// Some bodies of an assembly with all others held still, as if they were ground.
 #[derive(Clone, Debug)]
-pub struct Part {
+pub struct Substructure {
     /// The bodies as an assembly of their own. L is the median length of its contacts.
     pub assembly: Assembly,
     /// The number of each of its bodies in the whole.
@@ -20,7 +20,7 @@ pub struct Part {
 
 impl Assembly {
     /// The part of the bodies with these numbers, which are in ascending order.
-    pub fn part(&self, bodies: &[usize]) -> Part {
+    pub fn substructure(&self, bodies: &[usize]) -> Substructure {
         let mut place = vec![None; self.bodies.len()];
         for (number, body) in bodies.iter().enumerate() {
             place[*body] = Some(number);
@@ -52,7 +52,7 @@ impl Assembly {
         part.length = super::median(lengths)
             .or_else(|| super::median(radii.collect()))
             .unwrap_or(self.length);
-        Part {
+        Substructure {
             assembly: part,
             bodies: bodies.to_vec(),
             contacts,
