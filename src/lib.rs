@@ -172,6 +172,12 @@ pub mod doc {
     #[doc = include_str!("doc/design.md")]
     pub mod design {}
 
+    #[doc = include_str!("doc/cli.md")]
+    pub mod cli {}
+
+    #[doc = include_str!("doc/library.md")]
+    pub mod library {}
+
     #[doc = include_str!("doc/conventions.md")]
     pub mod conventions {}
 

@@ -1,4 +1,4 @@
-//! What each feature costs in crates, as the README's table says, and that the library alone stays small.
+//! What each feature costs in crates, as the table in `src/doc/library.md` says, and that the library alone stays small.
 
 use std::fs;
 use std::path::Path;
@@ -41,10 +41,10 @@ fn crates(features: &[&str]) -> usize {
     names.len()
 }
 
-/// The rows of the README's table: a feature, or nothing, and its number of crates.
+/// The rows of the table in `src/doc/library.md`: a feature, or nothing, and its number of crates.
 fn rows() -> Vec<(Option<String>, usize)> {
-    let readme = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
-    let text = fs::read_to_string(readme).expect("the README");
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/doc/library.md");
+    let text = fs::read_to_string(page).expect("the page");
     let table = text
         .split_once("| feature | what it adds | crates |\n|---|---|---|\n")
         .expect("the table of features")

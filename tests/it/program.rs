@@ -53,10 +53,14 @@ struct Bench {
 }
 
 impl Bench {
-    fn new() -> Bench {
-        let bench = Bench {
+    fn empty() -> Bench {
+        Bench {
             folder: tempfile::tempdir().expect("a folder"),
-        };
+        }
+    }
+
+    fn new() -> Bench {
+        let bench = Bench::empty();
         for (name, text) in [
             ("stands.json", STANDS),
             ("falls.json", FALLS),

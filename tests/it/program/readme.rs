@@ -1,26 +1,52 @@
-//! The README's list of commands, run as it is typed.
+//! The commands of the README and of `src/doc/cli.md`, run as they are typed.
 
 use std::fs;
 
 use super::Bench;
 
 const README: &str = include_str!("../../../README.md");
+const CLI: &str = include_str!("../../../src/doc/cli.md");
 
-/// The first fenced block of this language that holds these words.
-fn fenced(language: &str, words: &str) -> &'static str {
+/// The first fenced block of this language in a page that contains these words.
+fn fenced(page: &'static str, language: &str, words: &str) -> &'static str {
     let mark = format!("```{language}\n");
-    let blocks = README.split(mark.as_str()).skip(1);
+    let blocks = page.split(mark.as_str()).skip(1);
     let mut blocks = blocks.filter_map(|rest| rest.split("```").next());
     blocks
         .find(|block| block.contains(words))
-        .expect("the README has it")
+        .expect("the page has it")
+}
+
+/// Each `$ drystone …` line in turn, in an empty folder; what it prints stands below it.
+#[test]
+fn the_readmes_console_prints_what_it_shows() {
+    let bench = Bench::empty();
+    let shown = fenced(README, "console", "$ drystone new");
+    let mut printed = String::new();
+    for line in shown.lines() {
+        let Some(typed) = line.strip_prefix("$ drystone ") else {
+            continue;
+        };
+        let (command, asks_for_code) = match typed.strip_suffix("; echo $?") {
+            Some(command) => (command, true),
+            None => (typed, false),
+        };
+        let ran = bench.run(command);
+        printed += &format!("{line}\n{}{}", ran.out, ran.err);
+        if asks_for_code {
+            printed += &format!("{}\n", ran.code);
+        } else {
+            assert_eq!(ran.code, 0, "{line}\n{}", ran.err);
+        }
+    }
+    assert_eq!(printed, shown);
 }
 
 /// In a folder with the scene above them, a second version of it, and a drawing.
 #[test]
-fn every_command_of_the_readme_does_its_work() {
+fn every_command_of_the_page_does_its_work() {
     let bench = Bench::new();
-    let scene = fenced("json", "\"steps\"");
+    let scene = fenced(README, "json", "\"steps\"");
     let other = scene.replace("\"friction\": 0.6", "\"friction\": 0.5");
     assert_ne!(scene, other);
     fs::create_dir(bench.path("scenes")).expect("writable");
@@ -41,7 +67,7 @@ fn every_command_of_the_readme_does_its_work() {
     ] {
         fs::write(bench.path(name), text).expect("writable");
     }
-    let commands = fenced("sh", "drystone check scene.json").lines();
+    let commands = fenced(CLI, "sh", "drystone check scene.json").lines();
     let mut seen = 0;
     for command in commands {
         let typed = command.split(" # ").next().expect("a part").trim();

@@ -382,10 +382,10 @@ fn there_is_a_manual_page_for_every_command() {
 }
 
 #[test]
-fn the_readmes_style_works_as_it_is_typed() {
-    let readme = include_str!("../../../README.md");
-    assert!(readme.contains("\ndrystone style > mine.json "));
-    assert!(readme.contains("--theme dark --style mine.json\n"));
+fn the_style_on_the_page_works_as_it_is_typed() {
+    let page = include_str!("../../../src/doc/cli.md");
+    assert!(page.contains("\ndrystone style > mine.json "));
+    assert!(page.contains("--theme dark --style mine.json\n"));
     let bench = Bench::new();
     fs::write(bench.path("mine.json"), bench.run("style").out).expect("writable");
     let ran = bench.run("render stands.json -o scene.svg --theme dark --style mine.json");
