@@ -4,6 +4,7 @@
 //! Everything here reads the JSON that other programs read, with geometry of its own, so that a number that is right
 //! inside and wrong on its way out is caught too.
 
+mod balance;
 mod force;
 mod margin;
 mod motion;
