@@ -9,6 +9,7 @@ mod force;
 mod margin;
 mod motion;
 mod wedging;
+mod words;
 
 use drystone::analysis::{Options, Verdict};
 use drystone::result::{Layout, Timing, to_json};

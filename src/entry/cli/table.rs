@@ -256,24 +256,7 @@ fn remarks(scene: &Scene, frame: &FrameAnalysis) -> Vec<String> {
     if frame.failures.len() > MOST_LISTED {
         remarks.push(format!("and {} more", frame.failures.len() - MOST_LISTED));
     }
-    if !frame.unsupported.is_empty() {
-        let names: Vec<&str> = frame
-            .unsupported
-            .iter()
-            .take(MOST_LISTED)
-            .map(|id| scene.blocks[id.0].id.as_str())
-            .collect();
-        let more = frame.unsupported.len() - names.len();
-        let more = if more > 0 {
-            format!(" and {more} more")
-        } else {
-            String::new()
-        };
-        remarks.push(format!(
-            "nothing carries {}{more}: no way from there to the ground or to a robot",
-            names.join(", ")
-        ));
-    }
+    remarks.extend(failure::unsupported(scene, frame, MOST_LISTED));
     if !frame.doubts.is_empty() {
         remarks.push(frame.doubt());
     }

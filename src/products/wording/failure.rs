@@ -1,8 +1,10 @@
 //! What fails, in words: for a line of a table, below a figure, in a caption.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use super::number::{NO_BREAK, digits, listed, place, quantity};
 use crate::analysis::{Failure, FrameAnalysis};
-use crate::scene::{BodyId, Scene};
+use crate::scene::{BlockId, BodyId, Scene};
 
 /// How much is missing, N or N·m.
 pub fn amount(failure: &Failure) -> f64 {
@@ -167,6 +169,61 @@ pub fn uncarried(scene: &Scene, found: &FrameAnalysis) -> Option<String> {
     let names: Vec<String> = blocks.map(|b| scene.blocks[b.0].id.clone()).collect();
     let what = if names.len() == 1 { "block" } else { "blocks" };
     (!names.is_empty()).then(|| format!("nothing carries {what} {}", listed(&shortened(names, 6))))
+}
+
+/// Why nothing carries some blocks, in a sentence for each reason, with at most `most` names in each; none where everything is
+/// carried.
+pub fn unsupported(scene: &Scene, found: &FrameAnalysis, most: usize) -> Vec<String> {
+    let reached = reached(found);
+    let (touching, apart): (Vec<BlockId>, Vec<BlockId>) = found
+        .unsupported
+        .iter()
+        .partition(|id| reached.contains(id));
+    let reasons = [
+        (apart, "no way from there to the ground or to a robot"),
+        (
+            touching,
+            "where it touches or is held, nothing that sticks could stop it",
+        ),
+    ];
+    let mut sentences = Vec::new();
+    for (blocks, reason) in reasons {
+        let names = blocks.iter().take(most);
+        let names: Vec<&str> = names.map(|id| scene.blocks[id.0].id.as_str()).collect();
+        let more = match blocks.len() - names.len() {
+            0 => String::new(),
+            more => format!(" and {more} more"),
+        };
+        if !names.is_empty() {
+            let names = names.join(", ");
+            sentences.push(format!("nothing carries {names}{more}: {reason}"));
+        }
+    }
+    sentences
+}
+
+/// The blocks from which contacts lead to the ground or to a block that a robot holds.
+fn reached(found: &FrameAnalysis) -> BTreeSet<BlockId> {
+    let mut neighbours: BTreeMap<BlockId, Vec<BlockId>> = BTreeMap::new();
+    let mut next: Vec<BlockId> = found.robots.iter().map(|robot| robot.block).collect();
+    for contact in &found.contacts {
+        match contact.interface.bodies {
+            [BodyId::Block(a), BodyId::Block(b)] => {
+                neighbours.entry(a).or_default().push(b);
+                neighbours.entry(b).or_default().push(a);
+            }
+            [BodyId::Block(block), BodyId::Ground(_)]
+            | [BodyId::Ground(_), BodyId::Block(block)] => next.push(block),
+            [BodyId::Ground(_), BodyId::Ground(_)] => {}
+        }
+    }
+    let mut reached = BTreeSet::new();
+    while let Some(block) = next.pop() {
+        if reached.insert(block) {
+            next.extend(neighbours.get(&block).into_iter().flatten());
+        }
+    }
+    reached
 }
 
 /// The first of some parts, and how many more there are.

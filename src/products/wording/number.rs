@@ -156,12 +156,10 @@ pub fn digits(x: f64) -> String {
     if !(1e-3..1e6).contains(&size) {
         return format!("{x:.3e}");
     }
-    let before = if size >= 1.0 {
-        libm::log10(size).floor() as usize + 1
-    } else {
-        0
-    };
-    let text = format!("{x:.*}", 4usize.saturating_sub(before));
+    // The power of ten of the first digit: three more digits follow it.
+    let first = libm::log10(size).floor() as i32;
+    let decimals = usize::try_from(3 - first).unwrap_or(0);
+    let text = format!("{x:.decimals$}");
     if text.contains('.') {
         text.trim_end_matches('0').trim_end_matches('.').into()
     } else {
@@ -285,7 +283,8 @@ mod tests {
             (24.0, "24"),
             (1234.56, "1235"),
             (-0.5, "-0.5"),
-            (0.054_12, "0.0541"),
+            (0.054_12, "0.05412"),
+            (0.001_234_56, "0.001235"),
             (9.999_99, "10"),
             (123_456.0, "123456"),
             (1e9, "1.000e9"),

@@ -302,10 +302,8 @@ fn robots(scene: &Scene, found: &FrameAnalysis) -> Grid {
 
 fn failures(scene: &Scene, found: &FrameAnalysis) -> Grid {
     let mut grid = Grid::new("What fails", &["what", "#missing"]);
-    for id in &found.unsupported {
-        let name = line(&scene.blocks[id.0].id);
-        let what = format!("nothing carries {name}: no way from there to the ground or to a robot");
-        grid.add("", [what, "all of it".to_owned()]);
+    for what in failure::unsupported(scene, found, usize::MAX) {
+        grid.add("", [line(&what), "all of it".to_owned()]);
     }
     for (number, failed) in found.failures.iter().enumerate() {
         let cells = [
