@@ -81,7 +81,7 @@ fn the_files_of_figure_form_no_circle_and_its_parts_know_no_kind() {
         "layout",
         "panel",
         "pen",
-        "stage",
+        "context",
         "description",
         "view",
         "unit",

@@ -163,11 +163,11 @@ impl Render {
             .format(self.picture.asked())
             .map_err(|c| vec![c])?;
         self.picture.check(format).map_err(|c| vec![c])?;
-        if self.block.is_some() && !matches!(self.kind, KindChoice::Freebody) {
+        if self.block.is_some() && self.kind != KindChoice::Freebody {
             let why = "--block names the block of a free-body diagram; add --kind freebody";
             return Err(vec![CliError::CommandLine(why.into())]);
         }
-        if self.corners && !matches!(self.kind, KindChoice::Freebody) {
+        if self.corners && self.kind != KindChoice::Freebody {
             let why = "--corners is about the forces of a free-body diagram; add --kind freebody";
             return Err(vec![CliError::CommandLine(why.into())]);
         }
@@ -178,7 +178,7 @@ impl Render {
         let scenes = source::files(&self.scenes).map_err(|c| vec![c])?;
         self.check_count(&scenes, &destination, format, terminal)
             .map_err(|c| vec![c])?;
-        if self.margin.is_some() && !matches!(self.kind, KindChoice::Margin) {
+        if self.margin.is_some() && !self.kind.needs_margins() {
             let why = "--margin is about the direction of a margin; add --kind margin";
             return Err(vec![CliError::CommandLine(why.into())]);
         }
@@ -214,7 +214,7 @@ impl Render {
         };
         let progress = Progress::begin(2 * sources.len(), shown);
         let mut asked = self.level.options();
-        if matches!(self.kind, KindChoice::Margin) {
+        if self.kind.needs_margins() {
             asked.margins = true;
         }
         let rendered: Vec<Result<Rendered, CliError>> = match &sources[..] {

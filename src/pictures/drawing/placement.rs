@@ -61,28 +61,28 @@ pub struct Placed {
     pub leader: Option<[PagePoint; 2]>,
 }
 
-/// A place for each wish on the page, in the order of the wishes; `None` where there is none. Placed labels become ink.
-pub fn place(ink: &mut Ink, page: PageRect, wishes: &[LabelRequest]) -> Vec<Option<Placed>> {
-    place_where(ink, page, wishes, &|_, _| false)
+/// A place for each request on the page, in the order of the requests; `None` where there is none. Placed labels become ink.
+pub fn place(ink: &mut Ink, page: PageRect, requests: &[LabelRequest]) -> Vec<Option<Placed>> {
+    place_where(ink, page, requests, &|_, _| false)
 }
 
-/// As [`place`]; where a label by the number of its wish is not liked, it stands only for want of another place nearby,
+/// As [`place`]; where a label by the number of its request is not liked, it stands only for want of another place nearby,
 /// and with a leader. Places that are preferred are always liked.
 pub fn place_where(
     ink: &mut Ink,
     page: PageRect,
-    wishes: &[LabelRequest],
+    requests: &[LabelRequest],
     disliked: &dyn Fn(usize, PageRect) -> bool,
 ) -> Vec<Option<Placed>> {
     ink.index();
     let bare = ink.clone();
-    let each = wishes.iter().enumerate().map(|(number, wish)| {
-        let placed = one(ink, page, wish, &|rect| disliked(number, rect));
+    let each = requests.iter().enumerate().map(|(number, request)| {
+        let placed = one(ink, page, request, &|rect| disliked(number, rect));
         ink.placed(placed.as_ref());
         placed
     });
     let mut placed: Vec<Option<Placed>> = each.collect();
-    if untangle::untangle(&bare, page, wishes, &mut placed, disliked) {
+    if untangle::untangle(&bare, page, requests, &mut placed, disliked) {
         *ink = bare;
         for placed in &placed {
             ink.placed(placed.as_ref());
@@ -94,17 +94,20 @@ pub fn place_where(
 fn one(
     ink: &Ink,
     page: PageRect,
-    wish: &LabelRequest,
+    request: &LabelRequest,
     disliked: &dyn Fn(PageRect) -> bool,
 ) -> Option<Placed> {
     let with_room = |middle: PagePoint, room: f64| {
-        let rect = around(middle, wish.size);
-        let kept = around(middle, (wish.size.0 + 2.0 * room, wish.size.1 + 2.0 * room));
+        let rect = around(middle, request.size);
+        let kept = around(
+            middle,
+            (request.size.0 + 2.0 * room, request.size.1 + 2.0 * room),
+        );
         (within(page, kept) && ink.clear(kept)).then_some(rect)
     };
-    for room in [ROOM + wish.ease, ROOM + 0.4 * wish.ease, ROOM] {
+    for room in [ROOM + request.ease, ROOM + 0.4 * request.ease, ROOM] {
         let place = |middle: &PagePoint| with_room(*middle, room);
-        if let Some(rect) = wish.preferred.iter().find_map(place) {
+        if let Some(rect) = request.preferred.iter().find_map(place) {
             return Some(Placed {
                 disliked: false,
                 rect,
@@ -113,11 +116,11 @@ fn one(
         }
     }
     let fits = |middle: PagePoint| with_room(middle, ROOM);
-    let farthest = wish.from + wish.roams?;
-    let step = (0.5 * wish.size.1).max(3.0);
+    let farthest = request.from + request.roams?;
+    let step = (0.5 * request.size.1).max(3.0);
     let mut best: Option<(f64, Placed)> = None;
     for ring in 0..RINGS {
-        let radius = wish.from + step * ring as f64;
+        let radius = request.from + step * ring as f64;
         // A ring farther out than the best place cannot better it by more than a crossing.
         if radius > farthest || best.is_some_and(|(cost, _)| radius > cost) {
             break;
@@ -127,17 +130,17 @@ fn one(
             let (cos, sin) = (libm::cos(angle), libm::sin(angle));
             // The label's nearest side lies on the ring, not its middle: wide labels stand as near as narrow ones.
             let (x, y) = (
-                cos * radius + cos * wish.size.0 / 2.0,
-                sin * radius + sin * wish.size.1 / 2.0,
+                cos * radius + cos * request.size.0 / 2.0,
+                sin * radius + sin * request.size.1 / 2.0,
             );
-            let Some(rect) = fits(wish.anchor.moved(x, y)) else {
+            let Some(rect) = fits(request.anchor.moved(x, y)) else {
                 continue;
             };
-            let end = nearest(rect, wish.anchor);
-            let apart = libm::hypot(end.x - wish.anchor.x, end.y - wish.anchor.y);
-            let (labels, others) = ink.crossed(wish.anchor, end);
+            let end = nearest(rect, request.anchor);
+            let apart = libm::hypot(end.x - request.anchor.x, end.y - request.anchor.y);
+            let (labels, others) = ink.crossed(request.anchor, end);
             let disliked = disliked(rect);
-            let leader = (disliked || apart > wish.from + NEAR).then_some([end, wish.anchor]);
+            let leader = (disliked || apart > request.from + NEAR).then_some([end, request.anchor]);
             let penalty = if disliked { DISLIKED } else { 0.0 };
             let cost = radius
                 + penalty
@@ -199,7 +202,7 @@ mod tests {
         height: 100.0,
     };
 
-    fn wish(x: f64, y: f64) -> LabelRequest {
+    fn request(x: f64, y: f64) -> LabelRequest {
         LabelRequest {
             anchor: PagePoint::new(x, y),
             from: 4.0,
@@ -223,8 +226,8 @@ mod tests {
 
     #[test]
     fn labels_keep_clear_of_each_other_and_those_far_off_get_a_leader() {
-        let wishes = vec![wish(50.0, 50.0); 12];
-        let placed = place(&mut Ink::default(), PAGE, &wishes);
+        let requests = vec![request(50.0, 50.0); 12];
+        let placed = place(&mut Ink::default(), PAGE, &requests);
         let rects: Vec<Placed> = placed.into_iter().flatten().collect();
         assert_eq!(rects.len(), 12);
         assert_eq!(rects[0].leader, None);
@@ -243,11 +246,11 @@ mod tests {
     fn a_label_without_room_is_left_out() {
         let mut ink = Ink::default();
         ink.rect(PAGE);
-        assert_eq!(place(&mut ink, PAGE, &[wish(50.0, 50.0)]), [None]);
+        assert_eq!(place(&mut ink, PAGE, &[request(50.0, 50.0)]), [None]);
         let fixed = LabelRequest {
             roams: None,
             preferred: Vec::new(),
-            ..wish(50.0, 50.0)
+            ..request(50.0, 50.0)
         };
         assert_eq!(place(&mut Ink::default(), PAGE, &[fixed]), [None]);
     }

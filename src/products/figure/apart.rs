@@ -180,8 +180,7 @@ mod tests {
         let scene = Scene::from_json(text).unwrap_or_else(|problems| panic!("{problems}"));
         let found = Analysis::new(&scene);
         let options = Options::default();
-        let largest =
-            crate::figure::mark::largest(&scene, &scene.frames[0], &found.frames[0], &options);
+        let largest = crate::figure::mark::largest(&found, 0, &options);
         let mut marks = marks(&found, 0, &options, largest);
         let before = marks.clone();
         apart(&mut marks);

@@ -6,13 +6,15 @@
 use std::collections::BTreeMap;
 
 use super::arrow::{ArrowKind, ForceArrow, Marks};
+use super::content::PanelContent;
+use super::context::FigureContext;
 use super::description;
 use super::label;
 use super::legend::{self, Entry};
 use super::mark;
+use super::option::Options;
 use super::panel::composed;
 use super::pen::Pen;
-use super::stage::FigureContext;
 use super::words::{counted, listed, quantity};
 use crate::analysis::{Analysis, Contact, Verdict};
 use crate::drawing::arrow::straight;
@@ -97,72 +99,195 @@ fn changes<'a>(analysis: &'a Analysis, frame: usize) -> (Vec<Change<'a>>, usize)
     (shared.into_iter().filter(differs).collect(), count)
 }
 
-/// A box around the blocks of the frame before that are gone.
-pub(crate) fn reach(analysis: &Analysis, frame: usize) -> Option<Bounds> {
-    let [_, gone] = blocks(analysis, frame);
-    let bounds = |id: &BlockId| analysis.scene.blocks[id.0].body.polygon.bounds();
-    gone.iter().map(bounds).reduce(Bounds::union)
-}
+/// The figure of what changed between frames.
+pub(crate) struct Comparison;
 
-/// What the camera sees of a frame and of what changed.
-pub(crate) fn picture(
-    stage: &FigureContext<'_>,
-    frame: usize,
-    view: Bounds,
-    camera: &Camera,
-) -> Group {
-    let pen = Pen::new(stage, frame, camera);
-    let (scene, theme) = (&stage.analysis.scene, &stage.options.theme);
-    let mut ink = label::ink(&pen);
-    let outlines = |ids: &[BlockId]| {
-        let mut outline = Outline::default();
-        for id in ids {
-            outline.extend(camera.polygon(&scene.blocks[id.0].body.polygon));
+impl PanelContent for Comparison {
+    fn name(&self) -> &'static str {
+        "compare"
+    }
+
+    fn help(&self) -> &'static str {
+        "What changed from one frame to the next, or from the last frame of one scene to that of another"
+    }
+
+    fn title(&self) -> &'static str {
+        "What changes in a dry-laid structure"
+    }
+
+    fn shares_arrow_scale(&self) -> bool {
+        true
+    }
+
+    fn draws_forces(&self) -> bool {
+        true
+    }
+
+    fn largest_force(&self, analysis: &Analysis, frame: usize, options: &Options) -> f64 {
+        mark::largest(analysis, frame, options)
+    }
+
+    fn marks(
+        &self,
+        analysis: &Analysis,
+        frame: usize,
+        options: &Options,
+        newtons_per_unit: f64,
+    ) -> Marks {
+        mark::marks(analysis, frame, options, newtons_per_unit)
+    }
+
+    fn extent(
+        &self,
+        analysis: &Analysis,
+        frame: usize,
+        _unit: f64,
+        _marks: &Marks,
+        _options: &Options,
+    ) -> Option<Bounds> {
+        let [_, gone] = blocks(analysis, frame);
+        let bounds = |id: &BlockId| analysis.scene.blocks[id.0].body.polygon.bounds();
+        gone.iter().map(bounds).reduce(Bounds::union)
+    }
+
+    fn picture(
+        &self,
+        context: &FigureContext<'_>,
+        frame: usize,
+        view: Bounds,
+        camera: &Camera,
+    ) -> Group {
+        let pen = Pen::new(context, frame, camera);
+        let (scene, theme) = (&context.analysis.scene, &context.options.theme);
+        let mut ink = label::ink(&pen);
+        let outlines = |ids: &[BlockId]| {
+            let mut outline = Outline::default();
+            for id in ids {
+                outline.extend(camera.polygon(&scene.blocks[id.0].body.polygon));
+            }
+            outline
+        };
+        let [came, went] = blocks(context.analysis, frame);
+        let mut parts = Vec::new();
+        if !went.is_empty() {
+            let gone = Group::with_class("gone").titled("Blocks that are gone");
+            parts.push(gone.with(gone_path(outlines(&went), theme)));
         }
-        outline
-    };
-    let [came, went] = blocks(stage.analysis, frame);
-    let mut parts = Vec::new();
-    if !went.is_empty() {
-        let gone = Group::with_class("gone").titled("Blocks that are gone");
-        parts.push(gone.with(gone_path(outlines(&went), theme)));
-    }
-    if !came.is_empty() {
-        let new = Group::with_class("new").titled("Blocks that are new");
-        parts.push(new.with(new_path(outlines(&came), theme)));
-    }
-    let mut before = Group::with_class("before");
-    let mut changed = Group::with_class("changed");
-    let metres = stage.unit / stage.marks[frame].newtons_per_unit.max(f64::MIN_POSITIVE);
-    let (share, least, most) = RING;
-    let newtons = stage.marks[frame].newtons_per_unit;
-    let true_lines = mark::marks(stage.analysis, frame, stage.options, newtons);
-    let radius = (share * pen.unit()).clamp(least, most);
-    for change in changes(stage.analysis, frame).0 {
-        let at = camera.place(change.now.resultant.at);
-        let pair = description::pair(scene, change.now.interface.bodies);
-        let amounts = [change.before, change.now].map(|c| quantity(force(c).norm(), "N"));
-        let [was, is] = amounts;
-        let title = format!("Between {pair}: {was} before, {is} now");
-        ink.disc(at, radius + 1.0);
-        let stroke = Stroke::new(theme.motion, 1.6);
-        let ring = Path::stroked(Outline::circle(at, radius), stroke);
-        let drawn = Group::with_class("change").titled(title);
-        changed.items.push(drawn.with(ring).into());
-        let bodies = between(change.now);
-        for (body, other, sign) in [(bodies[0], bodies[1], 1.0), (bodies[1], bodies[0], -1.0)] {
-            let BodyId::Block(_) = body else { continue };
-            let now = force(change.now) * sign;
-            let aside = aside(&stage.marks[frame], &true_lines, body, other, now);
-            let from = camera.place(change.before.resultant.at + aside);
-            let along = camera.turn(force(change.before) * (sign * metres));
-            let width = theme.widths.force * pen.unit();
-            let arrow = Path::filled(straight(from, along, width), theme.faint);
-            before.items.push(arrow.with_opacity(0.35).into());
+        if !came.is_empty() {
+            let new = Group::with_class("new").titled("Blocks that are new");
+            parts.push(new.with(new_path(outlines(&came), theme)));
         }
+        let mut before = Group::with_class("before");
+        let mut changed = Group::with_class("changed");
+        let metres = context.unit / context.marks[frame].newtons_per_unit.max(f64::MIN_POSITIVE);
+        let (share, least, most) = RING;
+        let newtons = context.marks[frame].newtons_per_unit;
+        let true_lines = mark::marks(context.analysis, frame, context.options, newtons);
+        let radius = (share * pen.unit()).clamp(least, most);
+        for change in changes(context.analysis, frame).0 {
+            let at = camera.place(change.now.resultant.at);
+            let pair = description::pair(scene, change.now.interface.bodies);
+            let amounts = [change.before, change.now].map(|c| quantity(force(c).norm(), "N"));
+            let [was, is] = amounts;
+            let title = format!("Between {pair}: {was} before, {is} now");
+            ink.disc(at, radius + 1.0);
+            let stroke = Stroke::new(theme.motion, 1.6);
+            let ring = Path::stroked(Outline::circle(at, radius), stroke);
+            let drawn = Group::with_class("change").titled(title);
+            changed.items.push(drawn.with(ring).into());
+            let bodies = between(change.now);
+            for (body, other, sign) in [(bodies[0], bodies[1], 1.0), (bodies[1], bodies[0], -1.0)] {
+                let BodyId::Block(_) = body else { continue };
+                let now = force(change.now) * sign;
+                let aside = aside(&context.marks[frame], &true_lines, body, other, now);
+                let from = camera.place(change.before.resultant.at + aside);
+                let along = camera.turn(force(change.before) * (sign * metres));
+                let width = theme.widths.force * pen.unit();
+                let arrow = Path::filled(straight(from, along, width), theme.faint);
+                before.items.push(arrow.with_opacity(0.35).into());
+            }
+        }
+        parts.extend([before, pen.arrows(false), pen.arrows(true), changed]);
+        composed(&pen, view, pen.blocks(), parts, ink)
     }
-    parts.extend([before, pen.arrows(false), pen.arrows(true), changed]);
-    composed(&pen, view, pen.blocks(), parts, ink)
+
+    fn entries(&self, context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
+        let mut entries = legend::entries(context, unit);
+        entries.retain(|entry| !matches!(entry, Entry::Amplitudes(..)));
+        let (mut came, mut went, mut changed) = (false, false, false);
+        for frame in 0..context.analysis.frames.len() {
+            let [new, gone] = blocks(context.analysis, frame);
+            came |= !new.is_empty();
+            went |= !gone.is_empty();
+            changed |= !changes(context.analysis, frame).0.is_empty();
+        }
+        if came {
+            entries.push(Entry::Sign(new_sign, 20.0, "new".to_owned()));
+        }
+        if went {
+            entries.push(Entry::Sign(gone_sign, 20.0, "gone".to_owned()));
+        }
+        if changed {
+            let what = "force changed by over 5 %; faint, the force before".to_owned();
+            entries.push(Entry::Sign(ring_sign, 14.0, what));
+        }
+        entries
+    }
+
+    fn reason(&self, context: &FigureContext<'_>, frame: usize) -> String {
+        let analysis = context.analysis;
+
+        let Some(earlier) = frame.checked_sub(1) else {
+            return match analysis.frames.len() {
+                1 => "one frame: nothing to compare it with".to_owned(),
+                _ => String::new(),
+            };
+        };
+        let [came, went] = blocks(analysis, frame);
+        let mut stated = Vec::new();
+        let verdicts = [earlier, frame].map(|f| analysis.frames[f].verdict);
+        if verdicts[0] != verdicts[1] {
+            stated.push(match verdicts[1] {
+                Verdict::Stable => "stands where the frame before did not".to_owned(),
+                Verdict::Unstable => "falls where the frame before did not".to_owned(),
+                Verdict::Undecided => "undecided where the frame before was decided".to_owned(),
+            });
+        }
+        let names = |ids: &[BlockId]| -> Vec<String> {
+            let names = ids.iter().map(|id| analysis.scene.blocks[id.0].id.clone());
+            names.collect()
+        };
+        let (came, went) = (names(&came), names(&went));
+        // A block of one name in both frames that differs in outline, weight or loads.
+        let both: Vec<String> = came.iter().filter(|n| went.contains(n)).cloned().collect();
+        let alone = |names: &[String]| -> Vec<String> {
+            names
+                .iter()
+                .filter(|n| !both.contains(n))
+                .cloned()
+                .collect()
+        };
+        for (names, how) in [
+            (alone(&came), "new"),
+            (alone(&went), "gone"),
+            (both.clone(), "changed"),
+        ] {
+            match names.len() {
+                0 => {}
+                n if n <= MOST_NAMED => stated.push(format!("{how}: {}", listed(&names))),
+                n => stated.push(format!("{how}: {n} blocks")),
+            }
+        }
+        let (changed, shared) = changes(analysis, frame);
+        stated.push(match changed.len() {
+            0 => "no force changed by over 5 %".to_owned(),
+            n => format!(
+                "{n} of {} changed by over 5 %",
+                counted(shared, "shared force")
+            ),
+        });
+        stated.join("; ")
+    }
 }
 
 /// How far the arrow of this force, N, on a body from another was set aside from others on its line, metres: the force
@@ -179,84 +304,6 @@ fn aside(marks: &Marks, true_lines: &Marks, on: BodyId, from: BodyId, force: Vec
         (Some(drawn), Some(acts)) => drawn.at - acts.at,
         _ => Vector::zeros(),
     }
-}
-
-/// What the signs mean, those that occur.
-pub(crate) fn entries(stage: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
-    let mut entries = legend::entries(stage, unit);
-    entries.retain(|entry| !matches!(entry, Entry::Amplitudes(..)));
-    let (mut came, mut went, mut changed) = (false, false, false);
-    for frame in 0..stage.analysis.frames.len() {
-        let [new, gone] = blocks(stage.analysis, frame);
-        came |= !new.is_empty();
-        went |= !gone.is_empty();
-        changed |= !changes(stage.analysis, frame).0.is_empty();
-    }
-    if came {
-        entries.push(Entry::Sign(new_sign, 20.0, "new".to_owned()));
-    }
-    if went {
-        entries.push(Entry::Sign(gone_sign, 20.0, "gone".to_owned()));
-    }
-    if changed {
-        let what = "force changed by over 5 %; faint, the force before".to_owned();
-        entries.push(Entry::Sign(ring_sign, 14.0, what));
-    }
-    entries
-}
-
-/// What is written below a frame's verdict.
-pub(crate) fn reason(analysis: &Analysis, frame: usize) -> String {
-    let Some(earlier) = frame.checked_sub(1) else {
-        return match analysis.frames.len() {
-            1 => "one frame: nothing to compare it with".to_owned(),
-            _ => String::new(),
-        };
-    };
-    let [came, went] = blocks(analysis, frame);
-    let mut stated = Vec::new();
-    let verdicts = [earlier, frame].map(|f| analysis.frames[f].verdict);
-    if verdicts[0] != verdicts[1] {
-        stated.push(match verdicts[1] {
-            Verdict::Stable => "stands where the frame before did not".to_owned(),
-            Verdict::Unstable => "falls where the frame before did not".to_owned(),
-            Verdict::Undecided => "undecided where the frame before was decided".to_owned(),
-        });
-    }
-    let names = |ids: &[BlockId]| -> Vec<String> {
-        let names = ids.iter().map(|id| analysis.scene.blocks[id.0].id.clone());
-        names.collect()
-    };
-    let (came, went) = (names(&came), names(&went));
-    // A block of one name in both frames that differs in outline, weight or loads.
-    let both: Vec<String> = came.iter().filter(|n| went.contains(n)).cloned().collect();
-    let alone = |names: &[String]| -> Vec<String> {
-        names
-            .iter()
-            .filter(|n| !both.contains(n))
-            .cloned()
-            .collect()
-    };
-    for (names, how) in [
-        (alone(&came), "new"),
-        (alone(&went), "gone"),
-        (both.clone(), "changed"),
-    ] {
-        match names.len() {
-            0 => {}
-            n if n <= MOST_NAMED => stated.push(format!("{how}: {}", listed(&names))),
-            n => stated.push(format!("{how}: {n} blocks")),
-        }
-    }
-    let (changed, shared) = changes(analysis, frame);
-    stated.push(match changed.len() {
-        0 => "no force changed by over 5 %".to_owned(),
-        n => format!(
-            "{n} of {} changed by over 5 %",
-            counted(shared, "shared force")
-        ),
-    });
-    stated.join("; ")
 }
 
 fn new_path(outline: Outline, theme: &Theme) -> Path {

@@ -1,7 +1,7 @@
 //! What a hovering mouse and a screen reader are given of blocks and arrows: their numbers, with units.
 
 use super::arrow::{ArrowKind, ForceArrow, TurnArrow, TurnKind};
-use super::stage::FigureContext;
+use super::context::FigureContext;
 use super::words::{force, quantity};
 use crate::analysis::Motion;
 use crate::scene::{Block, BodyId, Scene};
@@ -9,16 +9,18 @@ pub(crate) use crate::wording::failure::{named, pair};
 
 /// A block's numbers in words.
 pub(crate) fn block(
-    stage: &FigureContext<'_>,
+    context: &FigureContext<'_>,
     frame: usize,
     place: usize,
     block: &Block,
 ) -> String {
     let weight = quantity(block.weight, "N");
-    if !stage.tells_amplitudes {
+    if !context.colours_show_amplitudes {
         return format!("weight {weight}");
     }
-    let fill = stage.fills.description(stage.fills.shares[frame][place]);
+    let fill = context
+        .fills
+        .description(context.fills.shares[frame][place]);
     if fill.is_empty() {
         return format!("weight {weight}");
     }
@@ -36,12 +38,12 @@ pub(crate) fn dotted(arrow: &ForceArrow, seen: bool) -> bool {
 }
 
 /// An arrow's numbers in words.
-pub(crate) fn arrow(stage: &FigureContext<'_>, arrow: &ForceArrow) -> String {
-    let scene = &stage.analysis.scene;
+pub(crate) fn arrow(context: &FigureContext<'_>, arrow: &ForceArrow) -> String {
+    let scene = &context.analysis.scene;
     let named = |id: BodyId| named(scene, id);
     let robot = |id: crate::scene::RobotId| format!("robot {}", scene.robots[id.0].id);
     let (on, amount) = (named(arrow.on), force(arrow.force));
-    let torque = quantity(arrow.force.norm() * stage.unit, "N·m");
+    let torque = quantity(arrow.force.norm() * context.unit, "N·m");
     match arrow.kind {
         ArrowKind::Weight => format!("Weight of {on}: {amount}"),
         ArrowKind::Load => format!("Load on {on}: {amount}"),
@@ -70,8 +72,8 @@ pub(crate) fn arrow(stage: &FigureContext<'_>, arrow: &ForceArrow) -> String {
 }
 
 /// A turning arrow's numbers in words.
-pub(crate) fn turn(stage: &FigureContext<'_>, turn: &TurnArrow) -> String {
-    let scene = &stage.analysis.scene;
+pub(crate) fn turn(context: &FigureContext<'_>, turn: &TurnArrow) -> String {
+    let scene = &context.analysis.scene;
     let direction = if turn.torque > 0.0 {
         "anticlockwise"
     } else {

@@ -1,7 +1,7 @@
 //! Dimension lines: how wide and how high the blocks of a frame are, at the edges of its picture; of a neighbourhood, the
 //! block in its middle.
 
-use super::stage::FigureContext;
+use super::context::FigureContext;
 use super::words::quantity;
 use crate::drawing::{Anchor, Camera, Face, Group, Outline, PagePoint, Path, Stroke, Text, text};
 use crate::geometry::Bounds;
@@ -16,21 +16,21 @@ const TICK: f64 = 4.0;
 
 /// The lines of a frame's picture, of what lies in `view`; nothing for a frame without blocks.
 pub(crate) fn lines(
-    stage: &FigureContext<'_>,
+    context: &FigureContext<'_>,
     frame: usize,
     view: Bounds,
     camera: &Camera,
 ) -> Group {
     let group = Group::with_class("dimensions");
-    let scene = &stage.analysis.scene;
+    let scene = &context.analysis.scene;
     // Of a neighbourhood it is the block in its middle that is measured.
-    let meant = |id: &&BlockId| stage.options.zoom.is_none_or(|zoomed| zoomed == **id);
+    let meant = |id: &&BlockId| context.options.zoom.is_none_or(|zoomed| zoomed == **id);
     let blocks = scene.frames[frame].placed.iter().filter(meant);
     let blocks = blocks.map(|id| scene.blocks[id.0].body.polygon.bounds());
     let Some(all) = blocks.reduce(Bounds::union) else {
         return group;
     };
-    let theme = &stage.options.theme;
+    let theme = &context.options.theme;
     let (page, measured) = (camera.rect(view), camera.rect(all));
     let size = theme.sizes.reason;
     let stroke = || Stroke::new(theme.faint, 0.8);

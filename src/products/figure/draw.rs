@@ -1,4 +1,6 @@
-//! [`draw`] and what else makes drawings of an analysis: pages, panels, and how large they become.
+//! [`draw`], and the other ways to a figure of an analysis: pages for an animation, panels, and pages for print.
+
+use std::borrow::Cow;
 
 use super::kind::Kind;
 use super::layout::Layout;
@@ -7,91 +9,118 @@ use super::strip::{self, strip};
 use crate::analysis::{Analysis, Verdict};
 use crate::drawing::Drawing;
 
-/// Pictures of a mechanism in motion beside the first.
-const WAY: u32 = 12;
+/// Steps of an animated motion, in addition to the first picture.
+const MOTION_STEPS: u32 = 12;
 
 /// A figure of this kind, one panel per frame.
 ///
 /// Units: the page is in pixels at natural size.
 pub fn draw(analysis: &Analysis, kind: Kind, options: &Options) -> Drawing {
-    if kind == Kind::Mechanism {
-        return strip(&analysis.elementary(), kind, &kind.options(options));
-    }
-    strip(analysis, kind, &kind.options(options))
+    let analysis = shown(analysis, kind);
+    strip(&analysis, kind.content(), &kind.options(options))
 }
 
-/// The panels of [`draw`] a page each, all alike in size and scale: the pictures of an animation. A frame that falls by a
-/// mechanism has several, along its way.
+/// The figure of an analysis: each frame a panel with its forces, its caption and its verdict, several frames a strip.
+///
+/// An arrow has the colour of the block it acts on; missing forces are thick and red; the colours of blocks show amplitudes
+/// ([Vallat23](crate::doc::references) §2.0.8 and §2.0.9). All panels show the same part of the scene at the same scale.
+///
+/// Units: the page is in pixels at natural size, some 370 to 1100 wide unless `columns` asks for more.
+///
+/// # Example
+/// ```
+/// use drystone::{Analysis, Scene, figure, output};
+/// let scene = Scene::from_json(
+///     r#"{ "drystone": 1, "title": "A brick",
+///          "ground": [ { "polygon": [[-1, -1], [3, -1], [3, 0], [-1, 0]] } ],
+///          "blocks": [ { "id": "brick", "polygon": [[0, 0], [2, 0], [2, 1], [0, 1]], "weight": 6 } ] }"#,
+/// )?;
+/// let drawing = figure::forces(&Analysis::new(&scene), &figure::Options::default());
+/// let svg = output::svg::write(&drawing);
+/// assert!(svg.contains("Weight of block brick: 6 N at 270°"));
+/// let png = output::png::render(&svg, output::png::Size::Width(800))?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn forces(analysis: &Analysis, options: &Options) -> Drawing {
+    draw(analysis, Kind::Forces, options)
+}
+
+/// The panels of [`draw`], one page each, all of one size and scale: the pictures of an animation. A frame that falls by a
+/// mechanism has several pages, along its motion.
 pub fn pages(analysis: &Analysis, kind: Kind, options: &Options) -> Vec<Drawing> {
-    if kind == Kind::Mechanism {
-        return moving(&analysis.elementary(), &kind.options(options));
+    let (analysis, options) = (shown(analysis, kind), kind.options(options));
+    if kind.content().needs_elementary_mechanisms() {
+        return motion_pages(&analysis, kind, &options);
     }
-    strip::pages(
-        analysis,
-        kind,
-        &kind.options(options),
-        0..analysis.frames.len(),
-    )
+    frame_pages(&analysis, kind, &options)
 }
 
-/// The panels of [`draw`] a page each, one per frame, all alike in size and scale.
+/// The panels of [`draw`], one page per frame, all of one size and scale.
 pub fn panels(analysis: &Analysis, kind: Kind, options: &Options) -> Vec<Drawing> {
-    let all: Vec<usize> = (0..analysis.frames.len()).collect();
-    panels_of(analysis, kind, options, &all)
+    frame_pages(&shown(analysis, kind), kind, &kind.options(options))
 }
 
-/// As [`panels`], of these frames alone, counted from 0; frames that there are not are passed over.
+/// Like [`panels`], for these frames only, counted from 0. Frames that do not exist are skipped.
 pub fn panels_of(
     analysis: &Analysis,
     kind: Kind,
     options: &Options,
     frames: &[usize],
 ) -> Vec<Drawing> {
+    let analysis = shown(analysis, kind);
     let count = analysis.frames.len();
-    let there = frames.iter().copied().filter(|frame| *frame < count);
-    if kind == Kind::Mechanism {
-        return strip::pages(&analysis.elementary(), kind, &kind.options(options), there);
-    }
-    strip::pages(analysis, kind, &kind.options(options), there)
+    let existing = frames.iter().copied().filter(|frame| *frame < count);
+    strip::pages(&analysis, kind.content(), &kind.options(options), existing)
 }
 
-/// The panels of [`draw`] in rows on pages no higher than `high` times their width, each with its title and key; all to one
-/// scale. A single row that is higher has a page of its own.
-pub fn split(analysis: &Analysis, kind: Kind, options: &Options, high: f64) -> Vec<Drawing> {
-    if kind == Kind::Mechanism {
-        return strip::split(&analysis.elementary(), kind, &kind.options(options), high);
-    }
-    strip::split(analysis, kind, &kind.options(options), high)
+/// The panels of [`draw`] in rows on pages at most `max_ratio` times as high as wide, each with its title and key, all to
+/// one scale. A single row that is higher has a page of its own.
+pub fn split(analysis: &Analysis, kind: Kind, options: &Options, max_ratio: f64) -> Vec<Drawing> {
+    let analysis = shown(analysis, kind);
+    strip::split(&analysis, kind.content(), &kind.options(options), max_ratio)
 }
 
-/// A width and a height that [`draw`] makes no smaller, pixels: told without drawing, so that what is too large for a file
-/// can be refused soon.
+/// A lower bound of the width and height of [`draw`]'s page, pixels. It is computed without drawing, so that a figure too
+/// large for a file is refused early.
 pub fn least_size(analysis: &Analysis, kind: Kind, options: &Options) -> (f64, f64) {
     let options = kind.options(options);
-    let stage = kind.stage(analysis, &options);
-    Layout::new(&stage, analysis.frames.len()).least(&stage)
+    let context = kind.context(analysis, &options);
+    Layout::new(&context, analysis.frames.len()).least(&context)
 }
 
-/// The pages of a mechanism: each frame that falls in steps along its way, each other frame once.
-fn moving(analysis: &Analysis, options: &Options) -> Vec<Drawing> {
+/// The analysis as a kind shows it.
+fn shown(analysis: &Analysis, kind: Kind) -> Cow<'_, Analysis> {
+    if kind.content().needs_elementary_mechanisms() {
+        Cow::Owned(analysis.elementary())
+    } else {
+        Cow::Borrowed(analysis)
+    }
+}
+
+/// One page per frame.
+fn frame_pages(analysis: &Analysis, kind: Kind, options: &Options) -> Vec<Drawing> {
+    strip::pages(analysis, kind.content(), options, 0..analysis.frames.len())
+}
+
+/// Each frame that falls in steps along its motion, each other frame once.
+fn motion_pages(analysis: &Analysis, kind: Kind, options: &Options) -> Vec<Drawing> {
     let at = |step: u32| {
         let options = Options {
-            way: f64::from(step) / f64::from(WAY),
+            way: f64::from(step) / f64::from(MOTION_STEPS),
             ..options.clone()
         };
-        strip::pages(
-            analysis,
-            Kind::Mechanism,
-            &options,
-            0..analysis.frames.len(),
-        )
+        frame_pages(analysis, kind, &options)
     };
-    let steps: Vec<Vec<Drawing>> = (0..=WAY).map(at).collect();
+    let steps: Vec<Vec<Drawing>> = (0..=MOTION_STEPS).map(at).collect();
     let mut pages = Vec::new();
     for (frame, found) in analysis.frames.iter().enumerate() {
         let falls = found.verdict == Verdict::Unstable;
-        let shown = if falls { steps.len() } else { 1 };
-        pages.extend(steps[..shown].iter().filter_map(|s| s.get(frame).cloned()));
+        let pictures = if falls { steps.len() } else { 1 };
+        pages.extend(
+            steps[..pictures]
+                .iter()
+                .filter_map(|s| s.get(frame).cloned()),
+        );
     }
     pages
 }

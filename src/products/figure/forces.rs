@@ -1,32 +1,92 @@
-//! [`forces`]: how the forces run, one panel per frame.
+//! The figure of forces: every force as an arrow on the block it acts on.
 
-use super::kind::Kind;
+use super::arrow::Marks;
+use super::content::PanelContent;
+use super::context::FigureContext;
+use super::legend::{self, Entry};
+use super::mark;
 use super::option::Options;
-use super::strip::strip;
+use super::panel;
+use super::verdict;
 use crate::analysis::Analysis;
-use crate::drawing::Drawing;
+use crate::drawing::{Camera, Group};
+use crate::geometry::Bounds;
 
-/// The figure of an analysis: each frame a panel with its forces, its caption and its verdict, several frames a strip.
-///
-/// Arrows act on a block and wear its colour; what is missing is thick and red; the colours of blocks tell amplitudes
-/// ([Vallat23](crate::doc::references) §2.0.8 and §2.0.9). All panels show the same part of the scene at the same scale.
-///
-/// Units: the page is in pixels at natural size, some 370 to 1100 wide unless `columns` asks for more.
-///
-/// # Example
-/// ```
-/// use drystone::{Analysis, Scene, figure, output};
-/// let scene = Scene::from_json(
-///     r#"{ "drystone": 1, "title": "A brick",
-///          "ground": [ { "polygon": [[-1, -1], [3, -1], [3, 0], [-1, 0]] } ],
-///          "blocks": [ { "id": "brick", "polygon": [[0, 0], [2, 0], [2, 1], [0, 1]], "weight": 6 } ] }"#,
-/// )?;
-/// let drawing = figure::forces(&Analysis::new(&scene), &figure::Options::default());
-/// let svg = output::svg::write(&drawing);
-/// assert!(svg.contains("Weight of block brick: 6 N at 270°"));
-/// let png = output::png::render(&svg, output::png::Size::Width(800))?;
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-pub fn forces(analysis: &Analysis, options: &Options) -> Drawing {
-    strip(analysis, Kind::Forces, options)
+/// The figure of forces, each panel with its own scale of arrows.
+pub(crate) const FORCES: Forces = Forces {
+    name: "forces",
+    help: "Every force as an arrow on the block it acts on, and what is missing",
+    shares_arrow_scale: false,
+};
+
+/// The forces in the steps of a construction, to one scale, so that the steps can be compared.
+pub(crate) const BUILD: Forces = Forces {
+    name: "build",
+    help: "The steps of a construction, arrows to one scale in all of them; --animate shows them one after the other",
+    shares_arrow_scale: true,
+};
+
+/// A figure of forces.
+pub(crate) struct Forces {
+    name: &'static str,
+    help: &'static str,
+    shares_arrow_scale: bool,
+}
+
+impl PanelContent for Forces {
+    fn name(&self) -> &'static str {
+        self.name
+    }
+
+    fn help(&self) -> &'static str {
+        self.help
+    }
+
+    fn title(&self) -> &'static str {
+        "Forces in a dry-laid structure"
+    }
+
+    fn shares_arrow_scale(&self) -> bool {
+        self.shares_arrow_scale
+    }
+
+    fn colours_show_amplitudes(&self) -> bool {
+        true
+    }
+
+    fn draws_forces(&self) -> bool {
+        true
+    }
+
+    fn largest_force(&self, analysis: &Analysis, frame: usize, options: &Options) -> f64 {
+        mark::largest(analysis, frame, options)
+    }
+
+    fn marks(
+        &self,
+        analysis: &Analysis,
+        frame: usize,
+        options: &Options,
+        newtons_per_unit: f64,
+    ) -> Marks {
+        mark::marks(analysis, frame, options, newtons_per_unit)
+    }
+
+    fn picture(
+        &self,
+        context: &FigureContext<'_>,
+        frame: usize,
+        view: Bounds,
+        camera: &Camera,
+    ) -> Group {
+        panel::picture(context, frame, view, camera)
+    }
+
+    fn entries(&self, context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
+        legend::entries(context, unit)
+    }
+
+    fn reason(&self, context: &FigureContext<'_>, frame: usize) -> String {
+        verdict::reason(&context.analysis.scene, &context.analysis.frames[frame])
+    }
 }

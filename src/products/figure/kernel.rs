@@ -2,120 +2,138 @@
 
 use super::bearing::{Bearing, bearings};
 use super::by_colour::ByColour;
+use super::content::PanelContent;
+use super::context::FigureContext;
 use super::description;
 use super::label;
 use super::legend::{self, Entry};
 use super::panel::composed;
 use super::pen::Pen;
-use super::stage::FigureContext;
 use super::verdict;
 use super::words::{ALL, percent, quantity};
 use crate::analysis::{Contact, FrameAnalysis, Verdict};
 use crate::drawing::{Camera, Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
 use crate::geometry::{Bounds, Point};
-use crate::scene::Scene;
 
 /// A resultant farther out than this lies beyond its safe stretch and not at its end, in half stretches.
 const BEYOND: f64 = 1.0 + 1e-6;
 /// Width of a safe stretch in unit edges; and between which widths it stays, pixels.
 const BOLD: (f64, f64, f64) = (0.085, 1.6, 4.6);
 
-/// What the camera sees of a frame, its safe stretches and where resultants sit.
-pub(crate) fn picture(
-    stage: &FigureContext<'_>,
-    frame: usize,
-    view: Bounds,
-    camera: &Camera,
-) -> Group {
-    let pen = Pen::new(stage, frame, camera);
-    let found = &stage.analysis.frames[frame];
-    let bold = bold(pen.unit());
-    let mut ink = label::ink(&pen);
-    for contact in &found.contacts {
-        let [from, to] = contact.interface.ends.map(|p| camera.place(p));
-        ink.line(from, to, bold + 1.0);
-    }
-    let stretches = stretches(&pen, found);
-    let dots = dots(&pen, found, &mut |at| ink.disc(at, dot(pen.unit()) + 1.0));
-    composed(&pen, view, pen.blocks(), vec![stretches, dots], ink)
-}
+/// The figure of kernels.
+pub(crate) struct Kernel;
 
-/// What is written below a frame's verdict.
-pub(crate) fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
-    match found.verdict {
-        Verdict::Stable => {}
-        Verdict::Unstable => return "no resultants, for no forces balance it".into(),
-        Verdict::Undecided => {
-            return format!("no resultants; {}", verdict::reason(scene, found));
-        }
+impl PanelContent for Kernel {
+    fn name(&self) -> &'static str {
+        "kernel"
     }
-    if found.contacts.is_empty() {
-        return "no interfaces".into();
-    }
-    let bearings = bearings(scene, found);
-    let share = |b: &Option<Bearing>| b.and_then(|b| b.eccentricity);
-    let mut nearest: Option<(f64, &Contact)> = None;
-    for (bearing, contact) in bearings.iter().zip(&found.contacts) {
-        if let Some(share) = share(bearing).filter(|s| nearest.is_none_or(|n| *s > n.0)) {
-            nearest = Some((share, contact));
-        }
-    }
-    let Some((most, contact)) = nearest else {
-        return "every safe stretch is a point".into();
-    };
-    let at_end = bearings
-        .iter()
-        .filter_map(share)
-        .filter(|s| *s >= ALL)
-        .count();
-    if at_end > 1 {
-        return format!(
-            "in the balance shown {at_end} resultants sit at an end of the safe stretch"
-        );
-    }
-    let pair = description::pair(scene, contact.interface.bodies);
-    if at_end == 1 {
-        return format!(
-            "in the balance shown the resultant between {pair} sits at the end of the safe stretch"
-        );
-    }
-    if most < 0.005 {
-        return "in the balance shown every resultant sits in the middle".into();
-    }
-    let most = percent(most);
-    format!(
-        "farthest from the middle: the resultant between {pair}, {most} of the way to the end of its safe stretch"
-    )
-}
 
-/// What the signs mean, those that occur.
-pub(crate) fn entries(stage: &FigureContext<'_>) -> Vec<Entry> {
-    let scene = &stage.analysis.scene;
-    let frames = &stage.analysis.frames;
-    let mut entries = Vec::new();
-    if frames.iter().any(|f| !f.contacts.is_empty()) {
-        let safe = "safe stretch of an interface".to_owned();
-        entries.push(Entry::Sign(safe_sign, WIDE, safe));
-        if scene.kernel > 0.0 {
-            let rest = format!("unsafe, for the kernel of {}", scene.kernel);
-            entries.push(Entry::Sign(rest_sign, WIDE, rest));
+    fn help(&self) -> &'static str {
+        "The safe stretch of each interface, and where in it the resultant sits"
+    }
+
+    fn title(&self) -> &'static str {
+        "Resultants in the safe stretches of interfaces"
+    }
+
+    fn picture(
+        &self,
+        context: &FigureContext<'_>,
+        frame: usize,
+        view: Bounds,
+        camera: &Camera,
+    ) -> Group {
+        let pen = Pen::new(context, frame, camera);
+        let found = &context.analysis.frames[frame];
+        let bold = bold(pen.unit());
+        let mut ink = label::ink(&pen);
+        for contact in &found.contacts {
+            let [from, to] = contact.interface.ends.map(|p| camera.place(p));
+            ink.line(from, to, bold + 1.0);
         }
+        let stretches = stretches(&pen, found);
+        let dots = dots(&pen, found, &mut |at| ink.disc(at, dot(pen.unit()) + 1.0));
+        composed(&pen, view, pen.blocks(), vec![stretches, dots], ink)
     }
-    let standing = frames.iter().filter(|f| f.verdict == Verdict::Stable);
-    let bearings: Vec<Bearing> = standing
-        .flat_map(|f| bearings(scene, f))
-        .flatten()
-        .collect();
-    let (ends, within): (Vec<&Bearing>, Vec<&Bearing>) = bearings.iter().partition(|b| at_end(b));
-    if !within.is_empty() {
-        entries.push(Entry::Sign(within_sign, 9.0, "resultant".into()));
+
+    fn entries(&self, context: &FigureContext<'_>, _unit: f64) -> Vec<Entry> {
+        let scene = &context.analysis.scene;
+        let frames = &context.analysis.frames;
+        let mut entries = Vec::new();
+        if frames.iter().any(|f| !f.contacts.is_empty()) {
+            let safe = "safe stretch of an interface".to_owned();
+            entries.push(Entry::Sign(safe_sign, WIDE, safe));
+            if scene.kernel > 0.0 {
+                let rest = format!("unsafe, for the kernel of {}", scene.kernel);
+                entries.push(Entry::Sign(rest_sign, WIDE, rest));
+            }
+        }
+        let standing = frames.iter().filter(|f| f.verdict == Verdict::Stable);
+        let bearings: Vec<Bearing> = standing
+            .flat_map(|f| bearings(scene, f))
+            .flatten()
+            .collect();
+        let (ends, within): (Vec<&Bearing>, Vec<&Bearing>) =
+            bearings.iter().partition(|b| at_end(b));
+        if !within.is_empty() {
+            entries.push(Entry::Sign(within_sign, 9.0, "resultant".into()));
+        }
+        if !ends.is_empty() {
+            let what = "resultant at the end of the safe stretch".to_owned();
+            entries.push(Entry::Sign(end_sign, 11.0, what));
+        }
+        entries.extend(legend::robots(context));
+        entries
     }
-    if !ends.is_empty() {
-        let what = "resultant at the end of the safe stretch".to_owned();
-        entries.push(Entry::Sign(end_sign, 11.0, what));
+
+    fn reason(&self, context: &FigureContext<'_>, frame: usize) -> String {
+        let (scene, found) = (&context.analysis.scene, &context.analysis.frames[frame]);
+
+        match found.verdict {
+            Verdict::Stable => {}
+            Verdict::Unstable => return "no resultants, for no forces balance it".into(),
+            Verdict::Undecided => {
+                return format!("no resultants; {}", verdict::reason(scene, found));
+            }
+        }
+        if found.contacts.is_empty() {
+            return "no interfaces".into();
+        }
+        let bearings = bearings(scene, found);
+        let share = |b: &Option<Bearing>| b.and_then(|b| b.eccentricity);
+        let mut nearest: Option<(f64, &Contact)> = None;
+        for (bearing, contact) in bearings.iter().zip(&found.contacts) {
+            if let Some(share) = share(bearing).filter(|s| nearest.is_none_or(|n| *s > n.0)) {
+                nearest = Some((share, contact));
+            }
+        }
+        let Some((most, contact)) = nearest else {
+            return "every safe stretch is a point".into();
+        };
+        let at_end = bearings
+            .iter()
+            .filter_map(share)
+            .filter(|s| *s >= ALL)
+            .count();
+        if at_end > 1 {
+            return format!(
+                "in the balance shown {at_end} resultants sit at an end of the safe stretch"
+            );
+        }
+        let pair = description::pair(scene, contact.interface.bodies);
+        if at_end == 1 {
+            return format!(
+                "in the balance shown the resultant between {pair} sits at the end of the safe stretch"
+            );
+        }
+        if most < 0.005 {
+            return "in the balance shown every resultant sits in the middle".into();
+        }
+        let most = percent(most);
+        format!(
+            "farthest from the middle: the resultant between {pair}, {most} of the way to the end of its safe stretch"
+        )
     }
-    entries.extend(legend::robots(stage));
-    entries
 }
 
 /// Whether a resultant sits at an end of its safe stretch.
@@ -140,7 +158,7 @@ fn rest(theme: &Theme, bold: f64) -> Stroke {
 }
 
 fn stretches(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
-    let (scene, theme) = (&pen.stage.analysis.scene, &pen.stage.options.theme);
+    let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let bold = bold(pen.unit());
     let mut group = Group::with_class("interfaces");
     let (mut all_safe, mut all_rests) = (Outline::default(), Outline::default());
@@ -197,7 +215,7 @@ fn stretches(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
 
 /// A mark where each resultant sits, in a frame that stands.
 fn dots(pen: &Pen<'_>, found: &FrameAnalysis, ink: &mut dyn FnMut(PagePoint)) -> Group {
-    let (scene, theme) = (&pen.stage.analysis.scene, &pen.stage.options.theme);
+    let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let mut group = Group::with_class("resultants");
     if found.verdict != Verdict::Stable {
         return group;

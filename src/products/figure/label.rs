@@ -14,8 +14,8 @@ use solid::Solids;
 use spoken::names;
 
 use super::arrow::{ArrowKind, ForceArrow, TurnKind};
+use super::context::FigureContext;
 use super::pen::{DOT, Pen};
-use super::stage::FigureContext;
 use super::view;
 use super::words::{counted, listed, quantity};
 use crate::drawing::placement::{Ink, LabelRequest, Placed, nearest, place_where};
@@ -59,7 +59,7 @@ struct Label {
     face: Face,
     size: f64,
     class: &'static str,
-    wish: LabelRequest,
+    request: LabelRequest,
     /// The colour of what it tells of; `None` for plain letters.
     colour: Option<Colour>,
     /// Whether the words below the frame name it: then it is there in any case.
@@ -80,21 +80,24 @@ pub(crate) fn labels(pen: &Pen<'_>, view: Bounds, ink: impl FnOnce() -> Ink) -> 
     }
     let mut ink = ink();
     let page = pen.camera.rect(view);
-    let wishes: Vec<LabelRequest> = labels.iter().map(|l| l.wish.clone()).collect();
+    let requests: Vec<LabelRequest> = labels.iter().map(|l| l.request.clone()).collect();
     let solids = Solids::new(pen);
     let abroad = |number: usize, rect: PageRect| {
         let own: Option<BlockId> = labels[number].of;
         own.is_some_and(|own| solids.other(pen, own, rect))
     };
-    let places = place_where(&mut ink, page, &wishes, &abroad);
+    let places = place_where(&mut ink, page, &requests, &abroad);
     let mut missing: Vec<(&str, usize)> = Vec::new();
     for (label, placed) in labels.iter().zip(places) {
         if placed.is_none_or(|p| p.disliked) {
-            pen.stage.cramped.set(pen.stage.cramped.get() + 1);
+            pen.context.cramped.set(pen.context.cramped.get() + 1);
         }
         if let Some(mut placed) = placed {
             if placed.leader.is_none() && doubtful(pen, label, placed.rect) {
-                placed.leader = Some([nearest(placed.rect, label.wish.anchor), label.wish.anchor]);
+                placed.leader = Some([
+                    nearest(placed.rect, label.request.anchor),
+                    label.request.anchor,
+                ]);
             }
             group.items.push(drawn(pen, label, placed).into());
             continue;
@@ -124,7 +127,7 @@ pub(crate) fn labels(pen: &Pen<'_>, view: Bounds, ink: impl FnOnce() -> Ink) -> 
 
 /// Whether a name beside its block could be taken for another block's, whose middle is nearly as near.
 fn doubtful(pen: &Pen<'_>, label: &Label, rect: PageRect) -> bool {
-    let scene = &pen.stage.analysis.scene;
+    let scene = &pen.context.analysis.scene;
     let Some(own) = label.of.filter(|_| label.class == "name") else {
         return false;
     };
@@ -144,9 +147,9 @@ fn doubtful(pen: &Pen<'_>, label: &Label, rect: PageRect) -> bool {
 }
 
 /// What a figure says of the labels that its frames are too full for; `None` where there are none.
-pub(crate) fn left_out(stage: &FigureContext<'_>) -> Option<String> {
-    let options = stage.options;
-    let frames = &stage.analysis.scene.frames;
+pub(crate) fn left_out(context: &FigureContext<'_>) -> Option<String> {
+    let options = context.options;
+    let frames = &context.analysis.scene.frames;
     let most = frames.iter().map(|f| f.placed.len()).max().unwrap_or(0);
     let what = match (options.labels, options.amounts) {
         (true, true) => "names and amounts",
@@ -154,7 +157,7 @@ pub(crate) fn left_out(stage: &FigureContext<'_>) -> Option<String> {
         (false, true) => "amounts",
         (false, false) => return None,
     };
-    let named = (0..frames.len()).any(|frame| !mentioned(stage, frame).is_empty());
+    let named = (0..frames.len()).any(|frame| !mentioned(context, frame).is_empty());
     let but = if named {
         " but those the text names"
     } else {
@@ -164,12 +167,12 @@ pub(crate) fn left_out(stage: &FigureContext<'_>) -> Option<String> {
 }
 
 fn wanted(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
-    let options = pen.stage.options;
-    let frame = &pen.stage.analysis.scene.frames[pen.number];
+    let options = pen.context.options;
+    let frame = &pen.context.analysis.scene.frames[pen.number];
     let few = frame.placed.len() <= MOST_BLOCKS;
     let mut labels = Vec::new();
     if options.labels {
-        let first = mentioned(pen.stage, pen.number);
+        let first = mentioned(pen.context, pen.number);
         let names = first.iter().filter_map(|id| name(pen, *id, view));
         labels.extend(names.map(|label| Label {
             named: true,
@@ -182,11 +185,11 @@ fn wanted(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
             let roam = pen.unit() >= ROOMY || frame.placed.len() <= FEW;
             let names = others.filter_map(|id| name(pen, *id, view));
             labels.extend(names.map(|label| {
-                let mut wish = label.wish;
+                let mut request = label.request;
                 if !roam {
-                    wish.roams = wish.roams.map(|far| far.min(BESIDE));
+                    request.roams = request.roams.map(|far| far.min(BESIDE));
                 }
-                Label { wish, ..label }
+                Label { request, ..label }
             }));
         }
     }
@@ -198,9 +201,9 @@ fn wanted(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
 }
 
 /// The blocks that the words below a frame name, in placing order.
-fn mentioned(stage: &FigureContext<'_>, frame: usize) -> Vec<BlockId> {
-    let scene = &stage.analysis.scene;
-    let stated = &stage.statements[frame];
+fn mentioned(context: &FigureContext<'_>, frame: usize) -> Vec<BlockId> {
+    let scene = &context.analysis.scene;
+    let stated = &context.statements[frame];
     let placed = scene.frames[frame].placed.iter().copied();
     placed
         .filter(|id| names(stated, &scene.blocks[id.0].id))
@@ -216,15 +219,21 @@ const BOULDER: f64 = 3.0;
 fn name_size(pen: &Pen<'_>, edge: f64) -> f64 {
     (0.25 * edge)
         .max(SMALLEST)
-        .min(pen.stage.options.theme.sizes.name)
+        .min(pen.context.options.theme.sizes.name)
 }
 
-fn label(words: String, face: Face, size: f64, class: &'static str, wish: LabelRequest) -> Label {
+fn label(
+    words: String,
+    face: Face,
+    size: f64,
+    class: &'static str,
+    request: LabelRequest,
+) -> Label {
     let size_of = (text::width(&words, face, size), HIGH * size);
     Label {
-        wish: LabelRequest {
+        request: LabelRequest {
             size: size_of,
-            ..wish
+            ..request
         },
         lines: vec![words],
         face,
@@ -240,7 +249,7 @@ fn label(words: String, face: Face, size: f64, class: &'static str, wish: LabelR
 /// code points for want of a font may be broken between any two of them.
 fn broken(label: Label, across: f64) -> Label {
     let name = label.lines.concat();
-    if label.wish.size.0 <= across {
+    if label.request.size.0 <= across {
         return label;
     }
     let (name, most) = match name.contains(SPELLED) {
@@ -258,18 +267,21 @@ fn broken(label: Label, across: f64) -> Label {
         widths.fold(0.0, f64::max),
         label.size * (HIGH + PITCH * (lines.len() - 1) as f64),
     );
-    let wish = LabelRequest { size, ..label.wish };
+    let request = LabelRequest {
+        size,
+        ..label.request
+    };
     Label {
         lines,
-        wish,
+        request,
         ..label
     }
 }
 
 /// The name of a block; `None` where nothing of it is in view.
 fn name(pen: &Pen<'_>, id: BlockId, view: Bounds) -> Option<Label> {
-    let block = &pen.stage.analysis.scene.blocks[id.0];
-    let zoomed = pen.stage.options.zoom.is_some();
+    let block = &pen.context.analysis.scene.blocks[id.0];
+    let zoomed = pen.context.options.zoom.is_some();
     if zoomed && view::common(view, block.body.polygon.bounds()).is_none() {
         return None;
     }
@@ -284,7 +296,7 @@ fn name(pen: &Pen<'_>, id: BlockId, view: Bounds) -> Option<Label> {
     };
     // Beside a pebble its name stands as near as the pebble is small.
     let extent = block.body.polygon.bounds().diagonal();
-    let wish = LabelRequest {
+    let request = LabelRequest {
         anchor: pen.camera.place(pen.moved(id, block.centroid)),
         from: (0.4 * pen.unit()).min(0.5 * pen.camera.length(extent) + 2.0),
         size: (0.0, 0.0),
@@ -295,7 +307,7 @@ fn name(pen: &Pen<'_>, id: BlockId, view: Bounds) -> Option<Label> {
         ease: 0.5 * size,
         roams: (!zoomed || view::holds(view, block.centroid)).then_some(f64::INFINITY),
     };
-    let label = label(block.id.clone(), Face::SansBold, size, "name", wish);
+    let label = label(block.id.clone(), Face::SansBold, size, "name", request);
     let across = pen.camera.length(block.body.polygon.bounds().width()) - 2.0 * INSET;
     Some(Label {
         of: Some(id),
@@ -304,12 +316,12 @@ fn name(pen: &Pen<'_>, id: BlockId, view: Bounds) -> Option<Label> {
 }
 
 fn robots(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
-    let scene = &pen.stage.analysis.scene;
+    let scene = &pen.context.analysis.scene;
     let size = name_size(pen, pen.unit());
     // Above the smallest letters names of robots stand back a little.
     let size = (0.9 * size).max(size.min(SMALLEST));
     let named = |hold: &crate::scene::Hold| {
-        let wish = LabelRequest {
+        let request = LabelRequest {
             anchor: pen.camera.place(pen.moved(hold.block, hold.at)),
             from: pen.disc() + 2.0,
             size: (0.0, 0.0),
@@ -320,25 +332,25 @@ fn robots(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
         let id = scene.robots[hold.robot.0].id.clone();
         let block = scene.blocks[hold.block.0].body.polygon.bounds();
         let across = pen.camera.length(block.width()) - 2.0 * INSET;
-        let label = label(id, Face::Sans, size, "robot-name", wish);
+        let label = label(id, Face::Sans, size, "robot-name", request);
         Label {
             of: Some(hold.block),
             ..broken(label, across)
         }
     };
-    let zoomed = pen.stage.options.zoom.is_some();
+    let zoomed = pen.context.options.zoom.is_some();
     let holds = scene.frames[pen.number].holds.iter();
     let shown = holds.filter(|hold| !zoomed || view::holds(view, hold.at));
     shown.map(named).collect()
 }
 
 fn amounts(pen: &Pen<'_>) -> Vec<Label> {
-    let (marks, options) = (&pen.stage.marks[pen.number], pen.stage.options);
+    let (marks, options) = (&pen.context.marks[pen.number], pen.context.options);
     // How large a load is belongs to the question, not to the answer: it is always told.
     let asked = |load: bool| options.amounts || (load && options.labels);
     let size = (0.2 * pen.unit())
         .max(SMALLEST)
-        .min(pen.stage.options.theme.sizes.amount);
+        .min(pen.context.options.theme.sizes.amount);
     // Between two blocks the same amount acts both ways: it is said once, on the block of the lower number.
     let stated = |arrow: &&ForceArrow| match (arrow.kind.partner(), arrow.on) {
         (Some(BodyId::Block(partner)), BodyId::Block(on)) => on.0 < partner.0,
@@ -351,7 +363,7 @@ fn amounts(pen: &Pen<'_>) -> Vec<Label> {
         let words = quantity(arrow.force.norm(), "N");
         let (from, along) = (pen.camera.place(arrow.at), pen.camera.turn(arrow.reach()));
         let wide = text::width(&words, Face::Sans, size);
-        let wish = LabelRequest {
+        let request = LabelRequest {
             anchor: from.moved(0.5 * along.0, 0.5 * along.1),
             from: (0.5 * pen.width(arrow)).max(DOT) + 3.0,
             size: (0.0, 0.0),
@@ -361,15 +373,15 @@ fn amounts(pen: &Pen<'_>) -> Vec<Label> {
         };
         Label {
             colour: Some(arrow.colour),
-            ..label(words, Face::Sans, size, "amount", wish)
+            ..label(words, Face::Sans, size, "amount", request)
         }
     });
     let turns = marks.turns.iter().filter(|t| pen.turn_seen(t));
     let turns = turns.filter(|t| asked(t.kind == TurnKind::Load));
     let turning = turns.map(|turn| {
-        let wish = LabelRequest {
+        let request = LabelRequest {
             anchor: pen.camera.place(turn.at),
-            from: pen.camera.length(0.7 * pen.stage.unit),
+            from: pen.camera.length(0.7 * pen.context.unit),
             size: (0.0, 0.0),
             preferred: Vec::new(),
             ease: 0.0,
@@ -378,7 +390,7 @@ fn amounts(pen: &Pen<'_>) -> Vec<Label> {
         let words = quantity(turn.torque.abs(), "N·m");
         Label {
             colour: Some(turn.colour),
-            ..label(words, Face::Sans, size, "amount", wish)
+            ..label(words, Face::Sans, size, "amount", request)
         }
     });
     straight.chain(turning).collect()
@@ -434,7 +446,7 @@ fn inside(polygon: &Polygon, middle: Point, view: Option<Bounds>) -> Vec<Point> 
 }
 
 fn drawn(pen: &Pen<'_>, label: &Label, placed: Placed) -> Group {
-    let theme = &pen.stage.options.theme;
+    let theme = &pen.context.options.theme;
     let mut group = Group::with_class(label.class);
     if let Some(leader) = placed.leader {
         // A thin grey line on a dark fill would be lost: a seam of the page's colour carries it.
@@ -445,16 +457,16 @@ fn drawn(pen: &Pen<'_>, label: &Label, placed: Placed) -> Group {
     // A label lies on no outline, so it lies on one fill or on the page.
     let below = pen.below(middle(placed.rect));
     let colour = theme.letters_on(below, label.colour);
-    let halo = pen.stage.strikes_names.then_some(below);
+    let halo = pen.context.lines_cross_names.then_some(below);
     lettered(group, label, middle(placed.rect), colour, halo)
 }
 
 /// A label for which nowhere is clear, over whatever lies at its anchor, with a seam around its letters.
 fn over(pen: &Pen<'_>, label: &Label) -> Group {
-    let below = pen.below(label.wish.anchor);
-    let colour = pen.stage.options.theme.letters_on(below, label.colour);
+    let below = pen.below(label.request.anchor);
+    let colour = pen.context.options.theme.letters_on(below, label.colour);
     let group = Group::with_class(label.class);
-    lettered(group, label, label.wish.anchor, colour, Some(below))
+    lettered(group, label, label.request.anchor, colour, Some(below))
 }
 
 /// The lines of a label about its middle, on request with a seam around their letters.

@@ -1,7 +1,7 @@
 //! [`Layout`]: how many panels stand beside each other, how wide they are and at what scale.
 
+use super::context::FigureContext;
 use super::dimension;
-use super::stage::FigureContext;
 use crate::drawing::{Face, text};
 
 /// Most room around a figure, pixels.
@@ -55,13 +55,13 @@ pub(crate) struct Layout {
 
 impl Layout {
     /// For `count` panels, so that all fit on a page if they can.
-    pub fn new(stage: &FigureContext<'_>, count: usize) -> Layout {
-        Layout::with(stage, count, Fit::Page)
+    pub fn new(context: &FigureContext<'_>, count: usize) -> Layout {
+        Layout::with(context, count, Fit::Page)
     }
 
     /// For `count` panels whose rows go to as many pages as it takes.
-    pub fn roomy(stage: &FigureContext<'_>, count: usize) -> Layout {
-        Layout::with(stage, count, Fit::Rows)
+    pub fn roomy(context: &FigureContext<'_>, count: usize) -> Layout {
+        Layout::with(context, count, Fit::Rows)
     }
 
     /// The layout in which the panels of both have room, to the smaller of their scales.
@@ -77,32 +77,32 @@ impl Layout {
     }
 
     /// The page is at least so wide and so high, pixels.
-    pub fn least(&self, stage: &FigureContext<'_>) -> (f64, f64) {
-        let frames: Vec<usize> = (0..stage.marks.len()).collect();
+    pub fn least(&self, context: &FigureContext<'_>) -> (f64, f64) {
+        let frames: Vec<usize> = (0..context.marks.len()).collect();
         let rows = frames.chunks(self.columns.max(1));
-        let high: f64 = rows.map(|row| stage.row(row).height() * self.scale).sum();
+        let high: f64 = rows.map(|row| context.row(row).height() * self.scale).sum();
         (self.content, high)
     }
 
-    fn with(stage: &FigureContext<'_>, count: usize, fit: Fit) -> Layout {
-        let margin = stage.options.width.map_or(MARGIN, margin);
-        let across = stage
+    fn with(context: &FigureContext<'_>, count: usize, fit: Fit) -> Layout {
+        let margin = context.options.width.map_or(MARGIN, margin);
+        let across = context
             .options
             .width
             .map_or(ACROSS, |width| (width - 2.0 * margin).max(1.0));
-        let gap = match stage.options.width {
+        let gap = match context.options.width {
             Some(width) => GAP.0.min(GAP.1 * width),
             None => GAP.0,
         };
         let count = count.max(1);
         let room = |columns| room(across, gap, columns);
-        let scale = |columns| Layout::scale(stage, room(columns), columns, count);
-        let columns = match stage.options.columns {
+        let scale = |columns| Layout::scale(context, room(columns), columns, count);
+        let columns = match context.options.columns {
             Some(columns) => columns.clamp(1, count),
             None => {
                 // On as many pages as it takes panels may be small, but not narrow.
                 let fits = |columns: usize| {
-                    (fit == Fit::Rows || scale(columns) * stage.unit >= SMALLEST_UNIT)
+                    (fit == Fit::Rows || scale(columns) * context.unit >= SMALLEST_UNIT)
                         && room(columns) >= LEAST.min(across)
                 };
                 let most = match count {
@@ -112,8 +112,8 @@ impl Layout {
                 };
                 let roomy = (1..=most).rev().find(|c| fits(*c)).unwrap_or(1);
                 let high = |columns: usize| {
-                    let words = words(stage, count, room(columns)) + BELOW;
-                    let panel = stage.view.height() * scale(columns) + words;
+                    let words = words(context, count, room(columns)) + BELOW;
+                    let panel = context.view.height() * scale(columns) + words;
                     count.div_ceil(columns) as f64 * panel
                 };
                 let page = if across < COLUMN.0 { COLUMN.1 } else { PAGE };
@@ -132,8 +132,8 @@ impl Layout {
         };
         let scale = scale(columns);
         let least = if count == 1 { 1.6 * LEAST } else { LEAST };
-        let dimensions = dimensions(stage);
-        let panel = (stage.view.width() * scale + dimensions).max(least.min(room(columns)));
+        let dimensions = dimensions(context);
+        let panel = (context.view.width() * scale + dimensions).max(least.min(room(columns)));
         let between = (columns - 1) as f64 * gap;
         Layout {
             margin,
@@ -145,7 +145,7 @@ impl Layout {
         }
     }
 
-    fn scale(stage: &FigureContext<'_>, room: f64, columns: usize, count: usize) -> f64 {
+    fn scale(context: &FigureContext<'_>, room: f64, columns: usize, count: usize) -> f64 {
         let rows = count.div_ceil(columns);
         let high = match (count, rows) {
             (1, _) => 640.0,
@@ -154,22 +154,22 @@ impl Layout {
         };
         // A page of its own width fixes the scale, and so do many panels; otherwise panels are as wide as their captions
         // need.
-        let wide = match stage.options.width {
+        let wide = match context.options.width {
             Some(_) => room,
             None if columns > 3 => room,
             None => room.max(LEAST),
         };
-        let scale = ((wide - dimensions(stage)).max(1.0) / stage.view.width())
-            .min(high / stage.view.height())
-            .min(LARGEST_UNIT / stage.unit);
+        let scale = ((wide - dimensions(context)).max(1.0) / context.view.width())
+            .min(high / context.view.height())
+            .min(LARGEST_UNIT / context.unit);
         // A scene too small for its own coordinates to tell its places apart has no scale.
         if scale.is_finite() { scale } else { 1.0 }
     }
 }
 
 /// Room that dimension lines take beside a picture, pixels.
-fn dimensions(stage: &FigureContext<'_>) -> f64 {
-    if stage.options.dimensions {
+fn dimensions(context: &FigureContext<'_>) -> f64 {
+    if context.options.dimensions {
         2.0 * dimension::ASIDE
     } else {
         0.0
@@ -177,9 +177,9 @@ fn dimensions(stage: &FigureContext<'_>) -> f64 {
 }
 
 /// How high the longest caption is in panels of this width, pixels.
-fn words(stage: &FigureContext<'_>, count: usize, panel: f64) -> f64 {
-    let (scene, size) = (&stage.analysis.scene, stage.options.theme.sizes.caption);
-    if !stage.options.captions || count < 2 {
+fn words(context: &FigureContext<'_>, count: usize, panel: f64) -> f64 {
+    let (scene, size) = (&context.analysis.scene, context.options.theme.sizes.caption);
+    if !context.options.captions || count < 2 {
         return 0.0;
     }
     let lines = scene.frames.iter().map(|frame| {

@@ -5,10 +5,10 @@ mod sign;
 use sign::{SAMPLE, load_dot, load_sign, missing_dot, weight_sign};
 
 use super::arrow::{ArrowKind, ForceArrow, LEAST_SEEN, TurnKind};
+use super::context::FigureContext;
 use super::description;
 use super::option::{ArrowScale, Options};
 use super::pen::{DOT, TEXTURE};
-use super::stage::FigureContext;
 use super::words::{counted, quantity, round_below};
 use crate::drawing::arrow::{HEAD_LENGTH, straight};
 use crate::drawing::{
@@ -300,23 +300,23 @@ pub(crate) fn scale(newtons: f64, unit: f64, options: &Options) -> Option<Entry>
 }
 
 /// Everything that occurs in the figure, `unit` pixels being one unit edge.
-pub(crate) fn entries(stage: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
-    let (scene, theme) = (&stage.analysis.scene, &stage.options.theme);
+pub(crate) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
+    let (scene, theme) = (&context.analysis.scene, &context.options.theme);
     let mut entries = Vec::new();
-    if stage.options.scale == ArrowScale::Strip {
-        let newtons = stage
+    if context.options.scale == ArrowScale::Strip {
+        let newtons = context
             .marks
             .iter()
             .map(|m| m.newtons_per_unit)
             .fold(0.0, f64::max);
-        entries.extend(scale(newtons, unit, stage.options));
+        entries.extend(scale(newtons, unit, context.options));
     }
-    let scale_of_page = unit / stage.unit;
+    let scale_of_page = unit / context.unit;
     let is_seen = |a: &ForceArrow| a.reach().norm() * scale_of_page >= LEAST_SEEN;
     // Where colours tell the forces, or arrows are too small to be seen, there are none to explain.
     let is_drawn = |kind: fn(ArrowKind) -> bool| {
-        let mut arrows = stage.marks.iter().flat_map(|m| &m.arrows);
-        !stage.dusty(scale_of_page) && arrows.any(|a| kind(a.kind) && is_seen(a))
+        let mut arrows = context.marks.iter().flat_map(|m| &m.arrows);
+        !context.dusty(scale_of_page) && arrows.any(|a| kind(a.kind) && is_seen(a))
     };
     let mut seen: Vec<(Colour, String)> = Vec::new();
     let mut clash = false;
@@ -338,13 +338,13 @@ pub(crate) fn entries(stage: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
         entries.push(Entry::Colours(theme.arrows.clone()));
     }
     // In small figures weights have no ring at their tails, by which they would be told from other forces.
-    if !stage.options.printed() && unit >= TEXTURE && is_drawn(|kind| kind == ArrowKind::Weight) {
+    if !context.options.printed() && unit >= TEXTURE && is_drawn(|kind| kind == ArrowKind::Weight) {
         let words = "weight, from the centroid".to_owned();
         entries.push(Entry::Sign(weight_sign, SAMPLE, words));
     }
-    entries.extend(loads(stage));
-    entries.extend(robots(stage));
-    let missing = stage.marks.iter().any(|m| {
+    entries.extend(loads(context));
+    entries.extend(robots(context));
+    let missing = context.marks.iter().any(|m| {
         m.arrows.iter().any(|a| a.kind.is_failure() && is_seen(a))
             || m.turns
                 .iter()
@@ -354,7 +354,7 @@ pub(crate) fn entries(stage: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
         entries.push(Entry::Missing);
     }
     let small = |kind: fn(ArrowKind) -> bool| {
-        let mut arrows = stage.marks.iter().flat_map(|m| &m.arrows);
+        let mut arrows = context.marks.iter().flat_map(|m| &m.arrows);
         arrows.any(|a| kind(a.kind) && description::dotted(a, is_seen(a)))
     };
     if small(|kind| kind == ArrowKind::Load) {
@@ -366,9 +366,9 @@ pub(crate) fn entries(stage: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
         entries.push(Entry::Sign(missing_dot, 2.0 * DOT, words));
     }
     let painted = scene.blocks.iter().any(|b| b.body.fill.is_none());
-    if painted && stage.fills.vary() {
-        let (ends, what) = stage.fills.key();
-        entries.push(Entry::Amplitudes(ends, what, stage.fills.ramp()));
+    if painted && context.fills.vary() {
+        let (ends, what) = context.fills.key();
+        entries.push(Entry::Amplitudes(ends, what, context.fills.ramp()));
     }
     entries
 }
@@ -380,8 +380,8 @@ pub(crate) fn metres(scale: f64, content: f64) -> Option<Entry> {
 }
 
 /// What a load looks like and how large loads are; none where no frame shows one.
-pub(crate) fn loads(stage: &FigureContext<'_>) -> Option<Entry> {
-    let scene = &stage.analysis.scene;
+pub(crate) fn loads(context: &FigureContext<'_>) -> Option<Entry> {
+    let scene = &context.analysis.scene;
     let placed = |block| scene.frames.iter().any(|f| f.placed.contains(&block));
     let loads = scene.loads.iter().filter(|l| placed(l.block));
     let turns = loads.clone().any(|l| l.torque != 0.0);
@@ -405,8 +405,8 @@ pub(crate) fn loads(stage: &FigureContext<'_>) -> Option<Entry> {
 }
 
 /// The robots that hold or plan in any frame, and what a plan looks like.
-pub(crate) fn robots(stage: &FigureContext<'_>) -> Vec<Entry> {
-    let (scene, theme) = (&stage.analysis.scene, &stage.options.theme);
+pub(crate) fn robots(context: &FigureContext<'_>) -> Vec<Entry> {
+    let (scene, theme) = (&context.analysis.scene, &context.options.theme);
     let mut entries = Vec::new();
     let holds = |number: usize| {
         scene

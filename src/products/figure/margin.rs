@@ -4,6 +4,9 @@
 //! across it, a dashed line shows where it points now, an arrow where it would point, or the push beside it; where loads
 //! grow, they are shown as they are. Nothing falls here; the blocks stand in their places.
 
+use super::arrow::Marks;
+use super::content::PanelContent;
+use super::context::FigureContext;
 use super::displacement::{self, Displacement};
 use super::label;
 use super::legend::{self, Entry};
@@ -11,25 +14,209 @@ use super::mechanism;
 use super::option::Options;
 use super::panel::composed;
 use super::pen::Pen;
-use super::stage::FigureContext;
 use super::thrust;
 use super::words::{degrees, percent};
 use crate::analysis::{Analysis, Margin, Motion, Toward, Verdict};
 use crate::drawing::arrow::straight;
 use crate::drawing::{Camera, Group, Outline, PagePoint, PageRect, Path, Stroke, Theme};
 use crate::geometry::{Bounds, Point, Vector, quarter_turn, sin_cos_degrees};
-use crate::scene::{Frame, Scene};
 
 /// Length of the arrow of gravity, as a share of the structure's diagonal.
 const LONG: f64 = 0.16;
 /// Its distance from the structure, as a share of the same.
 const APART: f64 = 0.12;
 
-/// The amount that the loads of a frame are drawn to, N; 0 where it is not the loads that grow.
-pub(crate) fn largest_load(scene: &Scene, frame: &Frame, options: &Options) -> f64 {
-    match options.toward {
-        Toward::LoadFactor => thrust::largest_load(scene, frame),
-        _ => 0.0,
+/// The figure of a margin.
+pub(crate) struct CollapseMargin;
+
+impl PanelContent for CollapseMargin {
+    fn name(&self) -> &'static str {
+        "margin"
+    }
+
+    fn help(&self) -> &'static str {
+        "As it stands, and as a ghost how it falls just beyond its margin; --margin says which"
+    }
+
+    fn title(&self) -> &'static str {
+        "How far a dry-laid structure is from falling"
+    }
+
+    fn needs_margins(&self) -> bool {
+        true
+    }
+
+    fn lines_cross_names(&self) -> bool {
+        true
+    }
+
+    fn marks(
+        &self,
+        analysis: &Analysis,
+        frame: usize,
+        options: &Options,
+        newtons_per_unit: f64,
+    ) -> Marks {
+        // Where the loads grow they are drawn, as in a line of thrust.
+        thrust::marks(analysis, frame, options, newtons_per_unit)
+    }
+
+    fn largest_force(&self, analysis: &Analysis, frame: usize, options: &Options) -> f64 {
+        let scene = &analysis.scene;
+        let frame = &scene.frames[frame];
+
+        match options.toward {
+            Toward::LoadFactor => thrust::largest_load(scene, frame),
+            _ => 0.0,
+        }
+    }
+
+    fn extent(
+        &self,
+        analysis: &Analysis,
+        frame: usize,
+        unit: f64,
+        _marks: &Marks,
+        options: &Options,
+    ) -> Option<Bounds> {
+        let (displaced, edge) = gone(analysis, frame, unit, options.toward)?;
+        let ghosts = mechanism::reach(analysis, &displaced);
+        let gravity = gravity(analysis, frame, edge, options.toward)
+            .and_then(|g| Some(Bounds::from_points([g.from, g.now, g.there])?.grown(0.1 * unit)));
+        ghosts.into_iter().chain(gravity).reduce(Bounds::union)
+    }
+
+    fn picture(
+        &self,
+        context: &FigureContext<'_>,
+        frame: usize,
+        view: Bounds,
+        camera: &Camera,
+    ) -> Group {
+        let pen = Pen::new(context, frame, camera);
+        let mut ink = label::ink(&pen);
+        let (scene, theme) = (&context.analysis.scene, &context.options.theme);
+        let mut parts = Vec::new();
+        let toward = context.options.toward;
+        if let Some((displaced, edge)) = gone(context.analysis, frame, context.unit, toward) {
+            let mut outline = Outline::default();
+            for (block, displacement) in scene.blocks.iter().zip(&displaced) {
+                let Some(displacement) = displacement else {
+                    continue;
+                };
+                for ring in block.body.polygon.rings() {
+                    let corners = ring.iter().map(|p| camera.place(displacement.moved(*p)));
+                    outline.extend(Outline::ring(corners));
+                }
+            }
+            let ghosts = Group::with_class("ghosts").titled("How it would begin to fall");
+            parts.push(ghosts.with(ghost_path(outline, pen.line, theme)));
+            if let Some(gravity) = gravity(context.analysis, frame, edge, toward) {
+                let [from, now, there] =
+                    [gravity.from, gravity.now, gravity.there].map(|p| camera.place(p));
+                let along = (there.x - from.x, there.y - from.y);
+                let group = Group::with_class("gravity").titled(match toward {
+                    Toward::HorizontalLoad => {
+                        format!("Beside gravity {} of it across", percent_of(edge))
+                    }
+                    _ => format!("Gravity turned by {}", degrees(edge.abs())),
+                });
+                let dashed = Stroke::new(theme.faint, 1.2).dashed([4.0, 3.0]);
+                let long = libm::hypot(now.x - from.x, now.y - from.y);
+                let width = (0.04 * long).clamp(1.2, 3.0);
+                let arrow = Path::filled(straight(from, along, width), theme.ink);
+                ink.line(from, now, 1.2);
+                ink.arrow(from, along, width);
+                parts.push(
+                    group
+                        .with(Path::stroked(Outline::line([from, now]), dashed))
+                        .with(arrow),
+                );
+            }
+        }
+        parts.push(pen.arrows(false));
+        composed(&pen, view, pen.blocks(), parts, ink)
+    }
+
+    fn entries(&self, context: &FigureContext<'_>, _unit: f64) -> Vec<Entry> {
+        let mut entries = Vec::new();
+        let toward = context.options.toward;
+        let mut frames = 0..context.analysis.frames.len();
+        if frames.any(|f| beyond(context.analysis, f, toward).is_some()) {
+            let ghost = "how it would begin to fall".to_owned();
+            entries.push(Entry::Sign(ghost_sign, 20.0, ghost));
+            match toward {
+                Toward::Tilt => {
+                    let gravity = "gravity turned as far as it may".to_owned();
+                    entries.push(Entry::Sign(gravity_sign, 26.0, gravity));
+                }
+                Toward::HorizontalLoad => {
+                    let push = "largest push across gravity, beside gravity".to_owned();
+                    entries.push(Entry::Sign(push_sign, 26.0, push));
+                }
+                Toward::LoadFactor => {}
+            }
+        }
+        if toward == Toward::LoadFactor {
+            entries.extend(legend::loads(context));
+        }
+        entries.extend(legend::robots(context));
+        entries
+    }
+
+    fn reason(&self, context: &FigureContext<'_>, frame: usize) -> String {
+        let (analysis, toward) = (context.analysis, context.options.toward);
+        let found = &analysis.frames[frame];
+        if found.verdict != Verdict::Stable {
+            return "there is no margin: it does not stand as it is".to_owned();
+        }
+        let Some(margins) = &found.margins else {
+            return "its margins were not asked for".to_owned();
+        };
+        let side = |edge: f64| if edge > 0.0 { "right" } else { "left" };
+        if let Some((edge, _)) = beyond(analysis, frame, toward) {
+            return match toward {
+                Toward::Tilt => format!(
+                    "falls once gravity is turned by {} to the {}",
+                    degrees(edge.abs()),
+                    side(edge)
+                ),
+                Toward::HorizontalLoad => format!(
+                    "falls once {} of each weight pushes to the {} as well",
+                    percent_of(edge),
+                    side(edge)
+                ),
+                Toward::LoadFactor => {
+                    format!("falls once its loads are {} times as large", times(edge))
+                }
+            };
+        }
+        let sides = match toward {
+            Toward::Tilt => Some(&margins.tilt),
+            Toward::HorizontalLoad => Some(&margins.horizontal_load),
+            Toward::LoadFactor => None,
+        };
+        let confirmed = |margin: &Margin| !matches!(margin, Margin::Unconfirmed { .. });
+        if sides.is_some_and(|s| !confirmed(&s.left) || !confirmed(&s.right)) {
+            return "how far it is from falling was not confirmed by a verdict on either side"
+                .to_owned();
+        }
+        let placed = &analysis.scene.frames[frame].placed;
+        let loaded = analysis
+            .scene
+            .loads
+            .iter()
+            .any(|l| placed.contains(&l.block));
+        match toward {
+            Toward::Tilt => "no turn of gravity makes it fall",
+            Toward::HorizontalLoad => "no horizontal push makes it fall",
+            Toward::LoadFactor if !loaded => "it has no loads that could grow",
+            Toward::LoadFactor if margins.load_factor == Margin::Unbounded => {
+                "its loads may grow without end"
+            }
+            Toward::LoadFactor => "how far its loads may grow was not found",
+        }
+        .to_owned()
     }
 }
 
@@ -101,72 +288,6 @@ fn gravity(analysis: &Analysis, frame: usize, edge: f64, toward: Toward) -> Opti
     })
 }
 
-/// A box around ghosts and gravity.
-pub(crate) fn reach(
-    analysis: &Analysis,
-    frame: usize,
-    unit: f64,
-    options: &Options,
-) -> Option<Bounds> {
-    let (displaced, edge) = gone(analysis, frame, unit, options.toward)?;
-    let ghosts = mechanism::reach(analysis, &displaced);
-    let gravity = gravity(analysis, frame, edge, options.toward)
-        .and_then(|g| Some(Bounds::from_points([g.from, g.now, g.there])?.grown(0.1 * unit)));
-    ghosts.into_iter().chain(gravity).reduce(Bounds::union)
-}
-
-/// What the camera sees of a frame, its ghost and gravity.
-pub(crate) fn picture(
-    stage: &FigureContext<'_>,
-    frame: usize,
-    view: Bounds,
-    camera: &Camera,
-) -> Group {
-    let pen = Pen::new(stage, frame, camera);
-    let mut ink = label::ink(&pen);
-    let (scene, theme) = (&stage.analysis.scene, &stage.options.theme);
-    let mut parts = Vec::new();
-    let toward = stage.options.toward;
-    if let Some((displaced, edge)) = gone(stage.analysis, frame, stage.unit, toward) {
-        let mut outline = Outline::default();
-        for (block, displacement) in scene.blocks.iter().zip(&displaced) {
-            let Some(displacement) = displacement else {
-                continue;
-            };
-            for ring in block.body.polygon.rings() {
-                let corners = ring.iter().map(|p| camera.place(displacement.moved(*p)));
-                outline.extend(Outline::ring(corners));
-            }
-        }
-        let ghosts = Group::with_class("ghosts").titled("How it would begin to fall");
-        parts.push(ghosts.with(ghost_path(outline, pen.line, theme)));
-        if let Some(gravity) = gravity(stage.analysis, frame, edge, toward) {
-            let [from, now, there] =
-                [gravity.from, gravity.now, gravity.there].map(|p| camera.place(p));
-            let along = (there.x - from.x, there.y - from.y);
-            let group = Group::with_class("gravity").titled(match toward {
-                Toward::HorizontalLoad => {
-                    format!("Beside gravity {} of it across", percent_of(edge))
-                }
-                _ => format!("Gravity turned by {}", degrees(edge.abs())),
-            });
-            let dashed = Stroke::new(theme.faint, 1.2).dashed([4.0, 3.0]);
-            let long = libm::hypot(now.x - from.x, now.y - from.y);
-            let width = (0.04 * long).clamp(1.2, 3.0);
-            let arrow = Path::filled(straight(from, along, width), theme.ink);
-            ink.line(from, now, 1.2);
-            ink.arrow(from, along, width);
-            parts.push(
-                group
-                    .with(Path::stroked(Outline::line([from, now]), dashed))
-                    .with(arrow),
-            );
-        }
-    }
-    parts.push(pen.arrows(false));
-    composed(&pen, view, pen.blocks(), parts, ink)
-}
-
 fn ghost_path(outline: Outline, line: f64, theme: &Theme) -> Path {
     let edge = theme.motion.mixed(theme.ink, 0.25);
     let stroke = Stroke::new(edge, line.max(0.9)).dashed([5.0, 3.5]);
@@ -180,89 +301,6 @@ fn percent_of(share: f64) -> String {
     } else {
         format!("{:.0}\u{a0}%", 100.0 * share.abs())
     }
-}
-
-/// What the signs mean.
-pub(crate) fn entries(stage: &FigureContext<'_>) -> Vec<Entry> {
-    let mut entries = Vec::new();
-    let toward = stage.options.toward;
-    let mut frames = 0..stage.analysis.frames.len();
-    if frames.any(|f| beyond(stage.analysis, f, toward).is_some()) {
-        let ghost = "how it would begin to fall".to_owned();
-        entries.push(Entry::Sign(ghost_sign, 20.0, ghost));
-        match toward {
-            Toward::Tilt => {
-                let gravity = "gravity turned as far as it may".to_owned();
-                entries.push(Entry::Sign(gravity_sign, 26.0, gravity));
-            }
-            Toward::HorizontalLoad => {
-                let push = "largest push across gravity, beside gravity".to_owned();
-                entries.push(Entry::Sign(push_sign, 26.0, push));
-            }
-            Toward::LoadFactor => {}
-        }
-    }
-    if toward == Toward::LoadFactor {
-        entries.extend(legend::loads(stage));
-    }
-    entries.extend(legend::robots(stage));
-    entries
-}
-
-/// What is written below a frame's verdict.
-pub(crate) fn reason(stage: &FigureContext<'_>, frame: usize) -> String {
-    let (analysis, toward) = (stage.analysis, stage.options.toward);
-    let found = &analysis.frames[frame];
-    if found.verdict != Verdict::Stable {
-        return "there is no margin: it does not stand as it is".to_owned();
-    }
-    let Some(margins) = &found.margins else {
-        return "its margins were not asked for".to_owned();
-    };
-    let side = |edge: f64| if edge > 0.0 { "right" } else { "left" };
-    if let Some((edge, _)) = beyond(analysis, frame, toward) {
-        return match toward {
-            Toward::Tilt => format!(
-                "falls once gravity is turned by {} to the {}",
-                degrees(edge.abs()),
-                side(edge)
-            ),
-            Toward::HorizontalLoad => format!(
-                "falls once {} of each weight pushes to the {} as well",
-                percent_of(edge),
-                side(edge)
-            ),
-            Toward::LoadFactor => {
-                format!("falls once its loads are {} times as large", times(edge))
-            }
-        };
-    }
-    let sides = match toward {
-        Toward::Tilt => Some(&margins.tilt),
-        Toward::HorizontalLoad => Some(&margins.horizontal_load),
-        Toward::LoadFactor => None,
-    };
-    let confirmed = |margin: &Margin| !matches!(margin, Margin::Unconfirmed { .. });
-    if sides.is_some_and(|s| !confirmed(&s.left) || !confirmed(&s.right)) {
-        return "how far it is from falling was not confirmed by a verdict on either side"
-            .to_owned();
-    }
-    let placed = &analysis.scene.frames[frame].placed;
-    let loaded = analysis
-        .scene
-        .loads
-        .iter()
-        .any(|l| placed.contains(&l.block));
-    match toward {
-        Toward::Tilt => "no turn of gravity makes it fall",
-        Toward::HorizontalLoad => "no horizontal push makes it fall",
-        Toward::LoadFactor if !loaded => "it has no loads that could grow",
-        Toward::LoadFactor if margins.load_factor == Margin::Unbounded => {
-            "its loads may grow without end"
-        }
-        Toward::LoadFactor => "how far its loads may grow was not found",
-    }
-    .to_owned()
 }
 
 /// A factor with three digits: `2.4`, `1.02`, `350`.

@@ -25,11 +25,10 @@ const SOURCE_FAILURE: f64 = 0.4;
 
 /// The straight arrows of frame `frame` (from 0), as [`marks`] has them. No arrows for a frame there is not.
 pub fn arrows(analysis: &Analysis, frame: usize, options: &Options) -> Vec<ForceArrow> {
-    let one = |f: &FrameAnalysis, s: &Frame| largest(&analysis.scene, s, f, options);
-    let reference = match (analysis.frames.get(frame), analysis.scene.frames.get(frame)) {
-        (Some(found), Some(placed)) => one(found, placed),
-        _ => 0.0,
-    };
+    if frame >= analysis.frames.len() {
+        return Vec::new();
+    }
+    let reference = largest(analysis, frame, options);
     marks(analysis, frame, options, reference).arrows
 }
 
@@ -37,12 +36,9 @@ pub fn arrows(analysis: &Analysis, frame: usize, options: &Options) -> Vec<Force
 ///
 /// [`Normalisation::Drawn`]: the largest force drawn, a torque counting as torque per unit edge.
 /// [`Normalisation::Source`]: the largest single unknown, weight or load.
-pub(crate) fn largest(
-    scene: &Scene,
-    frame: &Frame,
-    found: &FrameAnalysis,
-    options: &Options,
-) -> f64 {
+pub(crate) fn largest(analysis: &Analysis, frame: usize, options: &Options) -> f64 {
+    let scene = &analysis.scene;
+    let (frame, found) = (&scene.frames[frame], &analysis.frames[frame]);
     let edge = unit(scene, options.zoom);
     let near = options.zoom.map(|block| view::around(scene, block));
     let shown = |at: Point| near.is_none_or(|near| view::holds(near, at));

@@ -8,14 +8,18 @@
 //! With a kernel a block turns about the end of the safe stretch, and what lies beyond dips into its neighbour: the figure
 //! shows the mechanism of the structure that was examined.
 
+use super::arrow::Marks;
+use super::collapse;
+use super::content::PanelContent;
+use super::context::FigureContext;
 use super::description;
-use super::displacement::Displacement;
+use super::displacement::{self, Displacement};
 use super::joint::{Joint, joints};
 use super::label;
 use super::legend::{self, Entry};
+use super::option::Options;
 use super::panel::composed;
 use super::pen::{MOVED, Pen, TEXTURE};
-use super::stage::FigureContext;
 use super::words::quantity;
 use crate::analysis::{Analysis, Contact, Motion, Verdict};
 use crate::drawing::placement::Ink;
@@ -40,41 +44,117 @@ pub(crate) fn reach(analysis: &Analysis, displaced: &[Option<Displacement>]) -> 
     }))
 }
 
-/// What the camera sees of a frame and its mechanism.
-pub(crate) fn picture(
-    stage: &FigureContext<'_>,
-    frame: usize,
-    view: Bounds,
-    camera: &Camera,
-) -> Group {
-    let pen = Pen::new(stage, frame, camera);
-    let mut ink = label::ink(&pen);
-    let mut blocks = pen.blocks();
-    blocks.items.extend(ghosts(&pen));
-    blocks.items.extend(displaced(&pen));
-    for (id, _) in moved(&pen) {
-        for edge in stage.analysis.scene.blocks[id.0].body.polygon.edges() {
-            let [from, to] = [edge.from, edge.to].map(|p| camera.place(pen.moved(id, p)));
-            ink.line(from, to, pen.line);
-        }
+/// The figure of a collapse mechanism.
+pub(crate) struct Mechanism;
+
+impl PanelContent for Mechanism {
+    fn name(&self) -> &'static str {
+        "mechanism"
     }
-    let mut slips = Group::with_class("slips");
-    let mut hinges = Group::with_class("hinges");
-    if stage.analysis.frames[frame].verdict == Verdict::Unstable {
-        for joint in joints(stage.analysis, frame) {
-            let contact = &stage.analysis.frames[frame].contacts[joint.contact];
-            if joint.slip != 0.0 {
-                slips.items.push(slip(&pen, contact, &joint, &mut ink));
+
+    fn help(&self) -> &'static str {
+        "Where it falls, how: blocks displaced along the collapse, hinges and slips"
+    }
+
+    fn title(&self) -> &'static str {
+        "How a dry-laid structure falls"
+    }
+
+    fn needs_elementary_mechanisms(&self) -> bool {
+        true
+    }
+
+    fn displacements(
+        &self,
+        analysis: &Analysis,
+        frame: usize,
+        unit: f64,
+        share: f64,
+    ) -> Vec<Option<Displacement>> {
+        displacement::displacements(analysis, frame, unit, share)
+    }
+
+    fn extent(
+        &self,
+        analysis: &Analysis,
+        frame: usize,
+        unit: f64,
+        _marks: &Marks,
+        _options: &Options,
+    ) -> Option<Bounds> {
+        reach(analysis, &self.displacements(analysis, frame, unit, 1.0))
+    }
+
+    fn reason(&self, context: &FigureContext<'_>, frame: usize) -> String {
+        collapse::reason(context.analysis, frame)
+    }
+
+    fn picture(
+        &self,
+        context: &FigureContext<'_>,
+        frame: usize,
+        view: Bounds,
+        camera: &Camera,
+    ) -> Group {
+        let pen = Pen::new(context, frame, camera);
+        let mut ink = label::ink(&pen);
+        let mut blocks = pen.blocks();
+        blocks.items.extend(ghosts(&pen));
+        blocks.items.extend(displaced(&pen));
+        for (id, _) in moved(&pen) {
+            for edge in context.analysis.scene.blocks[id.0].body.polygon.edges() {
+                let [from, to] = [edge.from, edge.to].map(|p| camera.place(pen.moved(id, p)));
+                ink.line(from, to, pen.line);
             }
-            if let Some(at) = joint.hinge {
-                hinges.items.push(hinge(&pen, contact, at, &mut ink));
+        }
+        let mut slips = Group::with_class("slips");
+        let mut hinges = Group::with_class("hinges");
+        if context.analysis.frames[frame].verdict == Verdict::Unstable {
+            for joint in joints(context.analysis, frame) {
+                let contact = &context.analysis.frames[frame].contacts[joint.contact];
+                if joint.slip != 0.0 {
+                    slips.items.push(slip(&pen, contact, &joint, &mut ink));
+                }
+                if let Some(at) = joint.hinge {
+                    hinges.items.push(hinge(&pen, contact, at, &mut ink));
+                }
             }
         }
+        if pen.many() {
+            (slips, hinges) = (joined(slips), joined(hinges));
+        }
+        composed(&pen, view, blocks, vec![slips, hinges], ink)
     }
-    if pen.many() {
-        (slips, hinges) = (joined(slips), joined(hinges));
+
+    fn entries(&self, context: &FigureContext<'_>, _unit: f64) -> Vec<Entry> {
+        let analysis = context.analysis;
+        let falling =
+            (0..analysis.frames.len()).filter(|f| analysis.frames[*f].verdict == Verdict::Unstable);
+        let mut entries = Vec::new();
+        let joints: Vec<Joint> = falling.clone().flat_map(|f| joints(analysis, f)).collect();
+        if falling
+            .clone()
+            .any(|f| !analysis.frames[f].mechanism.is_empty())
+        {
+            let stood = "where it stands now".to_owned();
+            entries.push(Entry::Sign(ghost_sign, SIGN, stood));
+            let goes = "how it begins to move, enlarged".to_owned();
+            entries.push(Entry::Sign(moved_sign, SIGN, goes));
+        }
+        if joints.iter().any(|j| j.hinge.is_some()) {
+            entries.push(Entry::Sign(ring_sign, 10.0, "hinge".into()));
+        }
+        if joints.iter().any(|j| j.slip != 0.0) {
+            let slides = if joints.iter().any(|j| j.lift != 0.0) {
+                "slides, and lifts by its friction coefficient"
+            } else {
+                "slides along its joint"
+            };
+            entries.push(Entry::Sign(slip_sign, 26.0, slides.to_owned()));
+        }
+        entries.extend(legend::robots(context));
+        entries
     }
-    composed(&pen, view, blocks, vec![slips, hinges], ink)
 }
 
 /// All marks of a kind as few paths, for scenes of very many blocks: the n-th paths of all marks are one.
@@ -100,40 +180,9 @@ fn joined(marks: Group) -> Group {
     }
 }
 
-/// What the signs of a mechanism mean, those that occur.
-pub(crate) fn entries(stage: &FigureContext<'_>) -> Vec<Entry> {
-    let analysis = stage.analysis;
-    let falling =
-        (0..analysis.frames.len()).filter(|f| analysis.frames[*f].verdict == Verdict::Unstable);
-    let mut entries = Vec::new();
-    let joints: Vec<Joint> = falling.clone().flat_map(|f| joints(analysis, f)).collect();
-    if falling
-        .clone()
-        .any(|f| !analysis.frames[f].mechanism.is_empty())
-    {
-        let stood = "where it stands now".to_owned();
-        entries.push(Entry::Sign(ghost_sign, SIGN, stood));
-        let goes = "how it begins to move, enlarged".to_owned();
-        entries.push(Entry::Sign(moved_sign, SIGN, goes));
-    }
-    if joints.iter().any(|j| j.hinge.is_some()) {
-        entries.push(Entry::Sign(ring_sign, 10.0, "hinge".into()));
-    }
-    if joints.iter().any(|j| j.slip != 0.0) {
-        let slides = if joints.iter().any(|j| j.lift != 0.0) {
-            "slides, and lifts by its friction coefficient"
-        } else {
-            "slides along its joint"
-        };
-        entries.push(Entry::Sign(slip_sign, 26.0, slides.to_owned()));
-    }
-    entries.extend(legend::robots(stage));
-    entries
-}
-
 /// The motions of the blocks that are drawn displaced.
 fn moved<'a>(pen: &'a Pen<'_>) -> impl Iterator<Item = (BlockId, &'a Motion)> {
-    let motions = pen.stage.analysis.frames[pen.number].mechanism.iter();
+    let motions = pen.context.analysis.frames[pen.number].mechanism.iter();
     motions
         .map(|m| (m.block, m))
         .filter(|m| pen.displacement(m.0).is_some())
@@ -141,7 +190,7 @@ fn moved<'a>(pen: &'a Pen<'_>) -> impl Iterator<Item = (BlockId, &'a Motion)> {
 
 /// Outlines of the blocks that move, where they stand: dashed.
 fn ghosts(pen: &Pen<'_>) -> Option<Item> {
-    let (scene, theme) = (&pen.stage.analysis.scene, &pen.stage.options.theme);
+    let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let mut outline = Outline::default();
     for (id, _) in moved(pen) {
         outline.extend(pen.camera.polygon(&scene.blocks[id.0].body.polygon));
@@ -157,7 +206,7 @@ fn ghosts(pen: &Pen<'_>) -> Option<Item> {
 
 /// The blocks that move, where their motion leads.
 fn displaced(pen: &Pen<'_>) -> Vec<Item> {
-    let (scene, theme) = (&pen.stage.analysis.scene, &pen.stage.options.theme);
+    let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let edge = theme.motion.mixed(theme.ink, 0.25);
     let drawn = |group: Group, outline: Outline| -> Item {
         let fill = Path::filled(outline.clone(), theme.motion).with_opacity(MOVED);
@@ -211,7 +260,7 @@ fn ring_radius(pen: &Pen<'_>) -> f64 {
 
 /// A ring at the end that keeps contact.
 fn hinge(pen: &Pen<'_>, contact: &Contact, at: Point, ink: &mut Ink) -> Item {
-    let (scene, theme) = (&pen.stage.analysis.scene, &pen.stage.options.theme);
+    let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let (centre, radius) = (
         pen.camera.place(between(pen, contact, at)),
         ring_radius(pen),
@@ -231,9 +280,9 @@ fn ring(centre: PagePoint, radius: f64, theme: &Theme) -> Path {
 
 /// A half-arrow on each side of the interface, each the way its body slides past the other.
 fn slip(pen: &Pen<'_>, contact: &Contact, joint: &Joint, ink: &mut Ink) -> Item {
-    let (scene, theme) = (&pen.stage.analysis.scene, &pen.stage.options.theme);
+    let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let interface = &contact.interface;
-    let unit = pen.stage.unit;
+    let unit = pen.context.unit;
     let length = match interface.length() {
         l if l > 0.0 => f64::min(ARROW.0 * unit, 0.8 * l),
         _ => ARROW.0 * unit,

@@ -1,31 +1,31 @@
 //! One frame's picture from its parts: ground, blocks, plans, robots, the arrows or a kind's own marks, and labels on top.
 
+use super::context::FigureContext;
 use super::label;
 use super::pen::{Pen, TEXTURE};
-use super::stage::FigureContext;
 use crate::drawing::placement::Ink;
 use crate::drawing::{Camera, Group, Item};
 use crate::geometry::Bounds;
 
 /// The forces of a frame: what the camera sees of frame `number`; ground is cut at the edge of `view`.
 pub(crate) fn picture(
-    stage: &FigureContext<'_>,
+    context: &FigureContext<'_>,
     number: usize,
     view: Bounds,
     camera: &Camera,
 ) -> Group {
-    let pen = Pen::new(stage, number, camera);
+    let pen = Pen::new(context, number, camera);
     let many = pen.many();
     let mut group = Group {
         camera: Some(*camera),
-        clip: stage.options.zoom.map(|_| camera.rect(view)),
+        clip: context.options.zoom.map(|_| camera.rect(view)),
         ..Group::with_class("picture")
     };
     group.items.push(pen.ground(view).into());
     group.items.push(pen.blocks().into());
     group.items.push(pen.plans().into());
     group.items.push(pen.discs().into());
-    let dust = stage.dusty(camera.length(1.0));
+    let dust = context.dusty(camera.length(1.0));
     group.items.push(
         if dust {
             pen.loads()
@@ -59,7 +59,7 @@ pub(crate) fn composed(
 ) -> Group {
     let mut group = Group {
         camera: Some(*pen.camera),
-        clip: pen.stage.options.zoom.map(|_| pen.camera.rect(view)),
+        clip: pen.context.options.zoom.map(|_| pen.camera.rect(view)),
         ..Group::with_class("picture")
     };
     let parts = [pen.ground(view), blocks, pen.plans(), pen.discs()];

@@ -4,9 +4,9 @@ mod stroke;
 
 use super::arrow::ForceArrow;
 use super::by_colour::ByColour;
+use super::context::{FigureContext, MANY};
 use super::description;
 use super::displacement::Displacement;
-use super::stage::{FigureContext, MANY};
 use crate::drawing::{Camera, Colour, Group, Outline, PagePoint, Path, Stroke};
 use crate::geometry::{Bounds, Lattice, Point};
 use crate::scene::{BlockId, Body, Rgb};
@@ -55,7 +55,7 @@ pub(crate) fn seams(body: &Body, lattice: Option<Lattice>, camera: &Camera) -> O
 
 /// What draws the parts of a frame's picture.
 pub(crate) struct Pen<'a> {
-    pub stage: &'a FigureContext<'a>,
+    pub context: &'a FigureContext<'a>,
     /// The frame, from 0.
     pub number: usize,
     pub camera: &'a Camera,
@@ -72,17 +72,21 @@ pub(crate) struct Pen<'a> {
 }
 
 impl<'a> Pen<'a> {
-    pub(crate) fn new(stage: &'a FigureContext<'a>, number: usize, camera: &'a Camera) -> Pen<'a> {
-        let unit = camera.length(stage.unit);
-        let (scene, widths) = (&stage.analysis.scene, &stage.options.theme.widths);
+    pub(crate) fn new(
+        context: &'a FigureContext<'a>,
+        number: usize,
+        camera: &'a Camera,
+    ) -> Pen<'a> {
+        let unit = camera.length(context.unit);
+        let (scene, widths) = (&context.analysis.scene, &context.options.theme.widths);
         let mut places = vec![None; scene.blocks.len()];
         for (place, id) in scene.frames[number].placed.iter().enumerate() {
             places[id.0] = Some(place);
         }
         Pen {
             places,
-            displaced: &stage.displaced[number],
-            stage,
+            displaced: &context.displaced[number],
+            context,
             number,
             camera,
             line: (unit / LARGE).clamp(1.0 / 6.0, 1.0) * widths.outline,
@@ -97,12 +101,12 @@ impl<'a> Pen<'a> {
     }
 
     pub(crate) fn unit(&self) -> f64 {
-        self.camera.length(self.stage.unit)
+        self.camera.length(self.context.unit)
     }
 
     pub(crate) fn ground(&self, view: Bounds) -> Group {
-        let theme = &self.stage.options.theme;
-        let scene = &self.stage.analysis.scene;
+        let theme = &self.context.options.theme;
+        let scene = &self.context.analysis.scene;
         let mut group = Group::with_class("ground").titled("Ground");
         if scene.ground.is_empty() {
             return group;
@@ -131,28 +135,30 @@ impl<'a> Pen<'a> {
 
     /// Whether the frame has so many blocks that its parts are joined by colour, without names.
     pub(crate) fn many(&self) -> bool {
-        self.stage.analysis.scene.frames[self.number].placed.len() > MANY
+        self.context.analysis.scene.frames[self.number].placed.len() > MANY
     }
 
     fn fill(&self, place: usize, id: BlockId) -> Colour {
-        let scene = &self.stage.analysis.scene;
+        let scene = &self.context.analysis.scene;
         if self.displacement(id).is_some() {
-            let theme = &self.stage.options.theme;
+            let theme = &self.context.options.theme;
             return theme.page.mixed(theme.motion, MOVED);
         }
         match scene.blocks[id.0].body.fill {
             Some(fill) => colour(fill),
-            None if self.stage.plain() => self.stage.options.theme.block,
+            None if self.context.plain() => self.context.options.theme.block,
             None => {
-                let share = self.stage.fills.shares[self.number][place];
-                self.stage.fills.colour(&self.stage.options.theme, share)
+                let share = self.context.fills.shares[self.number][place];
+                self.context
+                    .fills
+                    .colour(&self.context.options.theme, share)
             }
         }
     }
 
     /// The colour that a block, ground or the page has at a place.
     pub(crate) fn below(&self, at: PagePoint) -> Colour {
-        let (scene, theme) = (&self.stage.analysis.scene, &self.stage.options.theme);
+        let (scene, theme) = (&self.context.analysis.scene, &self.context.options.theme);
         let at = self.camera.back(at);
         let placed = &scene.frames[self.number].placed;
         let block = placed.iter().position(|id| {
@@ -168,7 +174,7 @@ impl<'a> Pen<'a> {
 
     /// Radius of a robot's disc, pixels.
     pub(crate) fn disc(&self) -> f64 {
-        self.stage.options.theme.widths.disc * self.unit()
+        self.context.options.theme.widths.disc * self.unit()
     }
 
     /// Width of an arrow's shaft as it is drawn, pixels.
@@ -183,7 +189,7 @@ impl<'a> Pen<'a> {
 
     fn seam(&self, fill: Colour) -> Stroke {
         Stroke::new(
-            self.stage.options.theme.seam_on(fill, 0.22),
+            self.context.options.theme.seam_on(fill, 0.22),
             0.6 * self.line,
         )
     }
@@ -193,7 +199,7 @@ impl<'a> Pen<'a> {
         if self.many() {
             return self.blocks_by_colour();
         }
-        let (scene, theme) = (&self.stage.analysis.scene, &self.stage.options.theme);
+        let (scene, theme) = (&self.context.analysis.scene, &self.context.options.theme);
         let frame = &scene.frames[self.number];
         let mut group = Group::with_class("blocks");
         for (place, id) in frame.placed.iter().enumerate() {
@@ -204,7 +210,7 @@ impl<'a> Pen<'a> {
             let fill = self.fill(place, *id);
             let outline = self.camera.polygon(&block.body.polygon);
             let mut body = Group::with_class("block").titled(format!("Block {}", block.id));
-            body.description = description::block(self.stage, self.number, place, block);
+            body.description = description::block(self.context, self.number, place, block);
             body = body.with(Path::filled(outline.clone(), fill));
             let seams = seams(&block.body, scene.lattice, self.camera);
             body = body.with(Path::stroked(seams, self.seam(fill)));
@@ -221,7 +227,7 @@ impl<'a> Pen<'a> {
 
     /// As [`Pen::blocks`] for scenes of very many blocks: one path for all blocks of a colour.
     fn blocks_by_colour(&self) -> Group {
-        let (scene, theme) = (&self.stage.analysis.scene, &self.stage.options.theme);
+        let (scene, theme) = (&self.context.analysis.scene, &self.context.options.theme);
         let frame = &scene.frames[self.number];
         let mut group =
             Group::with_class("blocks").titled(format!("{} blocks", frame.placed.len()));
@@ -240,11 +246,11 @@ impl<'a> Pen<'a> {
     }
 
     pub(crate) fn plans(&self) -> Group {
-        let scene = &self.stage.analysis.scene;
+        let scene = &self.context.analysis.scene;
         let mut group = Group::with_class("plans");
         for plan in &scene.frames[self.number].plans {
             let (block, robot) = (&scene.blocks[plan.block.0], &scene.robots[plan.robot.0]);
-            let ink = self.stage.options.theme.robot(plan.robot.0);
+            let ink = self.context.options.theme.robot(plan.robot.0);
             let title = format!("Block {}, planned by robot {}", block.id, robot.id);
             let seams = seams(&block.body, scene.lattice, self.camera);
             let outline = self.camera.polygon(&block.body.polygon);
@@ -258,7 +264,7 @@ impl<'a> Pen<'a> {
     }
 
     pub(crate) fn discs(&self) -> Group {
-        let (scene, theme) = (&self.stage.analysis.scene, &self.stage.options.theme);
+        let (scene, theme) = (&self.context.analysis.scene, &self.context.options.theme);
         let mut group = Group::with_class("robots");
         for hold in &scene.frames[self.number].holds {
             let at = self.moved(hold.block, hold.at);

@@ -1,9 +1,9 @@
 //! [`plate`]: frames of several scenes on one page, to one scale, with one key below them all.
 
-use super::kind::Kind;
+use super::context::FigureContext;
+use super::forces::FORCES;
 use super::layout::Layout;
 use super::option::Options;
-use super::stage::FigureContext;
 use super::strip::{Strip, page};
 use crate::analysis::Analysis;
 use crate::drawing::Drawing;
@@ -31,13 +31,13 @@ pub(crate) fn plate(
         columns: Some(columns),
         ..options.clone()
     };
-    let stages: Vec<FigureContext<'_>> = analyses
+    let contexts: Vec<FigureContext<'_>> = analyses
         .iter()
-        .map(|analysis| Kind::Forces.stage(analysis, &options))
+        .map(|analysis| FigureContext::new(analysis, &options, &FORCES))
         .collect();
-    let layouts: Vec<Layout> = stages
+    let layouts: Vec<Layout> = contexts
         .iter()
-        .map(|stage| Layout::new(stage, panels.len()))
+        .map(|context| Layout::new(context, panels.len()))
         .collect();
     let Some(layout) = layouts.iter().copied().reduce(Layout::both) else {
         return Drawing::default();
@@ -51,12 +51,12 @@ pub(crate) fn plate(
         .enumerate()
         .map(|(of, a)| (0..a.frames.len()).map(|f| caption(of, f)).collect())
         .collect();
-    let strips: Vec<Strip<'_>> = stages
+    let strips: Vec<Strip<'_>> = contexts
         .iter()
         .zip(&captions)
-        .map(|(stage, captions)| Strip {
-            kind: Kind::Forces,
-            stage,
+        .map(|(context, captions)| Strip {
+            content: &FORCES,
+            context,
             layout,
             captions: Some(captions),
             alike: false,

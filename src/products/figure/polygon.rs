@@ -7,6 +7,8 @@
 //! by a whole number that the key tells.
 
 use super::arrow::{ArrowKind, ForceArrow, Marks};
+use super::content::PanelContent;
+use super::context::FigureContext;
 use super::description;
 use super::label;
 use super::legend::{self, Entry};
@@ -14,7 +16,6 @@ use super::mark;
 use super::option::Options;
 use super::panel::composed;
 use super::pen::Pen;
-use super::stage::FigureContext;
 use super::unit::unit;
 use super::verdict;
 use super::view;
@@ -42,23 +43,180 @@ fn outer(marks: &Marks) -> impl Iterator<Item = &ForceArrow> {
     marks.arrows.iter().filter(|arrow| outside(arrow))
 }
 
-/// What acts on a frame's structure from outside: weights, loads, what ground and robots give, and what is missing there;
-/// and what is missing inside, which is drawn on the structure alone.
-pub(crate) fn marks(
-    analysis: &Analysis,
-    frame: usize,
-    options: &Options,
-    newtons_per_unit: f64,
-) -> Marks {
-    let marks = mark::marks(analysis, frame, options, newtons_per_unit);
-    let shown = |arrow: &ForceArrow| outside(arrow) || arrow.kind.is_failure();
-    let mut arrows: Vec<ForceArrow> = marks.arrows.into_iter().filter(shown).collect();
-    arrows.sort_by_key(|arrow| match arrow.kind {
-        ArrowKind::Weight | ArrowKind::Load => 0,
-        kind if kind.is_failure() => 2,
-        _ => 1,
-    });
-    Marks { arrows, ..marks }
+/// The figure of the force polygon.
+pub(crate) struct ForcePolygon;
+
+impl PanelContent for ForcePolygon {
+    fn name(&self) -> &'static str {
+        "polygon"
+    }
+
+    fn help(&self) -> &'static str {
+        "The forces on the structure from outside, and their polygon beside it"
+    }
+
+    fn title(&self) -> &'static str {
+        "The force polygon of a dry-laid structure"
+    }
+
+    fn draws_forces(&self) -> bool {
+        true
+    }
+
+    fn largest_force(&self, analysis: &Analysis, frame: usize, options: &Options) -> f64 {
+        mark::largest(analysis, frame, options)
+    }
+
+    fn marks(
+        &self,
+        analysis: &Analysis,
+        frame: usize,
+        options: &Options,
+        newtons_per_unit: f64,
+    ) -> Marks {
+        let marks = mark::marks(analysis, frame, options, newtons_per_unit);
+        let shown = |arrow: &ForceArrow| outside(arrow) || arrow.kind.is_failure();
+        let mut arrows: Vec<ForceArrow> = marks.arrows.into_iter().filter(shown).collect();
+        arrows.sort_by_key(|arrow| match arrow.kind {
+            ArrowKind::Weight | ArrowKind::Load => 0,
+            kind if kind.is_failure() => 2,
+            _ => 1,
+        });
+        Marks { arrows, ..marks }
+    }
+
+    fn extent(
+        &self,
+        analysis: &Analysis,
+        frame: usize,
+        _unit: f64,
+        marks: &Marks,
+        _options: &Options,
+    ) -> Option<Bounds> {
+        let chain = chain(analysis, frame, marks)?;
+        let own = Bounds::from_points(chain.sides.into_iter().flatten())?;
+        Some(own.grown(0.3 * unit(&analysis.scene, None)))
+    }
+
+    fn picture(
+        &self,
+        context: &FigureContext<'_>,
+        frame: usize,
+        view: Bounds,
+        camera: &Camera,
+    ) -> Group {
+        let pen = Pen::new(context, frame, camera);
+        let marks = &context.marks[frame];
+        let mut ink = label::ink(&pen);
+        let mut polygon = Group::with_class("polygon").titled("Force polygon");
+        if let Some(chain) = chain(context.analysis, frame, marks) {
+            let theme = &context.options.theme;
+            for (arrow, ends) in outer(marks).zip(&chain.sides) {
+                let from = camera.place(ends[0]);
+                let along = camera.turn(ends[1] - ends[0]);
+                ink.arrow(from, along, pen.width(arrow));
+                let outline = straight(from, along, pen.width(arrow));
+                let path = if arrow.kind.is_failure() {
+                    missing(outline, arrow.colour, theme)
+                } else {
+                    Path::filled(outline, arrow.colour)
+                };
+                let title = description::arrow(context, arrow);
+                let drawn = Group::with_class("force").titled(title).with(path);
+                polygon.items.push(drawn.into());
+            }
+            let closed = closed(marks);
+            let ends = [
+                chain.sides.last().map(|s| s[1]),
+                chain.sides.first().map(|s| s[0]),
+            ];
+            // Drawn apart, the two ends are joined as if they were one place; the last join shows a gap as one.
+            let joins = chain.joins.iter().take(if closed { 2 } else { 1 });
+            for join in joins {
+                let line = Outline::line(join.map(|p| camera.place(p)));
+                let stroke = Stroke::new(theme.faint, 0.8).dashed([2.0, 2.0]);
+                let drawn = Group::with_class("join").titled("One place, drawn as two");
+                polygon
+                    .items
+                    .push(drawn.with(Path::stroked(line, stroke)).into());
+            }
+            if let ([Some(last), Some(first)], false) = (ends, closed) {
+                let gap = Outline::line([last, first].map(|p| camera.place(p)));
+                let stroke = Stroke::new(theme.failure, 1.4).dashed([5.0, 4.0]);
+                let drawn = Group::with_class("gap").titled("What is missing for a balance");
+                polygon
+                    .items
+                    .push(drawn.with(Path::stroked(gap, stroke)).into());
+            }
+        }
+        let parts = vec![pen.arrows(false), pen.arrows(true), polygon];
+        // The polygon stands on nothing: ground ends beside it, and no name runs on from there.
+        let shown =
+            view::ground_shown(&context.analysis.scene, unit(&context.analysis.scene, None));
+        if let Some(shown) = shown {
+            let mut beyond = camera.rect(shown);
+            let right = beyond.at.x + beyond.width;
+            let page = camera.rect(view);
+            beyond.at.x = right;
+            beyond.width = (page.at.x + page.width - right).max(0.0);
+            ink.rect(beyond);
+        }
+        let mut picture = composed(&pen, view, pen.blocks(), parts, ink);
+        for item in &mut picture.items {
+            if let (Item::Group(group), Some(shown)) = (item, shown)
+                && group.class == "ground"
+                && let Some(clip) = &mut group.clip
+            {
+                let right = camera.place(Point::new(shown.max.x, shown.max.y)).x;
+                clip.width = clip.width.min(right - clip.at.x).max(0.0);
+            }
+        }
+        picture
+    }
+
+    fn entries(&self, context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
+        let mut entries = legend::entries(context, unit);
+        // Blocks are plain here: no colour tells an amplitude.
+        entries.retain(|entry| !matches!(entry, Entry::Amplitudes(..)));
+        let mut sides = context.marks.iter().flat_map(outer);
+        if sides.any(|arrow| arrow.kind.is_failure()) {
+            let what = "missing force as a side of the polygon".to_owned();
+            entries.push(Entry::Sign(missing_sign, 26.0, what));
+        }
+        let frames = context.marks.iter().enumerate();
+        let times: Vec<(usize, f64)> = frames
+            .filter_map(|(frame, marks)| {
+                Some((frame, chain(context.analysis, frame, marks)?.times))
+            })
+            .collect();
+        entries.extend(scales(&times).map(Entry::Note));
+        entries
+    }
+
+    fn reason(&self, context: &FigureContext<'_>, frame: usize) -> String {
+        let why = verdict::reason(&context.analysis.scene, &context.analysis.frames[frame]);
+        let marks = &context.marks[frame];
+        let lacks = outer(marks).any(|a| a.kind.is_failure());
+        if outer(marks).next().is_none() {
+            return why;
+        }
+        let how = match (context.analysis.frames[frame].verdict, closed(marks)) {
+            (_, false) => "the force polygon stays open",
+            (Verdict::Stable, true) => "the force polygon is closed",
+            (Verdict::Unstable, true) if lacks => {
+                "the force polygon closes only with the missing forces"
+            }
+            (Verdict::Unstable, true) => {
+                "the force polygon closes only if the forces missing inside the structure are given"
+            }
+            (Verdict::Undecided, true) => "the force polygon of what was found is closed",
+        };
+        if why.is_empty() {
+            how.to_owned()
+        } else {
+            format!("{how}; {why}")
+        }
+    }
 }
 
 /// What gives back lies beside what acts, not on it, where it is nearer than this share of the polygon's size …
@@ -175,88 +333,6 @@ fn larger(times: f64) -> String {
     }
 }
 
-/// A box around the polygon of a frame, arrows of so many newtons per unit edge.
-pub(crate) fn reach(analysis: &Analysis, frame: usize, marks: &Marks) -> Option<Bounds> {
-    let chain = chain(analysis, frame, marks)?;
-    let own = Bounds::from_points(chain.sides.into_iter().flatten())?;
-    Some(own.grown(0.3 * unit(&analysis.scene, None)))
-}
-
-/// What the camera sees of a frame: the structure with the forces on it from outside, and their polygon.
-pub(crate) fn picture(
-    stage: &FigureContext<'_>,
-    frame: usize,
-    view: Bounds,
-    camera: &Camera,
-) -> Group {
-    let pen = Pen::new(stage, frame, camera);
-    let marks = &stage.marks[frame];
-    let mut ink = label::ink(&pen);
-    let mut polygon = Group::with_class("polygon").titled("Force polygon");
-    if let Some(chain) = chain(stage.analysis, frame, marks) {
-        let theme = &stage.options.theme;
-        for (arrow, ends) in outer(marks).zip(&chain.sides) {
-            let from = camera.place(ends[0]);
-            let along = camera.turn(ends[1] - ends[0]);
-            ink.arrow(from, along, pen.width(arrow));
-            let outline = straight(from, along, pen.width(arrow));
-            let path = if arrow.kind.is_failure() {
-                missing(outline, arrow.colour, theme)
-            } else {
-                Path::filled(outline, arrow.colour)
-            };
-            let title = description::arrow(stage, arrow);
-            let drawn = Group::with_class("force").titled(title).with(path);
-            polygon.items.push(drawn.into());
-        }
-        let closed = closed(marks);
-        let ends = [
-            chain.sides.last().map(|s| s[1]),
-            chain.sides.first().map(|s| s[0]),
-        ];
-        // Drawn apart, the two ends are joined as if they were one place; the last join shows a gap as one.
-        let joins = chain.joins.iter().take(if closed { 2 } else { 1 });
-        for join in joins {
-            let line = Outline::line(join.map(|p| camera.place(p)));
-            let stroke = Stroke::new(theme.faint, 0.8).dashed([2.0, 2.0]);
-            let drawn = Group::with_class("join").titled("One place, drawn as two");
-            polygon
-                .items
-                .push(drawn.with(Path::stroked(line, stroke)).into());
-        }
-        if let ([Some(last), Some(first)], false) = (ends, closed) {
-            let gap = Outline::line([last, first].map(|p| camera.place(p)));
-            let stroke = Stroke::new(theme.failure, 1.4).dashed([5.0, 4.0]);
-            let drawn = Group::with_class("gap").titled("What is missing for a balance");
-            polygon
-                .items
-                .push(drawn.with(Path::stroked(gap, stroke)).into());
-        }
-    }
-    let parts = vec![pen.arrows(false), pen.arrows(true), polygon];
-    // The polygon stands on nothing: ground ends beside it, and no name runs on from there.
-    let shown = view::ground_shown(&stage.analysis.scene, unit(&stage.analysis.scene, None));
-    if let Some(shown) = shown {
-        let mut beyond = camera.rect(shown);
-        let right = beyond.at.x + beyond.width;
-        let page = camera.rect(view);
-        beyond.at.x = right;
-        beyond.width = (page.at.x + page.width - right).max(0.0);
-        ink.rect(beyond);
-    }
-    let mut picture = composed(&pen, view, pen.blocks(), parts, ink);
-    for item in &mut picture.items {
-        if let (Item::Group(group), Some(shown)) = (item, shown)
-            && group.class == "ground"
-            && let Some(clip) = &mut group.clip
-        {
-            let right = camera.place(Point::new(shown.max.x, shown.max.y)).x;
-            clip.width = clip.width.min(right - clip.at.x).max(0.0);
-        }
-    }
-    picture
-}
-
 /// Whether the forces add up to nothing.
 fn closed(marks: &Marks) -> bool {
     let sum: Vector = outer(marks).map(|a| a.force).sum();
@@ -273,24 +349,6 @@ fn missing(outline: Outline, colour: Colour, theme: &Theme) -> Path {
 fn missing_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
     let outline = straight(at, (26.0, 0.0), 4.0);
     vec![missing(outline, theme.failure, theme).into()]
-}
-
-/// What the signs of a force polygon mean.
-pub(crate) fn entries(stage: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
-    let mut entries = legend::entries(stage, unit);
-    // Blocks are plain here: no colour tells an amplitude.
-    entries.retain(|entry| !matches!(entry, Entry::Amplitudes(..)));
-    let mut sides = stage.marks.iter().flat_map(outer);
-    if sides.any(|arrow| arrow.kind.is_failure()) {
-        let what = "missing force as a side of the polygon".to_owned();
-        entries.push(Entry::Sign(missing_sign, 26.0, what));
-    }
-    let frames = stage.marks.iter().enumerate();
-    let times: Vec<(usize, f64)> = frames
-        .filter_map(|(frame, marks)| Some((frame, chain(stage.analysis, frame, marks)?.times)))
-        .collect();
-    entries.extend(scales(&times).map(Entry::Note));
-    entries
 }
 
 /// How many times as large as on the structure the forces of each frame's polygon are drawn; `None` without a polygon.
@@ -317,32 +375,6 @@ fn scales(times: &[(usize, f64)]) -> Option<String> {
             let each: Vec<String> = each.collect();
             Some(format!("force polygons: {what}; {}", each.join("; ")))
         }
-    }
-}
-
-/// What is written below a frame's verdict.
-pub(crate) fn reason(stage: &FigureContext<'_>, frame: usize) -> String {
-    let why = verdict::reason(&stage.analysis.scene, &stage.analysis.frames[frame]);
-    let marks = &stage.marks[frame];
-    let lacks = outer(marks).any(|a| a.kind.is_failure());
-    if outer(marks).next().is_none() {
-        return why;
-    }
-    let how = match (stage.analysis.frames[frame].verdict, closed(marks)) {
-        (_, false) => "the force polygon stays open",
-        (Verdict::Stable, true) => "the force polygon is closed",
-        (Verdict::Unstable, true) if lacks => {
-            "the force polygon closes only with the missing forces"
-        }
-        (Verdict::Unstable, true) => {
-            "the force polygon closes only if the forces missing inside the structure are given"
-        }
-        (Verdict::Undecided, true) => "the force polygon of what was found is closed",
-    };
-    if why.is_empty() {
-        how.to_owned()
-    } else {
-        format!("{how}; {why}")
     }
 }
 

@@ -1,14 +1,14 @@
 //! [`Strip`]: a page of panels, one per frame, each with its caption and verdict, and one key below them all. What a
-//! panel shows is its [`Kind`]'s affair.
+//! panel shows comes from its [`PanelContent`].
 
 use super::arrow::{ArrowKind, ForceArrow};
+use super::content::PanelContent;
+use super::context::FigureContext;
 use super::dimension;
-use super::kind::Kind;
 use super::label;
 use super::layout::Layout;
 use super::legend;
 use super::option::{ArrowScale, Options};
-use super::stage::FigureContext;
 use super::title;
 use super::verdict;
 use super::words::{counted, letter, quantity};
@@ -30,27 +30,31 @@ const MOST_REASON_LINES: usize = 12;
 const MOST_LISTED: usize = 30;
 
 /// The figure of an analysis: a panel of this kind for each frame.
-pub(crate) fn strip(analysis: &Analysis, kind: Kind, options: &Options) -> Drawing {
-    let stage = kind.stage(analysis, options);
+pub(crate) fn strip(
+    analysis: &Analysis,
+    content: &'static dyn PanelContent,
+    options: &Options,
+) -> Drawing {
+    let context = FigureContext::new(analysis, options, content);
     let count = analysis.frames.len();
-    let drawn = |stage: &FigureContext<'_>| {
-        let layout = Layout::new(stage, count);
+    let drawn = |context: &FigureContext<'_>| {
+        let layout = Layout::new(context, count);
         let strip = Strip {
-            kind,
-            stage,
+            content,
+            context,
             layout,
             captions: None,
             alike: false,
         };
-        (strip.drawing(), stage.cramped.get(), layout.scale)
+        (strip.drawing(), context.cramped.get(), layout.scale)
     };
-    let (drawing, cramped, scale) = drawn(&stage);
+    let (drawing, cramped, scale) = drawn(&context);
     if cramped == 0 || options.zoom.is_some() || scale <= 0.0 {
         return drawing;
     }
     // Names stand around a structure whose blocks are too small for them, where there is room.
     let (across, up) = NAMES;
-    let roomy = stage.with_room(across / scale, up / scale);
+    let roomy = context.with_room(across / scale, up / scale);
     let (roomier, still, _) = drawn(&roomy);
     if 2 * still <= cramped {
         roomier
@@ -62,16 +66,16 @@ pub(crate) fn strip(analysis: &Analysis, kind: Kind, options: &Options) -> Drawi
 /// Panels of [`strip`] a page each, of these frames, all alike in size and scale, so that they can follow one another.
 pub(crate) fn pages(
     analysis: &Analysis,
-    kind: Kind,
+    content: &'static dyn PanelContent,
     options: &Options,
     frames: impl Iterator<Item = usize>,
 ) -> Vec<Drawing> {
-    let stage = kind.stage(analysis, options);
+    let context = FigureContext::new(analysis, options, content);
     let page = |frame| {
         let strip = Strip {
-            kind,
-            stage: &stage,
-            layout: Layout::new(&stage, 1),
+            content,
+            context: &context,
+            layout: Layout::new(&context, 1),
             captions: None,
             alike: true,
         };
@@ -87,13 +91,18 @@ pub(crate) fn pages(
 
 /// The panels of [`strip`] on pages no higher than `high` times their width, one below the other in as many rows as fit, at
 /// least one; all to one scale.
-pub(crate) fn split(analysis: &Analysis, kind: Kind, options: &Options, high: f64) -> Vec<Drawing> {
-    let stage = kind.stage(analysis, options);
+pub(crate) fn split(
+    analysis: &Analysis,
+    content: &'static dyn PanelContent,
+    options: &Options,
+    high: f64,
+) -> Vec<Drawing> {
+    let context = FigureContext::new(analysis, options, content);
     let count = analysis.frames.len();
-    let layout = Layout::roomy(&stage, count);
+    let layout = Layout::roomy(&context, count);
     let strip = Strip {
-        kind,
-        stage: &stage,
+        content,
+        context: &context,
         layout,
         captions: None,
         alike: false,
@@ -121,8 +130,8 @@ pub(crate) fn split(analysis: &Analysis, kind: Kind, options: &Options, high: f6
 
 /// A strip of panels of one kind.
 pub(crate) struct Strip<'a> {
-    pub kind: Kind,
-    pub stage: &'a FigureContext<'a>,
+    pub content: &'static dyn PanelContent,
+    pub context: &'a FigureContext<'a>,
     pub layout: Layout,
     /// What stands below each frame in place of its letter and title.
     pub captions: Option<&'a [String]>,
@@ -136,7 +145,7 @@ pub(crate) fn page(strips: &[&Strip<'_>], order: &[(usize, usize)], heading: &st
     let Some(first) = strips.first() else {
         return Drawing::default();
     };
-    let (options, layout) = (first.stage.options, first.layout);
+    let (options, layout) = (first.context.options, first.layout);
     let theme = &options.theme;
     let entries = legend::joined(strips.iter().map(|strip| strip.entries()).collect(), theme);
     let margin = layout.margin;
@@ -227,7 +236,7 @@ pub(crate) fn page(strips: &[&Strip<'_>], order: &[(usize, usize)], heading: &st
     Drawing {
         width: width.ceil(),
         height: (y + margin).ceil(),
-        title: [heading, first.kind.title()][usize::from(heading.is_empty())].to_owned(),
+        title: [heading, first.content.title()][usize::from(heading.is_empty())].to_owned(),
         description: described.join(" "),
         background: Some(theme.page),
         items,
@@ -236,24 +245,24 @@ pub(crate) fn page(strips: &[&Strip<'_>], order: &[(usize, usize)], heading: &st
 
 impl Strip<'_> {
     fn drawing(&self) -> Drawing {
-        let frames = 0..self.stage.marks.len();
+        let frames = 0..self.context.marks.len();
         let order: Vec<(usize, usize)> = frames.map(|frame| (0, frame)).collect();
-        page(&[self], &order, &self.stage.analysis.scene.title)
+        page(&[self], &order, &self.context.analysis.scene.title)
     }
 
     /// What the key explains.
     fn entries(&self) -> Vec<legend::Entry> {
-        let options = self.stage.options;
-        let unit = self.layout.scale * self.stage.unit;
+        let options = self.context.options;
+        let unit = self.layout.scale * self.context.unit;
         let mut entries = if options.keys {
-            let mut entries = self.kind.entries(self.stage, unit);
-            entries.extend(label::left_out(self.stage).map(legend::Entry::Note));
+            let mut entries = self.content.entries(self.context, unit);
+            entries.extend(label::left_out(self.context).map(legend::Entry::Note));
             entries
         } else {
             Vec::new()
         };
-        if self.stage.dusty(self.layout.scale) {
-            let arrows = self.stage.marks.iter().flat_map(|m| &m.arrows);
+        if self.context.dusty(self.layout.scale) {
+            let arrows = self.context.marks.iter().flat_map(|m| &m.arrows);
             let left_out = |a: &&ForceArrow| !a.kind.is_failure() && a.kind != ArrowKind::Load;
             let count = arrows.filter(left_out).count();
             let left_out = format!("{} too small to read, left out", counted(count, "arrow"));
@@ -269,9 +278,9 @@ impl Strip<'_> {
     /// other.
     fn shows(&self, frame: usize) -> Bounds {
         if self.alike {
-            self.stage.view
+            self.context.view
         } else {
-            self.stage.row(&[frame])
+            self.context.row(&[frame])
         }
     }
 
@@ -283,10 +292,10 @@ impl Strip<'_> {
         (view, captions): (Bounds, usize),
         at: PagePoint,
     ) -> (Group, f64) {
-        let (stage, layout) = (self.stage, self.layout);
-        let (options, theme) = (stage.options, &stage.options.theme);
+        let (context, layout) = (self.context, self.layout);
+        let (options, theme) = (context.options, &context.options.theme);
         let (size, line_height) = (theme.sizes.caption, CAPTION_LINE * theme.sizes.caption);
-        let found = &stage.analysis.frames[frame];
+        let found = &context.analysis.frames[frame];
         let aside = (layout.panel - view.width() * layout.scale) / 2.0;
         let camera = Camera::new(view, at.moved(aside, 0.0), layout.scale);
         let mut group = Group {
@@ -294,13 +303,13 @@ impl Strip<'_> {
             ..Group::with_class("frame")
         };
         group.title = self.labelled(frame, ": ", verdict::word(found.verdict));
-        let picture = self.kind.picture(stage, frame, view, &camera);
+        let picture = self.content.picture(context, frame, view, &camera);
         let cramped = without_room(&picture);
         group = group.with(picture);
         let middle = at.x + layout.panel / 2.0;
         let mut y = at.y + view.height() * layout.scale;
         if options.dimensions {
-            group = group.with(dimension::lines(stage, frame, view, &camera));
+            group = group.with(dimension::lines(context, frame, view, &camera));
             y += dimension::BELOW;
         }
         let lines = self.caption_lines(frame);
@@ -319,13 +328,13 @@ impl Strip<'_> {
             group.items.extend(signs);
             y += 2.2 * half + below;
             let reason = if options.verdicts {
-                stage.statements[frame].clone()
+                context.statements[frame].clone()
             } else {
                 String::new()
             };
             let size = theme.sizes.reason;
-            let unseen = stage.marks[frame].unseen(stage.unit, layout.scale);
-            let unseen = unseen.filter(|_| !stage.dusty(layout.scale));
+            let unseen = context.marks[frame].unseen(context.unit, layout.scale);
+            let unseen = unseen.filter(|_| !context.dusty(layout.scale));
             let lines = text::balanced(&reason, Face::Sans, size, layout.panel, MOST_REASON_LINES);
             let unseen = unseen.map(|u| text::balanced(&u, Face::Sans, size, layout.panel, 2));
             let cramped = cramped.map(|c| text::balanced(&c, Face::Sans, size, layout.panel, 2));
@@ -353,13 +362,13 @@ impl Strip<'_> {
 
     /// The caption as it is broken into lines; none where captions are not wanted.
     fn caption_lines(&self, frame: usize) -> Vec<String> {
-        if !self.stage.options.captions {
+        if !self.context.options.captions {
             return Vec::new();
         }
         text::balanced(
             &self.caption(frame, " "),
             Face::Serif,
-            self.stage.options.theme.sizes.caption,
+            self.context.options.theme.sizes.caption,
             self.layout.panel,
             MOST_CAPTION_LINES,
         )
@@ -368,28 +377,28 @@ impl Strip<'_> {
     /// The mark, the word and the scale of arrows in one line about `centre`, the scale below where the panel is too narrow;
     /// and the height of what stands below.
     fn verdict(&self, frame: usize, centre: PagePoint) -> (Vec<Item>, f64) {
-        let theme = &self.stage.options.theme;
-        let found = &self.stage.analysis.frames[frame];
+        let theme = &self.context.options.theme;
+        let found = &self.context.analysis.frames[frame];
         let word = verdict::word(found.verdict);
         let size = theme.sizes.verdict;
         let wide = text::width(word, Face::SansBold, size);
         let radius = size * 7.5 / 13.5;
-        let options = self.stage.options;
+        let options = self.context.options;
         let lead = if options.verdicts {
             2.0 * radius + 6.0 + wide + 22.0
         } else {
             0.0
         };
-        let unit = self.layout.scale * self.stage.unit;
-        let scale = match self.stage.options.scale {
+        let unit = self.layout.scale * self.context.unit;
+        let scale = match self.context.options.scale {
             ArrowScale::Panel => legend::scale(
-                self.stage.marks[frame].newtons_per_unit,
+                self.context.marks[frame].newtons_per_unit,
                 unit,
-                self.stage.options,
+                self.context.options,
             ),
             ArrowScale::Strip => None,
         };
-        let scale = scale.filter(|_| options.keys && !self.stage.dusty(self.layout.scale));
+        let scale = scale.filter(|_| options.keys && !self.context.dusty(self.layout.scale));
         let long = scale.as_ref().map_or(0.0, |scale| {
             legend::widest(std::slice::from_ref(scale), theme)
         });
@@ -426,7 +435,7 @@ impl Strip<'_> {
     /// `(a) Initial situation`; without a letter where there is but one frame, without what the heading says already;
     /// and around which block where that is all that is shown.
     fn caption(&self, frame: usize, between: &str) -> String {
-        let scene = &self.stage.analysis.scene;
+        let scene = &self.context.analysis.scene;
         if let Some(caption) = self.captions.and_then(|all| all.get(frame)) {
             return caption.clone();
         }
@@ -438,7 +447,7 @@ impl Strip<'_> {
         if !title.is_empty() && (scene.frames.len() > 1 || *title != scene.title) {
             parts.push(title.clone());
         }
-        if let Some(block) = self.stage.options.zoom {
+        if let Some(block) = self.context.options.zoom {
             parts.push(format!("around block {}", scene.blocks[block.0].id));
         }
         parts.join(between)
@@ -447,8 +456,8 @@ impl Strip<'_> {
     /// A frame in a sentence.
     fn described(&self, frame: usize) -> String {
         let (scene, found) = (
-            &self.stage.analysis.scene,
-            &self.stage.analysis.frames[frame],
+            &self.context.analysis.scene,
+            &self.context.analysis.frames[frame],
         );
         let blocks = counted(scene.frames[frame].placed.len(), "block");
         let weight = quantity(found.weight, "N");
@@ -457,7 +466,7 @@ impl Strip<'_> {
             verdict::word(found.verdict)
         );
         let mut sentence = self.labelled(frame, " ", &what);
-        let more = [self.stage.statements[frame].clone()];
+        let more = [self.context.statements[frame].clone()];
         for more in more.iter().chain(&found.notices).filter(|m| !m.is_empty()) {
             sentence.push_str("; ");
             sentence.push_str(&more.replace(text::NO_BREAK, " "));

@@ -6,6 +6,8 @@
 use super::arrow::{ArrowKind, ForceArrow, Marks, TurnKind};
 use super::bearing::bearings;
 use super::by_colour::ByColour;
+use super::content::PanelContent;
+use super::context::FigureContext;
 use super::description;
 use super::funicular::{Giver, Stretch, stretches};
 use super::label;
@@ -14,7 +16,6 @@ use super::mark;
 use super::option::{ArrowScale, Options};
 use super::panel::composed;
 use super::pen::Pen;
-use super::stage::FigureContext;
 use super::verdict;
 use super::words::{force, quantity};
 use crate::analysis::{Analysis, FrameAnalysis, Verdict};
@@ -31,33 +32,105 @@ const STEPS: f64 = 8.0;
 /// How much of the line shows where it is not one of equilibrium.
 const FAINT: f64 = 0.35;
 
-/// What the camera sees of a frame and its line of thrust.
-pub(crate) fn picture(
-    stage: &FigureContext<'_>,
-    frame: usize,
-    view: Bounds,
-    camera: &Camera,
-) -> Group {
-    let pen = Pen::new(stage, frame, camera);
-    let scene = &stage.analysis.scene;
-    let found = &stage.analysis.frames[frame];
-    let stretches = stretches(scene, &scene.frames[frame], found, stage.unit);
-    let mut ink = label::ink(&pen);
-    for stretch in &stretches {
-        let [from, to] = [stretch.from, stretch.to].map(|p| camera.place(p));
-        ink.line(from, to, width(&pen, stretch) + 1.0);
+/// The figure of the line of thrust.
+pub(crate) struct ThrustLine;
+
+impl PanelContent for ThrustLine {
+    fn name(&self) -> &'static str {
+        "thrust"
     }
-    let seams = seams(&pen, found);
-    let dots = dots(&pen, found, &mut |at, radius| ink.disc(at, radius + 1.0));
-    let lines = lines(&pen, scene, found, &stretches);
-    let loads = pen.arrows(false);
-    composed(
-        &pen,
-        view,
-        pen.blocks(),
-        vec![seams, lines, dots, loads],
-        ink,
-    )
+
+    fn help(&self) -> &'static str {
+        "The line of thrust through the blocks"
+    }
+
+    fn title(&self) -> &'static str {
+        "The line of thrust in a dry-laid structure"
+    }
+
+    fn largest_force(&self, analysis: &Analysis, frame: usize, _: &Options) -> f64 {
+        largest_load(&analysis.scene, &analysis.scene.frames[frame])
+    }
+
+    fn marks(
+        &self,
+        analysis: &Analysis,
+        frame: usize,
+        options: &Options,
+        newtons_per_unit: f64,
+    ) -> Marks {
+        marks(analysis, frame, options, newtons_per_unit)
+    }
+
+    fn picture(
+        &self,
+        context: &FigureContext<'_>,
+        frame: usize,
+        view: Bounds,
+        camera: &Camera,
+    ) -> Group {
+        let pen = Pen::new(context, frame, camera);
+        let scene = &context.analysis.scene;
+        let found = &context.analysis.frames[frame];
+        let stretches = stretches(scene, &scene.frames[frame], found, context.unit);
+        let mut ink = label::ink(&pen);
+        for stretch in &stretches {
+            let [from, to] = [stretch.from, stretch.to].map(|p| camera.place(p));
+            ink.line(from, to, width(&pen, stretch) + 1.0);
+        }
+        let seams = seams(&pen, found);
+        let dots = dots(&pen, found, &mut |at, radius| ink.disc(at, radius + 1.0));
+        let lines = lines(&pen, scene, found, &stretches);
+        let loads = pen.arrows(false);
+        composed(
+            &pen,
+            view,
+            pen.blocks(),
+            vec![seams, lines, dots, loads],
+            ink,
+        )
+    }
+
+    fn entries(&self, context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
+        let (scene, theme) = (&context.analysis.scene, &context.options.theme);
+        let frames = scene.frames.iter().zip(&context.analysis.frames);
+        let (mut through, mut stopped) = (false, false);
+        for (frame, found) in frames {
+            let stretches = stretches(scene, frame, found, context.unit);
+            through |= stretches.iter().any(|s| s.through);
+            stopped |= stretches.iter().any(|s| !s.through);
+        }
+        let mut entries = Vec::new();
+        if context.options.scale == ArrowScale::Strip {
+            let newtons = context.marks.iter().map(|m| m.newtons_per_unit);
+            let newtons = newtons.fold(0.0, f64::max);
+            entries.extend(legend::scale(newtons, unit, context.options));
+        }
+        if through || stopped {
+            let largest = quantity(largest(context), "N");
+            let line = format!("line of thrust, this thick for {largest}");
+            entries.push(Entry::Line(colour(theme), widest(unit), line));
+            let dot = "where a joint's resultant acts".to_owned();
+            entries.push(Entry::Sign(dot_sign, 8.0, dot));
+        }
+        if stopped {
+            let what = "ends where no single line runs through a block".to_owned();
+            entries.push(Entry::Sign(end_sign, 26.0, what));
+        }
+        entries.extend(legend::robots(context));
+        entries
+    }
+
+    fn reason(&self, context: &FigureContext<'_>, frame: usize) -> String {
+        let (scene, found) = (&context.analysis.scene, &context.analysis.frames[frame]);
+
+        let why = verdict::reason(scene, found);
+        match found.verdict {
+            Verdict::Stable => why,
+            Verdict::Unstable => "faint, what is carried: it is no line of equilibrium".into(),
+            Verdict::Undecided => format!("no line of equilibrium is proved; {why}"),
+        }
+    }
 }
 
 /// The loads of a frame as arrows that end where they act; `newtons_per_unit` N are one unit edge long.
@@ -98,50 +171,9 @@ pub(crate) fn largest_load(scene: &Scene, frame: &Frame) -> f64 {
     loads.map(|l| l.force.norm()).fold(0.0, f64::max)
 }
 
-/// What is written below a frame's verdict.
-pub(crate) fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
-    let why = verdict::reason(scene, found);
-    match found.verdict {
-        Verdict::Stable => why,
-        Verdict::Unstable => "faint, what is carried: it is no line of equilibrium".into(),
-        Verdict::Undecided => format!("no line of equilibrium is proved; {why}"),
-    }
-}
-
-/// What the signs of a line of thrust mean, those that occur; `unit` pixels being one unit edge.
-pub(crate) fn entries(stage: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
-    let (scene, theme) = (&stage.analysis.scene, &stage.options.theme);
-    let frames = scene.frames.iter().zip(&stage.analysis.frames);
-    let (mut through, mut stopped) = (false, false);
-    for (frame, found) in frames {
-        let stretches = stretches(scene, frame, found, stage.unit);
-        through |= stretches.iter().any(|s| s.through);
-        stopped |= stretches.iter().any(|s| !s.through);
-    }
-    let mut entries = Vec::new();
-    if stage.options.scale == ArrowScale::Strip {
-        let newtons = stage.marks.iter().map(|m| m.newtons_per_unit);
-        let newtons = newtons.fold(0.0, f64::max);
-        entries.extend(legend::scale(newtons, unit, stage.options));
-    }
-    if through || stopped {
-        let largest = quantity(largest(stage), "N");
-        let line = format!("line of thrust, this thick for {largest}");
-        entries.push(Entry::Line(colour(theme), widest(unit), line));
-        let dot = "where a joint's resultant acts".to_owned();
-        entries.push(Entry::Sign(dot_sign, 8.0, dot));
-    }
-    if stopped {
-        let what = "ends where no single line runs through a block".to_owned();
-        entries.push(Entry::Sign(end_sign, 26.0, what));
-    }
-    entries.extend(legend::robots(stage));
-    entries
-}
-
 /// The largest force of all panels, N.
-fn largest(stage: &FigureContext<'_>) -> f64 {
-    let frames = &stage.analysis.frames;
+fn largest(context: &FigureContext<'_>) -> f64 {
+    let frames = &context.analysis.frames;
     let contacts = frames.iter().flat_map(|f| &f.contacts);
     let robots = frames.iter().flat_map(|f| &f.robots);
     let forces = contacts
@@ -161,14 +193,14 @@ fn widest(unit: f64) -> f64 {
 
 /// Width of a stretch, pixels.
 fn width(pen: &Pen<'_>, stretch: &Stretch) -> f64 {
-    let share = stretch.force.norm() / largest(pen.stage).max(f64::MIN_POSITIVE);
+    let share = stretch.force.norm() / largest(pen.context).max(f64::MIN_POSITIVE);
     let share = share.min(1.0);
     widest(pen.unit()) * (THINNEST + (1.0 - THINNEST) * share)
 }
 
 /// Every interface as a line.
 fn seams(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
-    let theme = &pen.stage.options.theme;
+    let theme = &pen.context.options.theme;
     let mut outline = Outline::default();
     for contact in &found.contacts {
         outline.extend(Outline::line(
@@ -184,7 +216,7 @@ fn seams(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
 }
 
 fn lines(pen: &Pen<'_>, scene: &Scene, found: &FrameAnalysis, stretches: &[Stretch]) -> Group {
-    let theme = &pen.stage.options.theme;
+    let theme = &pen.context.options.theme;
     let opacity = match found.verdict {
         Verdict::Stable => 1.0,
         _ => FAINT,
@@ -232,7 +264,7 @@ fn lines(pen: &Pen<'_>, scene: &Scene, found: &FrameAnalysis, stretches: &[Stret
 
 /// A dot where each interface's resultant sits, and where a robot grips.
 fn dots(pen: &Pen<'_>, found: &FrameAnalysis, ink: &mut dyn FnMut(PagePoint, f64)) -> Group {
-    let (scene, theme) = (&pen.stage.analysis.scene, &pen.stage.options.theme);
+    let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let radius = (0.06 * pen.unit()).clamp(1.1, 3.6);
     let mut group = Group::with_class("resultants");
     let mut joined = ByColour::default();

@@ -4,12 +4,13 @@
 
 use super::bearing::{Bearing, bearings};
 use super::by_colour::ByColour;
+use super::content::PanelContent;
+use super::context::FigureContext;
 use super::description;
 use super::label;
 use super::legend::{self, Entry};
 use super::panel::composed;
 use super::pen::Pen;
-use super::stage::FigureContext;
 use super::verdict;
 use super::words::{ALL, counted, percent, quantity};
 use crate::analysis::{Contact, FrameAnalysis, Verdict};
@@ -22,84 +23,101 @@ const BOLD: (f64, f64, f64) = (0.11, 1.8, 6.0);
 /// Length of the bar across an interface that uses all its friction, in widths of its line.
 const BAR: f64 = 3.2;
 
-/// What the camera sees of a frame and how its friction is used.
-pub(crate) fn picture(
-    stage: &FigureContext<'_>,
-    frame: usize,
-    view: Bounds,
-    camera: &Camera,
-) -> Group {
-    let pen = Pen::new(stage, frame, camera);
-    let found = &stage.analysis.frames[frame];
-    let bold = bold(pen.unit());
-    let mut ink = label::ink(&pen);
-    for contact in &found.contacts {
-        let [from, to] = contact.interface.ends.map(|p| camera.place(p));
-        ink.line(from, to, bold + 2.0);
-        if contact.friction_used >= ALL {
-            let [from, to] = across(&pen, contact);
-            ink.line(from, to, 3.0);
+/// The figure of friction used.
+pub(crate) struct Utilisation;
+
+impl PanelContent for Utilisation {
+    fn name(&self) -> &'static str {
+        "utilisation"
+    }
+
+    fn help(&self) -> &'static str {
+        "Friction used of friction available, interface by interface"
+    }
+
+    fn title(&self) -> &'static str {
+        "Friction used in a dry-laid structure"
+    }
+
+    fn picture(
+        &self,
+        context: &FigureContext<'_>,
+        frame: usize,
+        view: Bounds,
+        camera: &Camera,
+    ) -> Group {
+        let pen = Pen::new(context, frame, camera);
+        let found = &context.analysis.frames[frame];
+        let bold = bold(pen.unit());
+        let mut ink = label::ink(&pen);
+        for contact in &found.contacts {
+            let [from, to] = contact.interface.ends.map(|p| camera.place(p));
+            ink.line(from, to, bold + 2.0);
+            if contact.friction_used >= ALL {
+                let [from, to] = across(&pen, contact);
+                ink.line(from, to, 3.0);
+            }
+        }
+        let (idle, used) = interfaces(&pen, found);
+        let robots = robots(&pen, found);
+        composed(&pen, view, pen.blocks(), vec![idle, used, robots], ink)
+    }
+
+    fn entries(&self, context: &FigureContext<'_>, _unit: f64) -> Vec<Entry> {
+        let scene = &context.analysis.scene;
+        let frames = &context.analysis.frames;
+        let all: Vec<Option<Bearing>> = frames.iter().flat_map(|f| bearings(scene, f)).collect();
+        let robots = frames
+            .iter()
+            .flat_map(|f| &f.robots)
+            .any(|r| limited(scene, r.robot.0));
+        let mut entries = Vec::new();
+        let shared = all.iter().flatten().any(|b| b.friction.is_some());
+        if shared || robots {
+            let what = match (shared, robots) {
+                (true, false) => "of the friction available",
+                (false, _) => "of a robot's limits",
+                (true, true) => "of the friction available; in discs, of a robot's limits",
+            };
+            let ends = ["0".to_owned(), "100 %".to_owned()];
+            entries.push(Entry::Amplitudes(ends, what.into(), Theme::amplitude));
+        }
+        let spent = frames
+            .iter()
+            .flat_map(|f| &f.robots)
+            .any(|r| r.limit_used >= ALL);
+        if spent || all.iter().flatten().any(full) {
+            let all = if spent {
+                "all of it".to_owned()
+            } else {
+                "all of it: at the edge of sliding".to_owned()
+            };
+            entries.push(Entry::Sign(full_sign, WIDE, all));
+        }
+        if all.iter().flatten().any(|b| b.friction.is_none()) {
+            let smooth = "no friction available".to_owned();
+            entries.push(Entry::Sign(smooth_sign, WIDE, smooth));
+        }
+        if all.iter().any(Option::is_none) {
+            entries.push(Entry::Sign(idle_sign, WIDE, "no force".into()));
+        }
+        entries.extend(legend::robots(context));
+        entries
+    }
+
+    fn reason(&self, context: &FigureContext<'_>, frame: usize) -> String {
+        let (scene, found) = (&context.analysis.scene, &context.analysis.frames[frame]);
+
+        let used = most_used(scene, found);
+        match found.verdict {
+            Verdict::Stable => format!("in the balance shown: {used}"),
+            Verdict::Unstable => format!("with the missing forces added, {used}"),
+            Verdict::Undecided => format!(
+                "in what was found: {used}; {}",
+                verdict::reason(scene, found)
+            ),
         }
     }
-    let (idle, used) = interfaces(&pen, found);
-    let robots = robots(&pen, found);
-    composed(&pen, view, pen.blocks(), vec![idle, used, robots], ink)
-}
-
-/// What is written below a frame's verdict.
-pub(crate) fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
-    let used = most_used(scene, found);
-    match found.verdict {
-        Verdict::Stable => format!("in the balance shown: {used}"),
-        Verdict::Unstable => format!("with the missing forces added, {used}"),
-        Verdict::Undecided => format!(
-            "in what was found: {used}; {}",
-            verdict::reason(scene, found)
-        ),
-    }
-}
-
-/// What the signs mean, those that occur.
-pub(crate) fn entries(stage: &FigureContext<'_>) -> Vec<Entry> {
-    let scene = &stage.analysis.scene;
-    let frames = &stage.analysis.frames;
-    let all: Vec<Option<Bearing>> = frames.iter().flat_map(|f| bearings(scene, f)).collect();
-    let robots = frames
-        .iter()
-        .flat_map(|f| &f.robots)
-        .any(|r| limited(scene, r.robot.0));
-    let mut entries = Vec::new();
-    let shared = all.iter().flatten().any(|b| b.friction.is_some());
-    if shared || robots {
-        let what = match (shared, robots) {
-            (true, false) => "of the friction available",
-            (false, _) => "of a robot's limits",
-            (true, true) => "of the friction available; in discs, of a robot's limits",
-        };
-        let ends = ["0".to_owned(), "100 %".to_owned()];
-        entries.push(Entry::Amplitudes(ends, what.into(), Theme::amplitude));
-    }
-    let spent = frames
-        .iter()
-        .flat_map(|f| &f.robots)
-        .any(|r| r.limit_used >= ALL);
-    if spent || all.iter().flatten().any(full) {
-        let all = if spent {
-            "all of it".to_owned()
-        } else {
-            "all of it: at the edge of sliding".to_owned()
-        };
-        entries.push(Entry::Sign(full_sign, WIDE, all));
-    }
-    if all.iter().flatten().any(|b| b.friction.is_none()) {
-        let smooth = "no friction available".to_owned();
-        entries.push(Entry::Sign(smooth_sign, WIDE, smooth));
-    }
-    if all.iter().any(Option::is_none) {
-        entries.push(Entry::Sign(idle_sign, WIDE, "no force".into()));
-    }
-    entries.extend(legend::robots(stage));
-    entries
 }
 
 fn full(bearing: &Bearing) -> bool {
@@ -188,7 +206,7 @@ fn idle_stroke(theme: &Theme, bold: f64) -> Stroke {
 
 /// Interfaces without force, and those with.
 fn interfaces(pen: &Pen<'_>, found: &FrameAnalysis) -> (Group, Group) {
-    let (scene, theme) = (&pen.stage.analysis.scene, &pen.stage.options.theme);
+    let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let bold = bold(pen.unit());
     let (mut idle, mut used) = (Group::with_class("idle"), Group::with_class("interfaces"));
     let mut lines = ByColour::default();
@@ -275,7 +293,7 @@ fn across(pen: &Pen<'_>, contact: &Contact) -> [PagePoint; 2] {
 
 /// The discs of robots with limits once more, filled by how far those are used.
 fn robots(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
-    let (scene, theme) = (&pen.stage.analysis.scene, &pen.stage.options.theme);
+    let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let mut group = Group::with_class("limits");
     for robot in found.robots.iter().filter(|r| limited(scene, r.robot.0)) {
         let at = pen.camera.place(robot.at);

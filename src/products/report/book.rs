@@ -234,7 +234,7 @@ fn drawing(analysis: &Analysis, wanted: &FigureRequest) -> Result<Drawing, Strin
                 .and_then(|f| figure::freebody(analysis, f, block, &wanted.options))
                 .ok_or("the block is never placed".to_owned());
         }
-        name => Kind::named(name).ok_or(format!(
+        name => Kind::from_name(name).ok_or(format!(
             "there is no kind of figure {name:?}; known are {}, freebody",
             Kind::ALL.map(Kind::name).join(", ")
         ))?,

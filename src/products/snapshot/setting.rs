@@ -145,7 +145,7 @@ impl Reading<'_> {
             }
             "kinds" => {
                 let names: Vec<&str> = Kind::ALL.iter().map(|k| k.name()).collect();
-                self.settings.kinds = self.named("kinds", value, &names, Kind::named);
+                self.settings.kinds = self.named("kinds", value, &names, Kind::from_name);
             }
             "themes" => {
                 let known = |name: &str| Theme::named(name).map(|_| name.to_owned());

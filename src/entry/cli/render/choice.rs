@@ -1,32 +1,41 @@
 //! The choices of `drystone render`, and what they are called in a figure.
 
+use std::sync::LazyLock;
+
 use clap::ValueEnum;
+use clap::builder::PossibleValue;
 
 use crate::analysis::Toward;
 use crate::figure;
 
-#[derive(Clone, Copy, Debug, ValueEnum)]
+/// What `--kind` names: one of the figure's kinds, or the diagram of a single block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum KindChoice {
-    /// Every force as an arrow on the block it acts on, and what is missing
-    Forces,
-    /// Where it falls, how: blocks displaced along the collapse, hinges and slips
-    Mechanism,
-    /// The line of thrust through the blocks
-    Thrust,
-    /// The safe stretch of each interface, and where in it the resultant sits
-    Kernel,
-    /// Friction used of friction available, interface by interface
-    Utilisation,
-    /// The steps of a construction, arrows to one scale in all of them; --animate shows them one after the other
-    Build,
-    /// The forces on the structure from outside, and their polygon beside it
-    Polygon,
-    /// As it stands, and as a ghost how it falls just beyond its margin; --margin says which
-    Margin,
-    /// What changed from one frame to the next, or from the last frame of one scene to that of another
-    Compare,
-    /// One block cut free, with every force that may act on it by name
+    /// A figure with a panel for each frame.
+    Panels(figure::Kind),
+    /// A free-body diagram, which has no panels.
     Freebody,
+}
+
+impl ValueEnum for KindChoice {
+    fn value_variants<'a>() -> &'a [KindChoice] {
+        static ALL: LazyLock<Vec<KindChoice>> = LazyLock::new(|| {
+            let panels = figure::Kind::ALL.into_iter().map(KindChoice::Panels);
+            panels.chain([KindChoice::Freebody]).collect()
+        });
+        &ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        let (name, help) = match self {
+            KindChoice::Panels(kind) => (kind.name(), kind.help()),
+            KindChoice::Freebody => (
+                "freebody",
+                "One block cut free, with every force that may act on it by name",
+            ),
+        };
+        Some(PossibleValue::new(name).help(help))
+    }
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -75,17 +84,14 @@ impl KindChoice {
     /// What the panels of the figure show; `None` for a free-body diagram, which has none.
     pub(super) fn panels(self) -> Option<figure::Kind> {
         match self {
-            KindChoice::Forces => Some(figure::Kind::Forces),
-            KindChoice::Mechanism => Some(figure::Kind::Mechanism),
-            KindChoice::Thrust => Some(figure::Kind::Thrust),
-            KindChoice::Kernel => Some(figure::Kind::Kernel),
-            KindChoice::Utilisation => Some(figure::Kind::Utilisation),
-            KindChoice::Build => Some(figure::Kind::Build),
-            KindChoice::Polygon => Some(figure::Kind::Polygon),
-            KindChoice::Margin => Some(figure::Kind::Margin),
-            KindChoice::Compare => Some(figure::Kind::Compare),
+            KindChoice::Panels(kind) => Some(kind),
             KindChoice::Freebody => None,
         }
+    }
+
+    /// Whether the figure shows margins.
+    pub(super) fn needs_margins(self) -> bool {
+        self.panels().is_some_and(figure::Kind::needs_margins)
     }
 }
 

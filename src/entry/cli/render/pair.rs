@@ -16,7 +16,7 @@ use std::sync::Arc;
 impl Render {
     /// Whether two scenes become one figure that compares them.
     pub(super) fn joins(&self, scenes: usize, destination: &Destination) -> bool {
-        matches!(self.kind, KindChoice::Compare)
+        self.kind == KindChoice::Panels(figure::Kind::Compare)
             && scenes == 2
             && !matches!(destination, Destination::Folder(_))
     }

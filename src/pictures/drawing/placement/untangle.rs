@@ -14,7 +14,7 @@ const ROUNDS: usize = 4;
 pub(super) fn untangle(
     bare: &Ink,
     page: PageRect,
-    wishes: &[LabelRequest],
+    requests: &[LabelRequest],
     placed: &mut [Option<Placed>],
     disliked: &dyn Fn(usize, PageRect) -> bool,
 ) -> bool {
@@ -35,13 +35,14 @@ pub(super) fn untangle(
                 }
                 let moved = |number: usize, to: PageRect| {
                     let middle = to.at.moved(to.width / 2.0, to.height / 2.0);
-                    let (wish, rect) = (&wishes[number], around(middle, wishes[number].size));
+                    let (request, rect) =
+                        (&requests[number], around(middle, requests[number].size));
                     let kept = around(middle, (rect.width + 2.0 * ROOM, rect.height + 2.0 * ROOM));
                     let free = within(page, kept) && bare.clear(kept) && !disliked(number, rect);
                     free.then(|| Placed {
                         disliked: false,
                         rect,
-                        leader: Some([nearest(rect, wish.anchor), wish.anchor]),
+                        leader: Some([nearest(rect, request.anchor), request.anchor]),
                     })
                 };
                 let (Some(x), Some(y)) = (moved(i, b.rect), moved(j, a.rect)) else {
@@ -105,7 +106,7 @@ mod tests {
             width: 200.0,
             height: 100.0,
         };
-        let wish = |x: f64| LabelRequest {
+        let request = |x: f64| LabelRequest {
             anchor: PagePoint::new(x, 20.0),
             from: 4.0,
             size: (20.0, 10.0),
@@ -113,32 +114,41 @@ mod tests {
             ease: 0.0,
             roams: Some(f64::INFINITY),
         };
-        let wishes = [wish(50.0), wish(100.0)];
-        let at = |x: f64, wish: &LabelRequest| {
-            let rect = around(PagePoint::new(x, 80.0), wish.size);
+        let requests = [request(50.0), request(100.0)];
+        let at = |x: f64, request: &LabelRequest| {
+            let rect = around(PagePoint::new(x, 80.0), request.size);
             Some(Placed {
                 disliked: false,
                 rect,
-                leader: Some([nearest(rect, wish.anchor), wish.anchor]),
+                leader: Some([nearest(rect, request.anchor), request.anchor]),
             })
         };
-        let mut placed = vec![at(120.0, &wishes[0]), at(40.0, &wishes[1])];
+        let mut placed = vec![at(120.0, &requests[0]), at(40.0, &requests[1])];
         assert_eq!(tangles(&placed, 0, 1), 2);
         let none = |_: usize, _: PageRect| false;
-        assert!(untangle(&Ink::default(), page, &wishes, &mut placed, &none));
+        assert!(untangle(
+            &Ink::default(),
+            page,
+            &requests,
+            &mut placed,
+            &none
+        ));
         assert_eq!(tangles(&placed, 0, 1), 0);
-        assert_eq!(placed, vec![at(40.0, &wishes[0]), at(120.0, &wishes[1])]);
+        assert_eq!(
+            placed,
+            vec![at(40.0, &requests[0]), at(120.0, &requests[1])]
+        );
         assert!(!untangle(
             &Ink::default(),
             page,
-            &wishes,
+            &requests,
             &mut placed,
             &none
         ));
         // Where ink lies in the way nothing is moved.
         let mut ink = Ink::default();
         ink.rect(around(PagePoint::new(40.0, 80.0), (20.0, 10.0)));
-        let mut crossed = vec![at(120.0, &wishes[0]), at(40.0, &wishes[1])];
-        assert!(!untangle(&ink, page, &wishes, &mut crossed, &none));
+        let mut crossed = vec![at(120.0, &requests[0]), at(40.0, &requests[1])];
+        assert!(!untangle(&ink, page, &requests, &mut crossed, &none));
     }
 }

@@ -193,13 +193,13 @@ impl<'a> Sheet<'a> {
         let mut ink = Ink::default();
         items.push(self.neighbours(&mut ink).into());
         items.push(self.body(&mut ink).into());
-        let mut wishes: Vec<(Symbol, LabelRequest)> = Vec::new();
+        let mut requests: Vec<(Symbol, LabelRequest)> = Vec::new();
         if self.guides() {
-            items.push(self.guide_lines(&mut ink, &mut wishes).into());
+            items.push(self.guide_lines(&mut ink, &mut requests).into());
         }
-        items.push(self.drawn(&mut ink, &mut wishes).into());
+        items.push(self.drawn(&mut ink, &mut requests).into());
         items.push(self.axes(&mut ink).into());
-        let (names, nameless) = self.names(&mut ink, &wishes);
+        let (names, nameless) = self.names(&mut ink, &requests);
         items.push(names.into());
         let (values, end) = self.values(self.floor() + BELOW + 8.0, nameless);
         items.push(values.into());
@@ -265,7 +265,7 @@ impl<'a> Sheet<'a> {
     }
 
     /// Dashed lines from the application points and the centroid to the edges of the picture, and names for their ends.
-    fn guide_lines(&self, ink: &mut Ink, wishes: &mut Vec<(Symbol, LabelRequest)>) -> Group {
+    fn guide_lines(&self, ink: &mut Ink, requests: &mut Vec<(Symbol, LabelRequest)>) -> Group {
         let theme = &self.options.theme;
         let mut group = Group::with_class("guides");
         let mut described = vec![(
@@ -297,7 +297,7 @@ impl<'a> Sheet<'a> {
                     "y" => end.moved(-6.0 - wide / 2.0 - row * (wide + 4.0), -0.08 * high),
                     _ => end.moved(0.0, 1.0 + high / 2.0 + row * (0.7 * high)),
                 };
-                wishes.push((
+                requests.push((
                     symbol,
                     LabelRequest {
                         anchor: end,
@@ -320,7 +320,7 @@ impl<'a> Sheet<'a> {
         arrow.turn.map_or(length, |sweep| length * sweep.abs()) >= LEAST_SEEN
     }
 
-    fn drawn(&self, ink: &mut Ink, wishes: &mut Vec<(Symbol, LabelRequest)>) -> Group {
+    fn drawn(&self, ink: &mut Ink, requests: &mut Vec<(Symbol, LabelRequest)>) -> Group {
         let theme = &self.options.theme;
         let mut group = Group::with_class("forces");
         for arrow in self.arrows.iter().filter(|a| Sheet::seen(a)) {
@@ -350,7 +350,7 @@ impl<'a> Sheet<'a> {
                 continue;
             };
             let (wide, high) = symbol.size(NAME);
-            wishes.push((
+            requests.push((
                 symbol.clone(),
                 LabelRequest {
                     anchor: from.moved(0.7 * arrow.along.0, 0.7 * arrow.along.1),
@@ -397,7 +397,7 @@ impl<'a> Sheet<'a> {
     }
 
     /// The names of forces and coordinates, and of the bodies; and how many of them have no room.
-    fn names(&self, ink: &mut Ink, wishes: &[(Symbol, LabelRequest)]) -> (Group, usize) {
+    fn names(&self, ink: &mut Ink, requests: &[(Symbol, LabelRequest)]) -> (Group, usize) {
         let theme = &self.options.theme;
         let page = PageRect {
             at: PagePoint::new(4.0, self.picture.at.y - 6.0),
@@ -405,12 +405,12 @@ impl<'a> Sheet<'a> {
             height: self.picture.height + BELOW + 2.0,
         };
         // A picture has no room for more; they would only be tried in vain.
-        let (wishes, beyond) = wishes.split_at(wishes.len().min(MOST_NAMES));
+        let (requests, beyond) = requests.split_at(requests.len().min(MOST_NAMES));
         let mut nameless = beyond.len();
         ink.index();
         let mut group = Group::with_class("labels");
-        let wanted: Vec<LabelRequest> = wishes.iter().map(|w| w.1.clone()).collect();
-        for ((symbol, _), placed) in wishes.iter().zip(place(ink, page, &wanted)) {
+        let wanted: Vec<LabelRequest> = requests.iter().map(|w| w.1.clone()).collect();
+        for ((symbol, _), placed) in requests.iter().zip(place(ink, page, &wanted)) {
             let Some(placed) = placed else {
                 nameless += 1;
                 continue;
@@ -439,7 +439,7 @@ impl<'a> Sheet<'a> {
             // The block's own name may stand beside it, with a line to it; the others' only where they are.
             let own = body == BodyId::Block(self.block);
             let middle = scene.body(body).polygon.centroid();
-            let wish = LabelRequest {
+            let request = LabelRequest {
                 anchor: self.camera.place(middle),
                 from: 4.0,
                 size,
@@ -462,7 +462,7 @@ impl<'a> Sheet<'a> {
                     polygon.contains(at) || runs_on(at, self.view, polygon.bounds())
                 })
             };
-            match place_where(ink, room, &[wish], &abroad)[0].filter(|p| !p.disliked) {
+            match place_where(ink, room, &[request], &abroad)[0].filter(|p| !p.disliked) {
                 Some(placed) => {
                     if let Some(leader) = placed.leader {
                         let line = Outline::line(leader);

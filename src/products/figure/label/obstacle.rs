@@ -9,7 +9,7 @@ use crate::geometry::Polygon;
 /// The ink of ground, blocks, plans, discs and arrows.
 pub(crate) fn ink(pen: &Pen<'_>) -> Ink {
     let mut ink = Ink::default();
-    let scene = &pen.stage.analysis.scene;
+    let scene = &pen.context.analysis.scene;
     let frame = &scene.frames[pen.number];
     let planned = frame.plans.iter().map(|p| p.block);
     let blocks = frame.placed.iter().copied().chain(planned);
@@ -23,7 +23,7 @@ pub(crate) fn ink(pen: &Pen<'_>) -> Ink {
     for hold in &frame.holds {
         ink.disc(pen.camera.place(pen.moved(hold.block, hold.at)), pen.disc());
     }
-    let marks = &pen.stage.marks[pen.number];
+    let marks = &pen.context.marks[pen.number];
     for arrow in marks.arrows.iter().filter(|a| pen.seen(a)) {
         let (from, along) = (pen.camera.place(arrow.at), pen.camera.turn(arrow.reach()));
         ink.arrow(from, along, pen.width(arrow));

@@ -14,7 +14,7 @@ pub(super) struct Solids {
 
 impl Solids {
     pub(super) fn new(pen: &Pen<'_>) -> Solids {
-        let scene = &pen.stage.analysis.scene;
+        let scene = &pen.context.analysis.scene;
         let drawn = |id: &BlockId| {
             let corners = scene.blocks[id.0].body.polygon.rings().first();
             let corners = corners.into_iter().flatten();
@@ -36,7 +36,7 @@ impl Solids {
 
     /// Whether a label reaches into another block than its own, or into ground.
     pub(super) fn other(&self, pen: &Pen<'_>, own: BlockId, rect: PageRect) -> bool {
-        let scene = &pen.stage.analysis.scene;
+        let scene = &pen.context.analysis.scene;
         let met = |other: &PageRect| {
             rect.at.x < other.at.x + other.width
                 && other.at.x < rect.at.x + rect.width

@@ -29,7 +29,7 @@ impl Pen<'_> {
 
     /// The loads and missing forces that are too small for an arrow, each once: where they act is shown in any case.
     pub(crate) fn dots(&self) -> impl Iterator<Item = &ForceArrow> {
-        let marks = &self.stage.marks[self.number];
+        let marks = &self.context.marks[self.number];
         marks
             .arrows
             .iter()
@@ -38,14 +38,14 @@ impl Pen<'_> {
 
     fn dot(&self, arrow: &ForceArrow) -> Group {
         let outline = Outline::circle(self.camera.place(arrow.at), DOT);
-        let theme = &self.stage.options.theme;
+        let theme = &self.context.options.theme;
         let dot = if arrow.kind == ArrowKind::Load {
             Path::filled(outline, theme.page).with_stroke(Stroke::new(arrow.colour, 1.2))
         } else {
             Path::filled(outline, arrow.colour).cased(theme.casing, 0.6)
         };
         Group::with_class("small")
-            .titled(description::arrow(self.stage, arrow))
+            .titled(description::arrow(self.context, arrow))
             .with(dot)
     }
 
@@ -58,7 +58,8 @@ impl Pen<'_> {
         if arrow.kind == ArrowKind::Load {
             // Hollow: what acts from outside is told from what the structure answers, in a grey print too.
             let edge = Stroke::new(arrow.colour, (0.3 * self.width(arrow)).clamp(0.7, 2.0));
-            return Path::filled(outline, self.stage.options.theme.page).with_stroke(edge.mitred());
+            return Path::filled(outline, self.context.options.theme.page)
+                .with_stroke(edge.mitred());
         }
         Path::filled(outline, arrow.colour).cased(self.seam_around(arrow), self.casing)
     }
@@ -66,18 +67,18 @@ impl Pen<'_> {
     /// The ring at the tail of a weight, by which it is told from other forces.
     fn centroid(&self, arrow: &ForceArrow) -> Option<Path> {
         let marked = arrow.kind == ArrowKind::Weight
-            && !self.stage.options.printed()
+            && !self.context.options.printed()
             && self.unit() >= TEXTURE;
         let width = self.width(arrow);
         let ring = Outline::circle(self.camera.place(arrow.at), CENTROID * width);
         let edge = Stroke::new(arrow.colour, (0.45 * width).clamp(0.8, 2.0));
-        marked.then(|| Path::filled(ring, self.stage.options.theme.page).with_stroke(edge))
+        marked.then(|| Path::filled(ring, self.context.options.theme.page).with_stroke(edge))
     }
 
     /// The seam that sets an arrow off from the block it acts on.
     fn seam_around(&self, arrow: &ForceArrow) -> Colour {
-        let theme = &self.stage.options.theme;
-        let frame = &self.stage.analysis.scene.frames[self.number];
+        let theme = &self.context.options.theme;
+        let frame = &self.context.analysis.scene.frames[self.number];
         let BodyId::Block(on) = arrow.on else {
             return theme.casing;
         };
@@ -94,7 +95,7 @@ impl Pen<'_> {
             echo: true,
             ..Group::with_class("heads")
         };
-        let marks = &self.stage.marks[self.number];
+        let marks = &self.context.marks[self.number];
         let there = marks
             .arrows
             .iter()
@@ -112,7 +113,7 @@ impl Pen<'_> {
     }
 
     pub(crate) fn turn(&self, turn: &TurnArrow) -> Path {
-        let radius = TURN * self.stage.unit;
+        let radius = TURN * self.context.unit;
         let sweep = self.sweep(turn, radius);
         let outline = turning(
             self.camera.place(turn.at),
@@ -121,7 +122,7 @@ impl Pen<'_> {
             sweep,
             self.camera.length(turn.width),
         );
-        Path::filled(outline, turn.colour).cased(self.stage.options.theme.casing, self.casing)
+        Path::filled(outline, turn.colour).cased(self.context.options.theme.casing, self.casing)
     }
 
     /// How far round its centre a turning arrow runs, radians. That of a load, which is part of the question, has a least
@@ -137,7 +138,7 @@ impl Pen<'_> {
     /// The direction from a turning arrow's centre to its middle in which it keeps farthest from straight arrows; the
     /// top where that is as good as any.
     fn clearest(&self, turn: &TurnArrow, radius: f64, sweep: f64) -> f64 {
-        let arrows = &self.stage.marks[self.number].arrows;
+        let arrows = &self.context.marks[self.number].arrows;
         let ends = [-0.5 * sweep, 0.5 * sweep];
         let clear = |middle: f64| {
             let from_arrows = |share: f64| {
@@ -156,7 +157,7 @@ impl Pen<'_> {
         for step in [1, -1, 2, -2, 3, -3, 4, -4, 5, -5, 6] {
             let middle = FRAC_PI_2 + f64::from(step) * FRAC_PI_2 / 3.0;
             let room = clear(middle);
-            if room > best.0 + 0.02 * self.stage.unit {
+            if room > best.0 + 0.02 * self.context.unit {
                 best = (room, middle);
             }
         }
@@ -165,14 +166,14 @@ impl Pen<'_> {
 
     /// The arrows of what is there, or of what is missing, each with its numbers.
     pub(crate) fn arrows(&self, missing: bool) -> Group {
-        let marks = &self.stage.marks[self.number];
+        let marks = &self.context.marks[self.number];
         let mut group = Group::with_class(if missing { "failures" } else { "forces" });
         for arrow in marks
             .arrows
             .iter()
             .filter(|a| a.kind.is_failure() == missing && self.seen(a))
         {
-            let title = description::arrow(self.stage, arrow);
+            let title = description::arrow(self.context, arrow);
             let mut force = Group::with_class("force")
                 .titled(title)
                 .with(self.arrow(arrow));
@@ -186,7 +187,7 @@ impl Pen<'_> {
             .iter()
             .filter(|t| matches!(t.kind, TurnKind::Missing(_)) == missing && self.turn_seen(t))
         {
-            let title = description::turn(self.stage, turn);
+            let title = description::turn(self.context, turn);
             group.items.push(
                 Group::with_class("torque")
                     .titled(title)
@@ -200,10 +201,10 @@ impl Pen<'_> {
     /// The arrows of loads alone.
     pub(crate) fn loads(&self) -> Group {
         let mut group = Group::with_class("forces");
-        let loads = self.stage.marks[self.number].arrows.iter();
+        let loads = self.context.marks[self.number].arrows.iter();
         let loads = loads.filter(|a| a.kind == ArrowKind::Load);
         for arrow in loads.filter(|a| self.seen(a)) {
-            let force = Group::with_class("force").titled(description::arrow(self.stage, arrow));
+            let force = Group::with_class("force").titled(description::arrow(self.context, arrow));
             group.items.push(force.with(self.arrow(arrow)).into());
         }
         let small = self.dots().filter(|a| a.kind == ArrowKind::Load);
@@ -215,7 +216,7 @@ impl Pen<'_> {
     pub(crate) fn arrows_by_colour(&self) -> Group {
         let mut group = Group::with_class("forces");
         let mut colours = ByColour::default();
-        for arrow in self.stage.marks[self.number]
+        for arrow in self.context.marks[self.number]
             .arrows
             .iter()
             .filter(|a| !a.kind.is_failure() && self.seen(a))

@@ -2,12 +2,10 @@
 
 use core::cell::Cell;
 
-use super::apart::apart;
 use super::arrow::{ArrowKind, ForceArrow, LEAST_SEEN, Marks};
 use super::displacement::Displacement;
 use super::fill::{FillScale, Fills};
-use super::option::{ArrowScale, Options};
-use super::unit::unit;
+use super::option::Options;
 use super::view;
 use crate::analysis::Analysis;
 use crate::geometry::{Bounds, Point, Vector};
@@ -27,9 +25,9 @@ const FEW_SEEN: f64 = 0.2;
 pub(crate) struct FigureContext<'a> {
     pub analysis: &'a Analysis,
     /// Whether blocks tell amplitudes by their colour; otherwise they are plain.
-    pub tells_amplitudes: bool,
+    pub colours_show_amplitudes: bool,
     /// Whether lines are drawn across the blocks, below their names.
-    pub strikes_names: bool,
+    pub lines_cross_names: bool,
     pub options: &'a Options,
     /// The unit edge, metres.
     pub unit: f64,
@@ -48,91 +46,7 @@ pub(crate) struct FigureContext<'a> {
     pub cramped: Cell<usize>,
 }
 
-/// What a kind of figure brings to its stage.
-pub(crate) struct Content<'c> {
-    /// Whether blocks tell amplitudes by their colour.
-    pub tells_amplitudes: bool,
-    /// Whether forces on blocks are drawn, which often lie on one line.
-    pub draws_forces: bool,
-    /// Whether lines are drawn across the blocks, below their names.
-    pub strikes_names: bool,
-    /// The amount that a frame's own scale takes as one unit edge, N; 0 where there are no arrows.
-    pub largest: &'c dyn Fn(usize) -> f64,
-    /// The arrows of a frame, so many newtons being one unit edge long.
-    pub marks: &'c dyn Fn(usize, f64) -> Marks,
-    /// A box around what a frame shows beside blocks, ground, robots and arrows, for a unit edge in metres.
-    pub reach: &'c dyn Fn(usize, f64, &Marks) -> Option<Bounds>,
-    /// How each block of a frame is displaced, for a unit edge in metres.
-    pub displaced: &'c dyn Fn(usize, f64) -> Vec<Option<Displacement>>,
-}
-
 impl<'a> FigureContext<'a> {
-    pub fn new(
-        analysis: &'a Analysis,
-        options: &'a Options,
-        content: &Content<'_>,
-    ) -> FigureContext<'a> {
-        let scene = &analysis.scene;
-        let frames = 0..analysis.frames.len();
-        let own: Vec<f64> = frames.clone().map(content.largest).collect();
-        let shared = own.iter().copied().fold(0.0, f64::max);
-        let reference = |own: f64| match options.scale {
-            ArrowScale::Panel => own,
-            ArrowScale::Strip => shared,
-        };
-        let marks: Vec<Marks> = own
-            .iter()
-            .enumerate()
-            .map(|(i, own)| {
-                let mut marks = (content.marks)(i, reference(*own));
-                if let Some(near) = options.zoom.map(|block| view::around(scene, block)) {
-                    marks.arrows.retain(|arrow| view::holds(near, arrow.at));
-                    marks.turns.retain(|turn| view::holds(near, turn.at));
-                }
-                if content.draws_forces && !options.printed() {
-                    apart(&mut marks);
-                }
-                marks
-            })
-            .collect();
-        let unit = unit(scene, options.zoom);
-        let reach: Vec<Option<Bounds>> = frames
-            .clone()
-            .map(|frame| (content.reach)(frame, unit, &marks[frame]))
-            .collect();
-        let shown = view::shown(scene, &marks, &reach, options.theme.widths.disc, unit);
-        let nothing = Bounds {
-            min: Point::origin(),
-            max: Point::origin(),
-        }
-        .grown(unit);
-        let shown = match options.zoom {
-            Some(block) => vec![view::around(scene, block); shown.len()],
-            None => shown,
-        };
-        let view = shown
-            .iter()
-            .copied()
-            .reduce(Bounds::union)
-            .unwrap_or(nothing);
-        FigureContext {
-            analysis,
-            tells_amplitudes: content.tells_amplitudes,
-            strikes_names: content.strikes_names,
-            options,
-            unit,
-            shown,
-            view,
-            fills: Fills::new(analysis, options.fill),
-            marks,
-            displaced: frames
-                .map(|frame| (content.displaced)(frame, unit))
-                .collect(),
-            statements: vec![String::new(); analysis.frames.len()],
-            cramped: Cell::new(0),
-        }
-    }
-
     /// With more room around what every frame shows, metres across and up.
     pub fn with_room(mut self, across: f64, up: f64) -> FigureContext<'a> {
         // Where ground is shown, it is the lower edge.
@@ -179,7 +93,7 @@ impl<'a> FigureContext<'a> {
 
     /// Whether blocks have one plain colour.
     pub fn plain(&self) -> bool {
-        !self.tells_amplitudes || self.fills.scale == FillScale::Plain
+        !self.colours_show_amplitudes || self.fills.scale == FillScale::Plain
     }
 
     /// What the panels of a row show: as wide as all frames need, so that structures stand one below the other, and as
