@@ -254,6 +254,7 @@ fn fits(kind: Type, value: &Value) -> bool {
         |v: &Value, each: &dyn Fn(&Value) -> bool| v.as_array().is_some_and(|l| l.iter().all(each));
     let two = |v: &Value| v.as_array().is_some_and(|l| l.len() == 2);
     let pair = |v: &Value| two(v) && list(v, &number);
+    let motion = |m: &Value| m["block"].is_string() && pair(&m["velocity"]) && number(&m["spin"]);
     match kind {
         Type::Text => value.is_string(),
         Type::Word(words) => value.as_str().is_some_and(|w| words.contains(&w)),
@@ -267,9 +268,12 @@ fn fits(kind: Type, value: &Value) -> bool {
         Type::Pairs => two(value) && list(value, &pair),
         Type::Names => two(value) && list(value, &Value::is_string),
         Type::NameList => list(value, &Value::is_string),
-        Type::Motions => list(value, &|m: &Value| {
-            m["block"].is_string() && pair(&m["velocity"]) && number(&m["spin"])
-        }),
+        Type::Motions => list(value, &motion),
+        Type::Interval => {
+            let ends = two(value) && list(value, &|end| number(end) || end == "withheld");
+            ends || value.is_null() || value == "withheld"
+        }
+        Type::MotionPairs => two(value) && list(value, &|m| list(m, &motion)),
         Type::Object | Type::ByRobot => value.is_object(),
         Type::Objects => list(value, &Value::is_object),
     }

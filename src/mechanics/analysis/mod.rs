@@ -51,8 +51,11 @@ use frame::settle;
 use gather::{add, gathered};
 pub use judgement::{Source, verdicts};
 pub(crate) use judgement::{WarmStart, hinges_on_gaps};
-use margin::Part;
-pub use margin::{Margin, MarginKind, MarginKinds, Margins, RobotMargins, Sides, trials};
+use margin::{ComponentIntervals, Part};
+pub use margin::{
+    End, Interval, Intervals, Margin, MarginKind, MarginKinds, Margins, RobotIntervals,
+    RobotMargins, Sides, trials,
+};
 pub use mechanism::Toward;
 pub use option::{Accuracy, Options};
 pub use pair::pair;
@@ -235,7 +238,7 @@ pub enum Failure {
 #[derive(Default)]
 struct Known {
     findings: BTreeMap<Key, Findings>,
-    margins: BTreeMap<Key, Margins>,
+    intervals: BTreeMap<Key, ComponentIntervals>,
 }
 
 /// What makes one component the same as one of an earlier frame: its blocks, who holds them where, and L.
@@ -407,9 +410,9 @@ fn examined(situation: &FrameContext, options: Options, known: &mut Known) -> Fr
                 found,
             });
         let parts: Vec<Part> = parts.collect();
-        let (margins, tries) = margin::of(&parts, options.margin_kinds, &mut known.margins);
+        let (margins, tries) = margin::of(&parts, options.margin_kinds, &mut known.intervals);
         let name = |robot: RobotId| situation.scene.robots[robot.0].id.clone();
-        analysis.notices.extend(margins.withheld(name));
+        analysis.notices.extend(margins.intervals.withheld(name));
         analysis.margins = Some(margins);
         judged = Some(tries);
     }

@@ -17,7 +17,7 @@ pub use column::{Column, Force, UnknownCounts, columns, sticking_columns};
 pub(crate) use pose::product;
 pub use pose::{
     Correction, CostCap, QuadraticProgram, force_primal, kinematic_dual, least_change, least_norm,
-    least_residual_dual, least_squares, load_factor_dual, vallat_program,
+    least_residual_dual, least_squares, load_factor_dual, nearest_factor_dual, vallat_program,
 };
 pub use scale::Scale;
 

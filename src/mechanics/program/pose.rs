@@ -120,6 +120,26 @@ pub fn load_factor_dual(
     (conic, row_of)
 }
 
+/// The dual of  min |λ|  s.t.  Σ amount·column = loads + λ·toward:  max loadsᵀy  s.t.  columnᵀy ≤ 0, −1 ≤ towardᵀy ≤ 1.
+///
+/// The last two rows are those of λ: the dual of the first less that of the second is λ.
+pub fn nearest_factor_dual(
+    loads: &[f64],
+    toward: &[f64],
+    columns: &[Column],
+) -> (QuadraticProgram, Vec<usize>) {
+    let (mut conic, row_of) = kinematic_dual(loads, columns, |_| 0.0);
+    for sign in [-1.0, 1.0] {
+        let row = conic.bound.len();
+        let entries = toward.iter().enumerate().filter(|(_, v)| **v != 0.0);
+        conic
+            .matrix
+            .extend(entries.map(|(i, v)| (row, i, sign * v)));
+        conic.bound.push(1.0);
+    }
+    (conic, row_of)
+}
+
 /// The dual of  min Σ |what is left unbalanced|:  max loadsᵀy  s.t.  columnᵀy ≤ 0, −1 ≤ y ≤ 1.
 ///
 /// It has an optimum whether the program stands or falls, and both stories in it: forces that leave least, and the motion

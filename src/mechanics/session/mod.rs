@@ -11,7 +11,9 @@ use std::collections::BTreeMap;
 
 pub use refusal::SessionError;
 
-use crate::analysis::{Analysis, Options, Source, Verdict, WarmStart, hinges_on_gaps};
+use crate::analysis::{
+    Analysis, MarginKinds, Margins, Options, Source, Verdict, WarmStart, hinges_on_gaps,
+};
 use crate::geometry::{Cell, Point};
 use crate::interface::{Interfaces, LatticeEdges};
 use crate::scene::format::{BlockEntry, SceneFile};
@@ -235,6 +237,25 @@ impl Session {
     /// Everything there is to find out about what stands.
     pub fn analysis(&self) -> Analysis {
         Analysis::with(&self.scene, &self.options)
+    }
+
+    /// At which values of friction, tilt, loads, kernel and robot limits what stands does so: the margins that
+    /// [`Session::analysis`] finds with [`Options::margins`].
+    ///
+    /// ```
+    /// use drystone::scene::format::BlockEntry;
+    /// use drystone::{Scene, analysis::MarginKinds, session::Session};
+    /// let brick = BlockEntry::new("a").polygon([[0, 0], [3, 0], [3, 2], [0, 2]]);
+    /// let floor = [[-9.0, -1.0], [9.0, -1.0], [9.0, 0.0], [-9.0, 0.0]];
+    /// let session = Session::new(Scene::builder().friction(0.5).ground(floor).block(brick))?;
+    /// let margins = session.margins(MarginKinds::ALL).expect("a session has one frame");
+    /// assert!((margins.horizontal_load.left.at().expect("it slides") - 0.5).abs() < 1e-6);
+    /// # Ok::<(), drystone::session::SessionError>(())
+    /// ```
+    pub fn margins(&self, kinds: MarginKinds) -> Option<Margins> {
+        let options = self.options.margins(true).margin_kinds(kinds);
+        let frames = Analysis::with(&self.scene, &options).frames;
+        frames.into_iter().next()?.margins
     }
 
     fn judge(&mut self) -> Verdict {

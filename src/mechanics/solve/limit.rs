@@ -9,7 +9,7 @@ use super::slanted::Slanted;
 use super::{
     Amounts, Conditioning, Effort, Face, Status, TOLERANCE, dual, largest, settled, solve,
 };
-use crate::program::{Column, Force, Program, columns, load_factor_dual};
+use crate::program::{Column, Force, Program, columns, load_factor_dual, nearest_factor_dual};
 
 /// The end of what a program allows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,6 +62,43 @@ const TOLERANCES: [f64; 3] = [TOLERANCE, 10.0 * TOLERANCE, 100.0 * TOLERANCE];
 /// Both are posed with a largest entry of 1: on a wall of 420 bricks loads of 300 end after a hundred iterations at
 /// 0.48159 where loads of 1 are solved, at 0.48162.
 pub fn most(program: &Program, toward: &[f64]) -> Extreme {
+    along(program, toward, Extremum::Largest)
+}
+
+/// The λ nearest to 0, of either sign, for which admissible forces give `program.loads + λ·toward`.
+///
+/// It has an optimum exactly where any λ does, so [`Limit::Never`] says that none does.
+pub fn nearest_factor(program: &Program, toward: &[f64]) -> Extreme {
+    along(program, toward, Extremum::Nearest)
+}
+
+/// Which λ is sought.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Extremum {
+    Largest,
+    Nearest,
+}
+
+impl Extremum {
+    /// How many rows at the end of a form are those of λ.
+    fn rows(self) -> usize {
+        match self {
+            Extremum::Largest => 1,
+            Extremum::Nearest => 2,
+        }
+    }
+
+    /// λ from the multipliers of these rows.
+    fn factor(self, multipliers: &[f64]) -> Option<f64> {
+        match (self, multipliers) {
+            (Extremum::Largest, [.., up]) => Some(up.max(0.0)),
+            (Extremum::Nearest, [.., up, down]) => Some(up - down),
+            _ => None,
+        }
+    }
+}
+
+fn along(program: &Program, toward: &[f64], extremum: Extremum) -> Extreme {
     let size = largest(toward);
     if size == 0.0 {
         return Limit::Unbounded.into();
@@ -73,15 +110,18 @@ pub fn most(program: &Program, toward: &[f64]) -> Extreme {
     let scaled = |list: &[f64], by: f64| -> Vec<f64> { list.iter().map(|v| v / by).collect() };
     let (loads, along) = (scaled(&program.loads, load), scaled(toward, size));
     let columns = Slanted::new(&columns_in(program, load)).columns;
-    let (mut conic, row_of) = load_factor_dual(&loads, &along, &columns);
+    let (mut conic, row_of) = match extremum {
+        Extremum::Largest => load_factor_dual(&loads, &along, &columns),
+        Extremum::Nearest => nearest_factor_dual(&loads, &along, &columns),
+    };
     let many = program.blocks >= MANY_BLOCKS;
     let work = if many { WORK } else { 1.0 };
-    // The last row asks for the work.
+    // The last rows ask for the work.
     conic
         .bound
         .iter_mut()
         .rev()
-        .take(1)
+        .take(extremum.rows())
         .for_each(|b| *b *= work);
     let full = |tolerance: &f64| (*tolerance, Conditioning::Full);
     let plain = [(TOLERANCES[1], Conditioning::Plain)];
@@ -89,9 +129,8 @@ pub fn most(program: &Program, toward: &[f64]) -> Extreme {
     let finest = usize::from(many);
     for (tolerance, conditioning) in tries.chain(TOLERANCES[finest..].iter().map(full)) {
         let answer = solve(&conic, tolerance, conditioning);
-        match (answer.status, answer.z.last()) {
+        match (answer.status, extremum.factor(&answer.z)) {
             (Status::Solved, Some(amount)) => {
-                let amount = amount.max(0.0);
                 let total = loads.iter().zip(&along).map(|(n, t)| n + amount * t);
                 let total: Vec<f64> = total.collect();
                 let given = row_of.iter().enumerate().map(|(k, row)| match *row {

@@ -33,7 +33,7 @@ pub use conic::{
     TOLERANCE, by_clarabel, solve, solve_within,
 };
 pub use determinate::{collapse, determinate};
-pub use limit::{Extreme, Limit, least, most};
+pub use limit::{Extreme, Limit, least, most, nearest_factor};
 pub use nearest::{BoundedNnls, generators};
 pub use polish::polished;
 pub use refine::{corrected, relative};

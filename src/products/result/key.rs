@@ -27,6 +27,10 @@ pub enum Type {
     Bound,
     /// A number, `null` where no value will do, or `"unbounded"` where any will.
     Margin,
+    /// Two ends, `[low, high]`: each a number, `null` without end or `"withheld"`; `null` where the interval is empty.
+    Interval,
+    /// Two lists of motions, beyond the lower and beyond the upper end.
+    MotionPairs,
     /// A point or vector, `[x, y]`.
     Pair,
     /// Two points, `[[x, y], [x, y]]`.
@@ -149,11 +153,22 @@ pub const KEYS: &[Key] = &[
     key("frames[].margins.horizontal_load.left", Type::Margin, "", "", "to the left"),
     key("frames[].margins.horizontal_load.right", Type::Margin, "", "", "to the right"),
     key("frames[].margins.kernel", Type::Margin, "", NAMED, "largest kernel"),
-    key("frames[].margins.load_factor", Type::Margin, "", NAMED, "largest factor on the loads"),
+    key("frames[].margins.load_factor", Type::Margin, "", NAMED, "largest factor on the loads; null also without loads"),
     key("frames[].margins.robots", Type::ByRobot, "", "", "least limits of each robot that holds a block, by its name; empty where they are not asked for"),
     key("frames[].margins.robots.*.fx", Type::Margin, "N", "", "least limit of its horizontal force"),
     key("frames[].margins.robots.*.fy", Type::Margin, "N", "", "least limit of its vertical force"),
     key("frames[].margins.robots.*.torque", Type::Margin, "N·m", "", "least limit of its torque"),
+    key("frames[].margins.intervals", Type::Object, "", "", "the values of each parameter at which the frame stands, all other things as they are; `null` at an end: without end; `null` for an interval: it stands at no value; `\"withheld\"`: no verdict confirms it, and a notice says why"),
+    key("frames[].margins.intervals.friction", Type::Interval, "", NAMED, "one friction coefficient for every interface, from 0 to 1000"),
+    key("frames[].margins.intervals.tilt", Type::Interval, "°", NAMED, "turn of gravity, negative to the left; loads do not turn"),
+    key("frames[].margins.intervals.horizontal_load", Type::Interval, "", NAMED, "share of all weights that acts across gravity, negative to the left"),
+    key("frames[].margins.intervals.kernel", Type::Interval, "", NAMED, "kernel, from 0 to 1; no upper end where it stands at 1"),
+    key("frames[].margins.intervals.load_factor", Type::Interval, "", "where asked for and there are loads", "factor on the loads, at least 0; 1 is as they are listed"),
+    key("frames[].margins.intervals.robots", Type::ByRobot, "", "where asked for and robots hold blocks", "limits of each robot, each alone, by its name"),
+    key("frames[].margins.intervals.robots.*.fx", Type::Interval, "N", "", "limit of its horizontal force"),
+    key("frames[].margins.intervals.robots.*.fy", Type::Interval, "N", "", "limit of its vertical force"),
+    key("frames[].margins.intervals.robots.*.torque", Type::Interval, "N·m", "", "limit of its torque"),
+    key("frames[].margins.notes", Type::NameList, "", "where there are some", "what must be known about an interval, a sentence each"),
     key("frames[].margins.mechanisms", Type::Object, "", "", "how the blocks begin to move just beyond each margin; empty beyond what has no end or is null"),
     key("frames[].margins.mechanisms.friction", Type::Motions, "", "", "beyond the friction margin"),
     key("frames[].margins.mechanisms.tilt", Type::Object, "", "", "beyond the tilts"),
@@ -168,6 +183,10 @@ pub const KEYS: &[Key] = &[
     key("frames[].margins.mechanisms.robots.*.fx", Type::Motions, "", "", "below its least horizontal limit"),
     key("frames[].margins.mechanisms.robots.*.fy", Type::Motions, "", "", "below its least vertical limit"),
     key("frames[].margins.mechanisms.robots.*.torque", Type::Motions, "", "", "below its least limit of torque"),
+    key("frames[].margins.mechanisms.intervals", Type::Object, "", "", "how the blocks begin to move beyond both ends of an interval"),
+    key("frames[].margins.mechanisms.intervals.tilt", Type::MotionPairs, "", "where it has an interval", "beyond the ends of the tilt"),
+    key("frames[].margins.mechanisms.intervals.horizontal_load", Type::MotionPairs, "", "where it has an interval", "beyond the ends of the horizontal load"),
+    key("frames[].margins.mechanisms.intervals.load_factor", Type::MotionPairs, "", "where it has an interval", "beyond the ends of the factor on the loads"),
     key("frames[].only_by_wedging", Type::FlagOrOpen, "", "with `--wedging`, where it stands", "whether it stands only because blocks are pressed together by their own tightness; null where that stays open, with the reason in the effect"),
     key("frames[].wedging", Type::Object, "", "with `--wedging`, where `only_by_wedging` is `true`", "what shows it"),
     key("frames[].wedging.must_press", Type::Objects, "", "", "interfaces that have to press, though nothing presses them"),
@@ -251,6 +270,8 @@ impl Type {
             Type::Number => "number",
             Type::Bound => "number or `\"unbounded\"`",
             Type::Margin => "number, null or `\"unbounded\"`",
+            Type::Interval => "[low, high] or null",
+            Type::MotionPairs => "two lists of motions",
             Type::Pair => "[x, y]",
             Type::Pairs => "[[x, y], [x, y]]",
             Type::Names => "two names",
@@ -276,6 +297,16 @@ impl Type {
             Type::Place => json!({ "type": ["integer", "null"], "minimum": 1 }),
             Type::Number => number,
             Type::Bound | Type::Margin => json!({ "anyOf": [number, unbounded] }),
+            Type::Interval => {
+                let withheld = json!({ "const": "withheld" });
+                let end = json!({ "anyOf": [number, withheld] });
+                let both = json!({ "type": "array", "items": end, "minItems": 2, "maxItems": 2 });
+                json!({ "anyOf": [both, { "type": "null" }, withheld] })
+            }
+            Type::MotionPairs => {
+                let motions = json!({ "type": "array", "items": { "$ref": "#/$defs/motion" } });
+                json!({ "type": "array", "items": motions, "minItems": 2, "maxItems": 2 })
+            }
             Type::Pair => pair,
             Type::Pairs => json!({ "type": "array", "items": pair, "minItems": 2, "maxItems": 2 }),
             Type::Names => {

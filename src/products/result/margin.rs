@@ -2,12 +2,24 @@
 //!
 //! A tilt of `null` says that the frame falls unturned; it may stand turned. A margin that no verdict confirms is `null` as
 //! well, and a notice of the frame says between which values it lies. What was not asked for is absent.
+//!
+//! `intervals` has both ends of each parameter. There `null` is an end that is not there, `"withheld"` one that no verdict
+//! confirms, and `null` in place of an interval says that the frame stands at no value.
 
 use serde::{Serialize, Serializer};
 
 use super::{Motion, Number};
-use crate::analysis::{Margin, Margins as Found, Sides as Either};
+use crate::analysis::{
+    End as Limit, Interval, Intervals as Sets, Margin, Margins as Found, Sides as Either,
+};
 use crate::scene::Scene;
+use crate::text;
+
+/// The margins of a frame as one JSON object on one line: the same as the frame's `margins` in a result.
+pub fn margins_json(scene: &Scene, margins: &Found) -> String {
+    let json = serde_json::to_string(&Margins::new(scene, margins));
+    text::json(&json.expect("plain structures with text keys always serialise into memory"))
+}
 
 #[derive(Serialize)]
 pub(super) struct Margins<'a> {
@@ -22,8 +34,48 @@ pub(super) struct Margins<'a> {
     #[serde(skip_serializing_if = "End::is_left_out")]
     load_factor: End,
     robots: Named<'a, Limits<End>>,
+    intervals: Intervals<'a>,
+    #[serde(skip_serializing_if = "<[String]>::is_empty")]
+    notes: &'a [String],
     mechanisms: Mechanisms<'a>,
 }
+
+/// At which values of each parameter the frame stands. A parameter without meaning in the scene is left out.
+#[derive(Serialize)]
+struct Intervals<'a> {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    friction: Option<Range>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tilt: Option<Range>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    horizontal_load: Option<Range>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    kernel: Option<Range>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    load_factor: Option<Range>,
+    #[serde(skip_serializing_if = "Named::is_empty")]
+    robots: Named<'a, Limits<Range>>,
+}
+
+/// An interval: two ends, or `null` where it is empty.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Range {
+    Empty,
+    Between([RangeEnd; 2]),
+    Withheld(&'static str),
+}
+
+#[derive(Serialize)]
+#[serde(untagged)]
+enum RangeEnd {
+    At(Number),
+    Unbounded,
+    Withheld(&'static str),
+}
+
+/// What stands in place of a value that no verdict confirms.
+const WITHHELD: &str = "withheld";
 
 /// How the blocks begin to move just beyond each edge.
 #[derive(Serialize)]
@@ -34,6 +86,18 @@ struct Mechanisms<'a> {
     kernel: Vec<Motion<'a>>,
     load_factor: Vec<Motion<'a>>,
     robots: Named<'a, Limits<Vec<Motion<'a>>>>,
+    intervals: IntervalMechanisms<'a>,
+}
+
+/// How the blocks begin to move just beyond both ends of an interval, the lower end first.
+#[derive(Serialize)]
+struct IntervalMechanisms<'a> {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tilt: Option<[Vec<Motion<'a>>; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    horizontal_load: Option<[Vec<Motion<'a>>; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    load_factor: Option<[Vec<Motion<'a>>; 2]>,
 }
 
 #[derive(Serialize)]
@@ -74,6 +138,12 @@ impl Sides<End> {
 /// An object whose keys stand in the order of the list.
 struct Named<'a, T>(Vec<(&'a str, T)>);
 
+impl<T> Named<'_, T> {
+    fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+}
+
 impl<T: Serialize> Serialize for Named<'_, T> {
     fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
         serializer.collect_map(self.0.iter().map(|(name, value)| (name, value)))
@@ -81,7 +151,7 @@ impl<T: Serialize> Serialize for Named<'_, T> {
 }
 
 impl<'a> Margins<'a> {
-    pub(super) fn new(scene: &'a Scene, found: &Found) -> Margins<'a> {
+    pub(super) fn new(scene: &'a Scene, found: &'a Found) -> Margins<'a> {
         let motions = |margin: &Margin| match margin {
             Margin::Value { mechanism, .. } => {
                 mechanism.iter().map(|m| Motion::new(scene, m)).collect()
@@ -95,6 +165,8 @@ impl<'a> Margins<'a> {
             kernel: end(&found.kernel),
             load_factor: end(&found.load_factor),
             robots: robots(scene, found, end),
+            intervals: Intervals::new(scene, &found.intervals),
+            notes: &found.intervals.notes,
             mechanisms: Mechanisms {
                 friction: motions(&found.friction),
                 tilt: sides(&found.tilt, motions),
@@ -102,15 +174,71 @@ impl<'a> Margins<'a> {
                 kernel: motions(&found.kernel),
                 load_factor: motions(&found.load_factor),
                 robots: robots(scene, found, motions),
+                intervals: IntervalMechanisms::new(scene, &found.intervals),
             },
         }
+    }
+}
+
+impl<'a> Intervals<'a> {
+    fn new(scene: &'a Scene, found: &Sets) -> Intervals<'a> {
+        let of = |interval: &Option<Interval>| interval.as_ref().map(range);
+        let robots = found.robots.iter().map(|robot| {
+            let limits = Limits {
+                fx: range(&robot.fx),
+                fy: range(&robot.fy),
+                torque: range(&robot.torque),
+            };
+            (scene.robots[robot.robot.0].id.as_str(), limits)
+        });
+        Intervals {
+            friction: of(&found.friction),
+            tilt: of(&found.tilt),
+            horizontal_load: of(&found.horizontal_load),
+            kernel: of(&found.kernel),
+            load_factor: of(&found.load_factor),
+            robots: Named(robots.collect()),
+        }
+    }
+}
+
+impl<'a> IntervalMechanisms<'a> {
+    fn new(scene: &'a Scene, found: &Sets) -> IntervalMechanisms<'a> {
+        let motions = |end: &Limit| match end {
+            Limit::At { mechanism, .. } => {
+                mechanism.iter().map(|m| Motion::new(scene, m)).collect()
+            }
+            _ => Vec::new(),
+        };
+        let both = |interval: &Option<Interval>| {
+            let interval = interval.as_ref()?;
+            Some([motions(interval.low()?), motions(interval.high()?)])
+        };
+        IntervalMechanisms {
+            tilt: both(&found.tilt),
+            horizontal_load: both(&found.horizontal_load),
+            load_factor: both(&found.load_factor),
+        }
+    }
+}
+
+fn range(interval: &Interval) -> Range {
+    let end = |end: &Limit| match end {
+        Limit::At { value, .. } => RangeEnd::At(Number(*value)),
+        Limit::Unbounded => RangeEnd::Unbounded,
+        _ => RangeEnd::Withheld(WITHHELD),
+    };
+    match interval {
+        Interval::Between { low, high } => Range::Between([end(low), end(high)]),
+        Interval::Empty => Range::Empty,
+        _ => Range::Withheld(WITHHELD),
     }
 }
 
 fn end(margin: &Margin) -> End {
     match margin {
         Margin::Value { at, .. } => End::At(Number(*at)),
-        Margin::None | Margin::Unconfirmed { .. } => End::None,
+        Margin::None | Margin::NotApplicable | Margin::Unconfirmed { .. } => End::None,
         Margin::NotAsked => End::NotAsked,
         Margin::Unbounded => End::Unbounded("unbounded"),
     }

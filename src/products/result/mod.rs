@@ -32,6 +32,7 @@ pub use import::import_json;
 pub use key::schema;
 pub use line::{Fields, Origin, PictureOutcome, UnknownField, line_of, verdict_line};
 use margin::Margins;
+pub use margin::margins_json;
 pub use page::{Counts, quoted, report_json};
 use proof::ProofNumbers;
 pub use refusal::{problem_line, refusal};

@@ -14,6 +14,7 @@ pub fn value(margin: &Margin, unit: &str, none: &str) -> String {
             format!("not confirmed (it stands at {}{unit})", digits(*stands))
         }
         Margin::NotAsked => "not asked for".into(),
+        Margin::NotApplicable => "none (there are no loads)".into(),
     }
 }
 
@@ -26,7 +27,8 @@ pub const UNTURNED: &str = "none (it falls unturned)";
 pub fn lines(scene: &Scene, margins: &Margins) -> Vec<String> {
     let edge = |margin: &Margin, unit: &str| value(margin, unit, NONE);
     let one = |name: &str, margin: &Margin| {
-        (*margin != Margin::NotAsked).then(|| format!("{name}: {}", edge(margin, "")))
+        let shown = !matches!(margin, Margin::NotAsked | Margin::NotApplicable);
+        shown.then(|| format!("{name}: {}", edge(margin, "")))
     };
     let two = |name: &str, sides: &Sides, unit: &str, none: &str| {
         let (left, right) = (

@@ -121,7 +121,12 @@ fn margins_are_there_where_asked_for() {
     let margins = |frame: usize| &asked["frames"][frame]["margins"];
     assert!(margins(0)["tilt"]["left"].is_null(), "it falls unturned");
     assert!(margins(1)["friction"].as_f64().expect("number") >= 0.0);
-    assert_eq!(margins(1)["load_factor"], "unbounded");
+    // The scene lists no loads.
+    assert!(margins(1)["load_factor"].is_null());
+    assert!(margins(1)["intervals"].get("load_factor").is_none());
+    let friction = &margins(1)["intervals"]["friction"];
+    assert_eq!(friction[0], margins(1)["friction"]);
+    assert!(friction[1].is_null(), "more friction does no harm");
     assert!(
         margins(1)["robots"]["crane"]["fy"]
             .as_f64()
@@ -144,7 +149,8 @@ fn some_margins_can_be_asked_for_alone() {
         let margins = asked["frames"][1]["margins"].as_object().expect("margins");
         let mut keys: Vec<&str> = margins.keys().map(String::as_str).collect();
         keys.sort_unstable();
-        assert_eq!(keys, ["friction", "mechanisms", "robots", "tilt"], "{line}");
+        let expected = ["friction", "intervals", "mechanisms", "robots", "tilt"];
+        assert_eq!(keys, expected, "{line}");
         assert!(margins["robots"].as_object().expect("an object").is_empty());
     }
     let told = bench.run("check --margins kernel stands.json").out;

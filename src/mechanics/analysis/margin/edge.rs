@@ -4,7 +4,7 @@
 //! by Newton's steps where only the contacts change with the value, else by halving, to nine digits. A value that no verdict
 //! confirms on either side is withheld.
 
-use super::Margin;
+use super::interval::{End, Interval};
 use super::trial::{Setting, Trial};
 use crate::analysis::Verdict;
 use crate::analysis::component::Place;
@@ -19,47 +19,49 @@ pub(super) enum Way {
     Least,
 }
 
-/// Whether a component's margin is worse than what is known of the frame.
-pub(super) fn worse(part: &Margin, whole: &Margin, way: Way) -> bool {
-    match (part, whole) {
-        (Margin::None, _) => *whole != Margin::None,
-        (_, Margin::None) | (Margin::Unbounded | Margin::NotAsked, _) => false,
-        (_, Margin::Unbounded | Margin::NotAsked) => true,
-        (
-            Margin::Value { at: a, .. } | Margin::Unconfirmed { stands: a, .. },
-            Margin::Value { at: b, .. } | Margin::Unconfirmed { stands: b, .. },
-        ) => match way {
-            Way::Most => a < b,
-            Way::Least => a > b,
-        },
-    }
-}
-
 /// What is known beforehand about the value, at least 0, at which a component begins or ceases to stand.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Threshold {
     /// Which side stands.
     pub way: Way,
-    /// How the loads depend on the value.
-    pub loads: Loads,
     /// The size of an ordinary value.
     pub natural: f64,
     /// The largest value that is tried.
     pub most: f64,
 }
 
-/// How the power of the loads along a given motion depends on the value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Loads {
-    /// Linearly: a mechanism at one value says up to which value it is one.
-    Linear,
-    /// Not at all: only the contacts change with it, and what their forces do along a motion does so linearly.
-    Constant,
-    /// Not linearly.
-    Other,
-}
-
 impl Threshold {
+    /// A parameter, up to `most`, of which a least value suffices.
+    pub fn least(most: f64) -> Threshold {
+        Threshold {
+            way: Way::Least,
+            natural: 1.0,
+            most,
+        }
+    }
+
+    /// A parameter, up to `most`, of which a largest value is borne.
+    pub fn most(most: f64) -> Threshold {
+        Threshold {
+            way: Way::Most,
+            ..Threshold::least(most)
+        }
+    }
+
+    /// The interval of which one end is this one.
+    fn interval(&self, end: End) -> Interval {
+        match self.way {
+            Way::Most => Interval::Between {
+                low: End::natural(0.0),
+                high: end,
+            },
+            Way::Least => Interval::Between {
+                low: end,
+                high: End::Unbounded,
+            },
+        }
+    }
+
     /// How far inside an edge it must stand, and from how far beyond it may be shown to fall; relative.
     const NEAR: f64 = 1e-6;
     /// A motion found so far beyond an edge at most is near enough to confirm it.
@@ -75,7 +77,7 @@ impl Threshold {
         trial: &mut Trial,
         setting: &dyn Fn(f64) -> Setting,
         at: f64,
-    ) -> Option<Margin> {
+    ) -> Option<End> {
         let at = if at < 1e-9 * self.natural { 0.0 } else { at };
         let guessed = self
             .steps(at, Side::Inside)
@@ -89,85 +91,63 @@ impl Threshold {
             }
         }
         let mechanism = self.beyond(trial, setting, at)?;
-        Some(Margin::Value { at, mechanism })
+        Some(End::At {
+            value: at,
+            mechanism,
+        })
     }
 
-    /// The edge between 0 and `most`, found by halving and, for linear loads, by how far each mechanism reaches.
+    /// The interval whose end lies between 0 and `most`, found by Newton's steps or else by halving.
     ///
     /// Where a value is undecided the search ends: the edge lies there, within what can be decided.
-    pub fn searched(&self, trial: &mut Trial, setting: &dyn Fn(f64) -> Setting) -> Margin {
-        let at_none = trial.judge(&setting(0.0)).0 == Verdict::Stable;
-        match (self.way, at_none) {
-            (Way::Most, false) => return Margin::None,
-            (Way::Least, true) => {
-                return Margin::Value {
-                    at: 0.0,
-                    mechanism: Vec::new(),
-                };
-            }
-            _ => {}
-        }
+    pub fn searched(&self, trial: &mut Trial, setting: &dyn Fn(f64) -> Setting) -> Interval {
+        let at_none = match (trial.judge(&setting(0.0)).0, self.way) {
+            (Verdict::Unstable, Way::Most) => return Interval::Empty,
+            (Verdict::Undecided, Way::Most) => return Interval::Undecided,
+            (Verdict::Stable, Way::Least) => return self.interval(End::natural(0.0)),
+            (verdict, _) => verdict == Verdict::Stable,
+        };
         let (mut near, mut far) = (0.0, self.natural.min(self.most));
         // Large steps outward, as long as the answer is that at 0.
-        let (mut verdict, mut motion) = trial.judge(&setting(far));
+        let mut verdict = trial.judge(&setting(far)).0;
         while (verdict == Verdict::Stable) == at_none {
             if far >= self.most {
-                return match self.way {
-                    Way::Most => Margin::Unbounded,
-                    Way::Least => Margin::None,
+                return match (self.way, verdict) {
+                    (Way::Most, _) => self.interval(End::Unbounded),
+                    (Way::Least, Verdict::Unstable) => Interval::Empty,
+                    (Way::Least, _) => Interval::Undecided,
                 };
             }
             (near, far) = (far, (far * 10.0).min(self.most));
-            (verdict, motion) = trial.judge(&setting(far));
+            verdict = trial.judge(&setting(far)).0;
         }
         let (mut inside, mut outside) = match self.way {
             Way::Most => (near, far),
             Way::Least => (far, near),
         };
-        if self.loads == Loads::Constant {
-            let found = self.stepped(trial, setting, [inside, outside]);
-            if let Some(found) = found.and_then(|at| self.confirmed(trial, setting, at)) {
-                return found;
-            }
+        let found = self.stepped(trial, setting, [inside, outside]);
+        if let Some(found) = found.and_then(|at| self.confirmed(trial, setting, at)) {
+            return self.interval(found);
         }
-        // The end of a mechanism is the edge itself as soon as it stands there.
-        let mut end = None;
-        let mut fresh = verdict == Verdict::Unstable;
         while (inside - outside).abs() > 1e-9 * inside.max(outside) + 1e-11 * self.natural {
-            let reached = (fresh && self.loads == Loads::Linear)
-                .then(|| trial.reach(setting, &motion))
-                .flatten()
-                .filter(|at| (*at - inside) * (*at - outside) < 0.0);
-            let next = reached.unwrap_or(0.5 * (inside + outside));
-            (verdict, motion) = trial.judge(&setting(next));
-            fresh = false;
-            match verdict {
+            let next = 0.5 * (inside + outside);
+            match trial.judge(&setting(next)).0 {
                 Verdict::Stable => inside = next,
-                Verdict::Unstable => {
-                    // After a mechanism's end a halving, so that short steps cannot go on for ever.
-                    fresh = reached.is_none();
-                    outside = next;
-                }
-                Verdict::Undecided => {}
-            }
-            if reached.is_some() {
-                end = Some(next);
-            }
-            if verdict == Verdict::Undecided || (reached.is_some() && verdict == Verdict::Stable) {
-                break;
+                Verdict::Unstable => outside = next,
+                Verdict::Undecided => break,
             }
         }
-        // What a mechanism rules out is known better than what forces near the edge can show.
-        let at = end
-            .filter(|end| (end - inside) * (end - outside) <= 0.0)
-            .unwrap_or(inside);
         // What is left of the band around 0 is 0.
-        let at = if at < 1e-6 * self.natural { 0.0 } else { at };
+        let at = if inside < 1e-6 * self.natural {
+            0.0
+        } else {
+            inside
+        };
         let found = self.confirmed(trial, setting, at);
-        found.unwrap_or(Margin::Unconfirmed {
+        self.interval(found.unwrap_or(End::Unconfirmed {
             stands: inside,
             beyond: outside,
-        })
+        }))
     }
 
     /// The edge from Newton's steps on the least that forces leave unbalanced, seen from where it falls; `None` where they
@@ -266,13 +246,6 @@ impl Threshold {
             self.steps(at, Side::Beyond)
                 .find_map(|outside| motion(trial.judge_at(&setting(outside), Place::AtEdge)))
         })
-    }
-
-    /// A value, just inside of it, and well beyond.
-    pub fn beside(&self, at: f64) -> [f64; 3] {
-        let inside = self.steps(at, Side::Inside).next();
-        let beyond = self.steps(at, Side::Beyond).last();
-        [at, inside.unwrap_or(at), beyond.unwrap_or(at)]
     }
 
     /// Values at growing steps from an edge.

@@ -2,46 +2,57 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use super::edge::{Loads, Threshold, Way};
+use super::edge::Threshold;
+use super::interval::{End, Interval};
+use super::line::Line;
+use super::parameter::linear;
 use super::trial::{Setting, Trial};
-use super::{Margin, linear};
 use crate::analysis::Verdict;
-use crate::proof::Motion;
 
-/// The largest turn of gravity to one side, degrees, where the largest horizontal share to that side is known.
-pub(super) fn tilt(trial: &mut Trial, side: f64, stands: bool, horizontal: &Margin) -> Margin {
+/// The turns of gravity at which a component stands, degrees, seen from where it is.
+pub(super) fn tilt(trial: &mut Trial, stands: bool, horizontal: Option<&Interval>) -> Interval {
     if !stands {
-        return Margin::None;
+        return Interval::Empty;
     }
-    if !trial.is_loaded() && !trial.is_limited() {
-        return of_weights(trial, side, horizontal);
+    let [low, high] = [-1.0, 1.0].map(|side| end(trial, side, horizontal));
+    Interval::Between { low, high }
+}
+
+/// The largest turn of gravity to one side.
+fn end(trial: &mut Trial, side: f64, horizontal: Option<&Interval>) -> End {
+    if let Some(Interval::Between { low, high }) = horizontal
+        && !trial.is_loaded()
+        && !trial.is_limited()
+    {
+        return of_weights(trial, side, if side < 0.0 { low } else { high });
     }
     let quarters = [(0.0, FRAC_PI_2), (FRAC_PI_2, PI)];
     let exit = quarters
         .into_iter()
         .find_map(|(from, to)| first_exit(trial, side, [from, to], false));
     let setting = |degrees: f64| turned(degrees.to_radians(), 1.0, side);
-    let edge = Threshold {
-        way: Way::Most,
-        loads: Loads::Other,
-        natural: 1f64.to_degrees(),
-        most: 180.0,
-    };
-    match exit.map(f64::to_degrees) {
-        None => Margin::Unbounded,
+    let edge = Threshold::most(180.0);
+    let found = match exit.map(f64::to_degrees) {
+        None => return End::Unbounded,
         Some(at) => {
             let at = if at < 1e-5 { 0.0 } else { at };
-            let found = edge.confirmed(trial, &setting, at);
-            found.unwrap_or_else(|| {
-                let wider = std::iter::successors(Some(0.01), |step| Some(step * 4.0));
-                let mut turns = wider.map(|step| at + step).take_while(|turn| *turn < 180.0);
-                let falls = |turn: &f64| trial.judge(&setting(*turn)).0 == Verdict::Unstable;
-                Margin::Unconfirmed {
+            edge.confirmed(trial, &setting, at)
+                .unwrap_or(End::Unconfirmed {
                     stands: at,
-                    beyond: turns.find(falls).unwrap_or(180.0),
-                }
-            })
+                    beyond: 180.0,
+                })
         }
+    };
+    match found {
+        End::At { value, mechanism } => End::At {
+            value: side * value + 0.0,
+            mechanism,
+        },
+        End::Unconfirmed { stands, beyond } => End::Unconfirmed {
+            stands: side * stands + 0.0,
+            beyond: side * beyond,
+        },
+        End::Unbounded => End::Unbounded,
     }
 }
 
@@ -56,31 +67,47 @@ fn turned(angle: f64, stretch: f64, side: f64) -> Setting {
 
 /// The largest turn where only weights act and no limit cuts a force: what is carried is a cone then, and the turn's
 /// tangent is the largest horizontal share; beyond a quarter turn, the rest's tangent the largest lifting share.
-fn of_weights(trial: &mut Trial, side: f64, horizontal: &Margin) -> Margin {
-    let angle = |from: f64, share: f64, mechanism: &[Motion]| Margin::Value {
-        at: (from + libm::atan(share)).to_degrees(),
-        mechanism: mechanism.to_vec(),
-    };
+fn of_weights(trial: &mut Trial, side: f64, horizontal: &End) -> End {
+    let turn = |share: f64| libm::atan(share).to_degrees();
     match horizontal {
-        Margin::Value { at, mechanism } => angle(0.0, *at, mechanism),
-        Margin::Unconfirmed { stands, beyond } => Margin::Unconfirmed {
-            stands: libm::atan(*stands).to_degrees(),
-            beyond: libm::atan(*beyond).to_degrees(),
+        End::At { value, mechanism } => End::At {
+            value: turn(*value),
+            mechanism: mechanism.clone(),
         },
-        Margin::None | Margin::NotAsked => horizontal.clone(),
-        Margin::Unbounded => {
-            let lifted = |share: f64| Setting {
-                along: -share,
-                across: side,
-                ..Setting::default()
+        End::Unconfirmed { stands, beyond } => End::Unconfirmed {
+            stands: turn(*stands),
+            beyond: turn(*beyond),
+        },
+        End::Unbounded => {
+            let line = Line {
+                setting: &|share| Setting {
+                    along: -share,
+                    across: side,
+                    ..Setting::default()
+                },
+                least: 0.0,
+                natural: 1.0,
             };
-            let alone = Setting {
+            let alone = |_: f64| Setting {
                 along: -1.0,
                 ..Setting::default()
             };
-            match linear(trial, &lifted, alone, Some(f64::INFINITY)) {
-                Margin::Value { at, mechanism } => angle(FRAC_PI_2, at, &mechanism),
-                other => other,
+            match linear(trial, &line, 0.0, true, &alone) {
+                Interval::Between {
+                    high: End::At { value, mechanism },
+                    ..
+                } => End::At {
+                    value: side * (90.0 + turn(value)),
+                    mechanism,
+                },
+                Interval::Between {
+                    high: End::Unbounded,
+                    ..
+                } => End::Unbounded,
+                _ => End::Unconfirmed {
+                    stands: side * 90.0,
+                    beyond: side * 180.0,
+                },
             }
         }
     }

@@ -197,15 +197,8 @@ impl<'a> Trial<'a> {
         }
     }
 
-    /// The value up to which a motion is a mechanism, where the loads are linear in the value: there they do no work.
-    pub fn reach(&self, setting: &dyn Fn(f64) -> Setting, motion: &[Motion]) -> Option<f64> {
-        let [without, with] = [0.0, 1.0].map(|value| self.power(&setting(value), motion));
-        let at = without / (without - with);
-        at.is_finite().then_some(at)
-    }
-
     /// The power of the changed loads along a motion, less what limited robots can hold, in W.
-    fn power(&self, setting: &Setting, motion: &[Motion]) -> f64 {
+    pub fn power(&self, setting: &Setting, motion: &[Motion]) -> f64 {
         let changed = self.changed(setting);
         let mut power = 0.0;
         for (number, body) in changed.bodies.iter().enumerate() {

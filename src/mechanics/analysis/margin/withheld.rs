@@ -1,41 +1,66 @@
 //! What is withheld: margins between whose sides no verdict was reached, in words.
 
-use super::{Margin, Margins};
+use super::{End, Interval, Intervals};
 use crate::scene::RobotId;
 
-impl Margins {
+impl Intervals {
     /// What is withheld and why, a sentence each.
     pub(in crate::mechanics::analysis) fn withheld(
         &self,
         robot: impl Fn(RobotId) -> String,
     ) -> Vec<String> {
         let mut list = Vec::new();
-        let mut tell = |name: String, margin: &Margin| {
-            if let Margin::Unconfirmed { stands, beyond } = margin {
-                list.push(format!(
-                    "{name} is withheld, since no verdict confirms it: it stands at {stands:.6}, and at {beyond:.6} \
-                     it was not shown to stand"
-                ));
+        let mut add = |least: &str, largest: &str, interval: &Interval| match interval {
+            Interval::Between { low, high } => {
+                for (name, end) in [(least, low), (largest, high)] {
+                    if let End::Unconfirmed { stands, beyond } = end {
+                        list.push(format!(
+                            "{name} is withheld, since no verdict confirms it: it stands at {stands:.6}, and at \
+                             {beyond:.6} it was not shown to stand"
+                        ));
+                    }
+                }
             }
+            Interval::Undecided => list.push(format!(
+                "{least} and {largest} are withheld: no verdict shows at which values it stands"
+            )),
+            Interval::Empty => {}
         };
-        tell("the least friction".into(), &self.friction);
-        for (sides, name) in [
-            (&self.tilt, "the largest tilt in degrees"),
-            (&self.horizontal_load, "the largest horizontal share"),
+        for (least, largest, interval) in [
+            ("the least friction", "the largest friction", &self.friction),
+            (
+                "the largest tilt in degrees to the left",
+                "the largest tilt in degrees to the right",
+                &self.tilt,
+            ),
+            (
+                "the largest horizontal share to the left",
+                "the largest horizontal share to the right",
+                &self.horizontal_load,
+            ),
+            ("the least kernel", "the largest kernel", &self.kernel),
+            (
+                "the least factor on the loads",
+                "the largest factor on the loads",
+                &self.load_factor,
+            ),
         ] {
-            tell(format!("{name} to the left"), &sides.left);
-            tell(format!("{name} to the right"), &sides.right);
+            if let Some(interval) = interval {
+                add(least, largest, interval);
+            }
         }
-        tell("the largest kernel".into(), &self.kernel);
-        tell("the largest factor on the loads".into(), &self.load_factor);
         for found in &self.robots {
             let name = robot(found.robot);
-            for (margin, component) in [
+            for (interval, component) in [
                 (&found.fx, "fx in newtons"),
                 (&found.fy, "fy in newtons"),
                 (&found.torque, "torque in newton metres"),
             ] {
-                tell(format!("the least {component} of robot {name}"), margin);
+                add(
+                    &format!("the least {component} of robot {name}"),
+                    &format!("the largest {component} of robot {name}"),
+                    interval,
+                );
             }
         }
         list
@@ -44,48 +69,70 @@ impl Margins {
 
 #[cfg(test)]
 mod tests {
-    use super::super::edge::{Way, worse};
-    use super::super::{RobotMargins, Sides};
+    use super::super::{MarginKinds, Margins, RobotIntervals};
     use super::*;
+    use crate::analysis::Margin;
 
     #[test]
     fn what_no_verdict_confirms_is_withheld_in_words() {
-        let withheld = Margin::Unconfirmed {
+        let open = End::Unconfirmed {
             stands: 0.25,
             beyond: 0.5,
         };
-        let sides = |left: Margin| Sides {
-            left,
-            right: Margin::Unbounded,
+        let up_to = |high: End| Interval::Between {
+            low: End::natural(0.0),
+            high,
         };
-        let found = Margins {
-            friction: Margin::None,
-            tilt: sides(withheld.clone()),
-            horizontal_load: sides(Margin::NotAsked),
-            kernel: withheld.clone(),
-            load_factor: Margin::Unbounded,
-            robots: vec![RobotMargins {
+        let found = Intervals {
+            friction: Some(Interval::Empty),
+            tilt: Some(Interval::Between {
+                low: End::Unconfirmed {
+                    stands: -0.25,
+                    beyond: -0.5,
+                },
+                high: End::Unbounded,
+            }),
+            kernel: Some(up_to(open.clone())),
+            robots: vec![RobotIntervals {
                 robot: RobotId(0),
-                fx: Margin::None,
-                fy: withheld.clone(),
-                torque: Margin::None,
+                fx: Interval::Empty,
+                fy: Interval::Between {
+                    low: open,
+                    high: End::Unbounded,
+                },
+                torque: Interval::Undecided,
             }],
+            ..Intervals::default()
         };
-        let described = found.withheld(|_| "r".to_string());
+        let listed = found.withheld(|_| "r".to_string());
         let expected = [
-            "the largest tilt in degrees to the left is withheld",
-            "the largest kernel is withheld",
-            "the least fy in newtons of robot r is withheld",
+            (
+                "the largest tilt in degrees to the left is withheld",
+                "it stands at -0.250000, and at -0.500000 it was not",
+            ),
+            (
+                "the largest kernel is withheld",
+                "it stands at 0.250000, and at 0.500000 it was not",
+            ),
+            (
+                "the least fy in newtons of robot r is withheld",
+                "it stands at 0.250000, and at 0.500000 it was not",
+            ),
+            (
+                "the least torque in newton metres of robot r and the largest",
+                "no verdict shows at which values",
+            ),
         ];
-        assert_eq!(described.len(), expected.len());
-        for (described, expected) in described.iter().zip(expected) {
-            assert!(described.starts_with(expected), "{described}");
+        assert_eq!(listed.len(), expected.len());
+        for (sentence, (start, reason)) in listed.iter().zip(expected) {
             assert!(
-                described.contains("stands at 0.250000, and at 0.500000 it was not"),
-                "{described}"
+                sentence.starts_with(start) && sentence.contains(reason),
+                "{sentence}"
             );
         }
-        assert_eq!(withheld.at(), None);
-        assert!(worse(&withheld, &Margin::Unbounded, Way::Most));
+        let margins = Margins::new(found, MarginKinds::ALL);
+        assert_eq!(margins.kernel.at(), None);
+        assert!(matches!(margins.tilt.left, Margin::Unconfirmed { stands, .. } if stands == 0.25));
+        assert_eq!(margins.load_factor, Margin::NotApplicable);
     }
 }

@@ -60,7 +60,7 @@ pub fn of(scene: &Scene, found: &FrameAnalysis) -> Vec<MarginBar> {
 fn known(margin: &Margin) -> Option<f64> {
     match margin {
         Margin::Value { at, .. } | Margin::Unconfirmed { stands: at, .. } => Some(*at),
-        Margin::None | Margin::Unbounded | Margin::NotAsked => None,
+        Margin::None | Margin::Unbounded | Margin::NotAsked | Margin::NotApplicable => None,
     }
 }
 
@@ -171,7 +171,7 @@ fn sided(name: &str, unit: &str, sides: &Sides, all: f64, none: &str) -> Option<
 
 /// What may grow from where it is.
 fn upwards(name: &str, margin: &Margin, now: f64, end: Option<f64>) -> Option<MarginBar> {
-    if *margin == Margin::NotAsked {
+    if matches!(margin, Margin::NotAsked | Margin::NotApplicable) {
         return None;
     }
     let at = known(margin);

@@ -1,0 +1,233 @@
+//! [`Interval`]: the values of one parameter at which a frame stands.
+//!
+//! Equilibrium is linear in the forces and in a factor on loads, so these values form a closed interval. A frame stands
+//! where all its components stand: its interval is the intersection of theirs.
+
+use std::cmp::Ordering;
+
+use crate::proof::Motion;
+use crate::scene::RobotId;
+
+/// The values of one parameter at which a frame stands. Both ends belong to it.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Interval {
+    /// It stands at no value.
+    Empty,
+    /// It stands from one value to another.
+    Between {
+        /// The lower end.
+        low: End,
+        /// The upper end.
+        high: End,
+    },
+    /// No verdict shows at which values it stands.
+    Undecided,
+}
+
+/// One end of an [`Interval`].
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum End {
+    /// The frame stands at every value in this direction.
+    Unbounded,
+    /// The frame stands at this value and falls just beyond it.
+    At {
+        /// The value, in the unit of the parameter.
+        value: f64,
+        /// How the blocks begin to move just beyond; empty where the parameter itself begins or ends here, as friction
+        /// does at 0.
+        mechanism: Vec<Motion>,
+    },
+    /// The end lies between two values, but no verdicts were reached that are closer to it.
+    Unconfirmed {
+        /// Here the frame stands.
+        stands: f64,
+        /// Here it falls, or its verdict is undecided.
+        beyond: f64,
+    },
+}
+
+impl End {
+    /// An end at which the parameter itself begins or ends.
+    pub(super) fn natural(value: f64) -> End {
+        End::At {
+            value,
+            mechanism: Vec::new(),
+        }
+    }
+
+    /// The value, where it is confirmed.
+    pub fn value(&self) -> Option<f64> {
+        match self {
+            End::At { value, .. } => Some(*value),
+            End::Unbounded | End::Unconfirmed { .. } => None,
+        }
+    }
+
+    /// The farthest value at which the frame is known to stand; `otherwise` where there is no end.
+    fn stands(&self, otherwise: f64) -> f64 {
+        match self {
+            End::At { value, .. } => *value,
+            End::Unconfirmed { stands, .. } => *stands,
+            End::Unbounded => otherwise,
+        }
+    }
+}
+
+/// Two ends this close to each other, relative to their size, may be one value.
+const SAME_VALUE: f64 = 1e-9;
+
+impl Interval {
+    /// All values.
+    pub(super) const UNBOUNDED: Interval = Interval::Between {
+        low: End::Unbounded,
+        high: End::Unbounded,
+    };
+
+    /// The lower end, where there is one.
+    pub fn low(&self) -> Option<&End> {
+        match self {
+            Interval::Between { low, .. } => Some(low),
+            Interval::Empty | Interval::Undecided => None,
+        }
+    }
+
+    /// The upper end, where there is one.
+    pub fn high(&self) -> Option<&End> {
+        match self {
+            Interval::Between { high, .. } => Some(high),
+            Interval::Empty | Interval::Undecided => None,
+        }
+    }
+
+    /// Whether the frame is known to stand at a value.
+    pub fn contains(&self, value: f64) -> bool {
+        match self {
+            Interval::Between { low, high } => {
+                low.stands(f64::NEG_INFINITY) <= value && value <= high.stands(f64::INFINITY)
+            }
+            Interval::Empty | Interval::Undecided => false,
+        }
+    }
+
+    /// The values at which two components of one frame stand together.
+    pub(super) fn intersection(self, other: Interval) -> Interval {
+        let (low, high) = match (self, other) {
+            (Interval::Empty, _) | (_, Interval::Empty) => return Interval::Empty,
+            (Interval::Undecided, _) | (_, Interval::Undecided) => return Interval::Undecided,
+            (
+                Interval::Between { low, high },
+                Interval::Between {
+                    low: other_low,
+                    high: other_high,
+                },
+            ) => {
+                let [a, b] = [&low, &other_low].map(|end| end.stands(f64::NEG_INFINITY));
+                let low = if b.total_cmp(&a) == Ordering::Greater {
+                    other_low
+                } else {
+                    low
+                };
+                let [a, b] = [&high, &other_high].map(|end| end.stands(f64::INFINITY));
+                let high = if b.total_cmp(&a) == Ordering::Less {
+                    other_high
+                } else {
+                    high
+                };
+                (low, high)
+            }
+        };
+        let (least, most) = (low.stands(f64::NEG_INFINITY), high.stands(f64::INFINITY));
+        if least <= most + SAME_VALUE * most.abs() {
+            return Interval::Between { low, high };
+        }
+        match (&low, &high) {
+            (End::At { .. }, End::At { .. }) => Interval::Empty,
+            // The components may still stand together where one of them is not known to.
+            _ => Interval::Undecided,
+        }
+    }
+}
+
+/// At which values of each parameter a frame stands; `None` where that was not requested or where the parameter has no
+/// meaning in the scene.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct Intervals {
+    /// One friction coefficient for every interface: from the least one up to no end.
+    pub friction: Option<Interval>,
+    /// The turn of gravity in degrees, negative to the left; loads do not turn. Right: gravity's tip moves to the right.
+    pub tilt: Option<Interval>,
+    /// The share of each weight that acts across gravity in addition to the weight, negative to the left.
+    pub horizontal_load: Option<Interval>,
+    /// The safety kernel: from 0 up to the largest one, without end where the frame stands at 1.
+    pub kernel: Option<Interval>,
+    /// The factor on the listed loads, at least 0; `None` in a frame without loads.
+    pub load_factor: Option<Interval>,
+    /// The limits of each robot that holds a block, in the order of the frame's holds.
+    pub robots: Vec<RobotIntervals>,
+    /// What a reader must know about an interval, a sentence each.
+    pub notes: Vec<String>,
+}
+
+/// At which values of one limit a frame stands, the other limits as the scene has them.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct RobotIntervals {
+    /// The robot.
+    pub robot: RobotId,
+    /// The limit of its horizontal force, N.
+    pub fx: Interval,
+    /// The limit of its vertical force, N.
+    pub fy: Interval,
+    /// The limit of its torque, N·m.
+    pub torque: Interval,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn between(low: f64, high: f64) -> Interval {
+        let end = |value: f64| match value.is_finite() {
+            true => End::natural(value),
+            false => End::Unbounded,
+        };
+        Interval::Between {
+            low: end(low),
+            high: end(high),
+        }
+    }
+
+    #[test]
+    fn a_frame_stands_where_all_its_components_stand() {
+        let endless = f64::INFINITY;
+        for (a, b, both) in [
+            ((2.0, endless), (0.0, 0.5), None),
+            ((-1.0, 3.0), (0.5, endless), Some((0.5, 3.0))),
+            ((-endless, 1.0), (1.0, 2.0), Some((1.0, 1.0))),
+            ((-endless, endless), (-2.0, 7.0), Some((-2.0, 7.0))),
+        ] {
+            let expected = both.map_or(Interval::Empty, |(low, high)| between(low, high));
+            let [a, b] = [a, b].map(|(low, high)| between(low, high));
+            assert_eq!(a.clone().intersection(b.clone()), expected);
+            assert_eq!(b.intersection(a), expected);
+        }
+    }
+
+    #[test]
+    fn an_end_that_is_not_confirmed_makes_no_interval_empty() {
+        let open = Interval::Between {
+            low: End::natural(0.0),
+            high: End::Unconfirmed {
+                stands: 1.0,
+                beyond: 2.0,
+            },
+        };
+        let above = between(1.5, 3.0);
+        assert_eq!(open.clone().intersection(above), Interval::Undecided);
+        assert_eq!(open.clone().intersection(Interval::Empty), Interval::Empty);
+        assert!(open.contains(1.0) && !open.contains(1.5));
+    }
+}

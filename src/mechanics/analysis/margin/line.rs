@@ -1,0 +1,350 @@
+//! [`Line`]: the ends of a parameter in which the loads, or what limits the forces, are linear.
+//!
+//! The power of the loads along a fixed mechanism is linear in such a parameter. One mechanism therefore shows that a
+//! component falls at every value on one side of the value at which this power vanishes: a cutting plane (Kelley 1960).
+//! One linear program gives the end and the forces and the mechanism there; verdicts confirm them. Where they do not,
+//! cutting planes and bisection close in on the end.
+
+use super::interval::{End, Interval};
+use super::trial::{Setting, Trial};
+use crate::analysis::Verdict;
+use crate::analysis::component::Place;
+use crate::proof::Motion;
+
+/// A parameter, and how a component changes with it.
+pub(super) struct Line<'a> {
+    /// The changed component at a value.
+    pub setting: &'a dyn Fn(f64) -> Setting,
+    /// The least value that has a meaning; negative infinity where all have.
+    pub least: f64,
+    /// The size of an ordinary value.
+    pub natural: f64,
+}
+
+/// What a search knows of one end.
+struct Bracket {
+    /// Here the component stands.
+    inside: f64,
+    /// From here on a mechanism shows that it falls.
+    beyond: Option<(f64, Vec<Motion>)>,
+}
+
+/// A mechanism cuts values off: all above or all below one, or all.
+enum Cut {
+    Above(f64),
+    Below(f64),
+    All,
+}
+
+/// An end is known when it stands and falls within this distance, relative to the value.
+const NEAR: f64 = 1e-6;
+/// A value from a linear program is believed where verdicts within this distance agree with it, relative.
+const AGREES: f64 = 256e-6;
+/// Steps away from an end grow by this factor where verdicts stay undecided.
+const WIDER: f64 = 16.0;
+/// The most steps of one search.
+const MAX_STEPS: usize = 60;
+/// The largest value that is tried, in natural sizes.
+const MAX_VALUE: f64 = 1e6;
+/// A mechanism that would end beyond this, in natural sizes, shows that nothing stands.
+const MAX_REACH: f64 = 1e9;
+
+impl Line<'_> {
+    /// The end of the interval in one direction, seen from a value at which the component stands.
+    ///
+    /// `hint` is where a linear program has it. The program's forces and motion are remembered by the trial.
+    pub fn end(&self, trial: &mut Trial, from: f64, outward: f64, hint: Option<f64>) -> End {
+        let hint = hint
+            .map(|hint| self.rounded(hint))
+            .filter(|hint| (hint - from) * outward >= 0.0);
+        let is_natural = outward < 0.0 && self.least.is_finite();
+        if is_natural && hint.is_none_or(|hint| hint <= self.least) {
+            if from <= self.least || self.judge(trial, self.least).0 == Verdict::Stable {
+                return End::natural(self.least);
+            }
+        }
+        let mut bracket = Bracket {
+            inside: from,
+            beyond: None,
+        };
+        if let Some(hint) = hint {
+            self.enclose(trial, &mut bracket, hint, outward);
+        }
+        for _ in 0..MAX_STEPS {
+            let Some((beyond, mechanism)) = &bracket.beyond else {
+                match self.farther(trial, &mut bracket, outward) {
+                    Some(end) => return end,
+                    None => continue,
+                }
+            };
+            if (beyond - bracket.inside) * outward <= NEAR * self.size(*beyond) {
+                let within = hint.filter(|hint| {
+                    (hint - bracket.inside) * outward >= 0.0 && (beyond - hint) * outward >= 0.0
+                });
+                return End::At {
+                    value: self.rounded(within.unwrap_or(*beyond)),
+                    mechanism: mechanism.clone(),
+                };
+            }
+            // Just inside the value up to which the mechanism proves that it falls, else half-way.
+            let (beyond, inside) = (*beyond, bracket.inside);
+            let just = beyond - 0.5 * outward * NEAR * self.size(beyond);
+            let found = [just, 0.5 * (inside + beyond)]
+                .into_iter()
+                .filter(|value| (value - inside) * outward > 0.0)
+                .any(|value| {
+                    match self.judge(trial, value) {
+                        (Verdict::Stable, _) => bracket.inside = value,
+                        (Verdict::Unstable, motion) => {
+                            self.cut(trial, &mut bracket, value, motion, outward)
+                        }
+                        (Verdict::Undecided, _) => return false,
+                    }
+                    true
+                });
+            if !found {
+                break;
+            }
+        }
+        self.unconfirmed(bracket, hint, outward)
+    }
+
+    /// An end, a value just inside of it, and one well beyond.
+    pub fn around(&self, end: f64, outward: f64) -> [f64; 3] {
+        let size = outward * self.size(end);
+        [
+            end,
+            end - 0.5 * NEAR * size,
+            (end + 16.0 * AGREES * size).max(self.least),
+        ]
+    }
+
+    /// A value from which to search inward; a limit may be infinite.
+    pub fn from(&self, value: f64) -> f64 {
+        value.min(MAX_VALUE * self.natural)
+    }
+
+    /// What is left to say of an end whose two sides no verdicts brought together.
+    fn unconfirmed(&self, bracket: Bracket, hint: Option<f64>, outward: f64) -> End {
+        let Bracket { inside, beyond } = bracket;
+        let Some((beyond, mechanism)) = beyond else {
+            return End::Unconfirmed {
+                stands: inside,
+                beyond: outward * f64::INFINITY,
+            };
+        };
+        // The linear program says where it is, and verdicts on either side are close enough to bear it out.
+        let agrees = |hint: &f64| {
+            let apart = [(hint - inside) * outward, (beyond - hint) * outward];
+            apart
+                .iter()
+                .all(|d| (-NEAR..=AGREES).contains(&(d / self.size(*hint))))
+        };
+        match hint.filter(agrees) {
+            Some(value) => End::At { value, mechanism },
+            None => End::Unconfirmed {
+                stands: inside,
+                beyond,
+            },
+        }
+    }
+
+    /// Verdicts on either side of where an end is expected: first from what is remembered, which costs no program.
+    fn enclose(&self, trial: &mut Trial, bracket: &mut Bracket, hint: f64, outward: f64) {
+        let size = self.size(hint);
+        let steps = || {
+            std::iter::successors(Some(0.5 * NEAR), |step| Some(step * WIDER))
+                .take_while(|step| *step <= 1.0)
+        };
+        let inside = |step: f64| {
+            let value = hint - outward * step * size;
+            ((value - bracket.inside) * outward > 0.0).then_some(value)
+        };
+        let near = || {
+            steps()
+                .take_while(|step| *step <= AGREES)
+                .filter_map(inside)
+        };
+        let remembered =
+            near().find(|value| trial.guess(&(self.setting)(*value)).0 == Verdict::Stable);
+        let stands = remembered
+            .or_else(|| near().find(|value| self.judge(trial, *value).0 == Verdict::Stable));
+        let outside =
+            |step: f64| Some(hint + outward * step * size).filter(|value| *value >= self.least);
+        let mut falls = steps().filter_map(outside).find_map(|value| {
+            let (verdict, motion) = trial.guess(&(self.setting)(value));
+            (verdict == Verdict::Unstable).then_some((value, motion))
+        });
+        if falls.is_none() {
+            falls = steps()
+                .take_while(|step| *step <= AGREES)
+                .filter_map(outside)
+                .find_map(|value| {
+                    let (verdict, motion) = self.judge(trial, value);
+                    (verdict == Verdict::Unstable).then_some((value, motion))
+                });
+        }
+        if let Some(value) = stands {
+            bracket.inside = value;
+        }
+        if let Some((value, motion)) = falls {
+            self.cut(trial, bracket, value, motion, outward);
+        }
+    }
+
+    /// Takes a mechanism at a value into a bracket.
+    fn cut(
+        &self,
+        trial: &Trial,
+        bracket: &mut Bracket,
+        value: f64,
+        motion: Vec<Motion>,
+        outward: f64,
+    ) {
+        let reached = match self.reach(trial, value, &motion) {
+            Cut::Above(bound) if outward > 0.0 => bound,
+            Cut::Below(bound) if outward < 0.0 => bound,
+            // What a verdict within its band took for standing lies on the other side.
+            _ => value,
+        };
+        let bound = if (reached - bracket.inside) * outward < 0.0 {
+            bracket.inside
+        } else {
+            reached
+        };
+        let is_closer = bracket
+            .beyond
+            .as_ref()
+            .is_none_or(|(known, _)| (known - bound) * outward > 0.0);
+        if is_closer {
+            bracket.beyond = Some((bound, motion));
+        }
+    }
+
+    /// A step outward where nothing is known to fall; an end where there is none.
+    fn farther(&self, trial: &mut Trial, bracket: &mut Bracket, outward: f64) -> Option<End> {
+        let most = MAX_VALUE * self.natural;
+        let next = bracket.inside + outward * (10.0 * bracket.inside.abs()).max(self.natural);
+        let next = next.clamp(self.least.max(-most), most);
+        if next == bracket.inside {
+            return Some(if next == self.least {
+                End::natural(next)
+            } else {
+                End::Unbounded
+            });
+        }
+        match self.judge(trial, next) {
+            (Verdict::Stable, _) => bracket.inside = next,
+            (Verdict::Unstable, motion) => self.cut(trial, bracket, next, motion, outward),
+            (Verdict::Undecided, _) => {
+                return Some(End::Unconfirmed {
+                    stands: bracket.inside,
+                    beyond: next,
+                });
+            }
+        }
+        None
+    }
+
+    /// A value at which the component stands, as close to `present`, at which it does not, as verdicts find one. `hint` is
+    /// where a linear program has the nearest one.
+    pub fn nearest(
+        &self,
+        trial: &mut Trial,
+        present: f64,
+        hint: Option<f64>,
+    ) -> Result<f64, Interval> {
+        let (mut low, mut high) = (self.least, f64::INFINITY);
+        let limit = MAX_REACH * self.natural;
+        let mut next = Some(present);
+        let mut hinted = hint;
+        for _ in 0..MAX_STEPS {
+            let value = match next.take() {
+                Some(value) => value,
+                None => {
+                    let within = |value: &f64| (low..=high).contains(value);
+                    hinted
+                        .take()
+                        .filter(within)
+                        .unwrap_or(present.clamp(low, high))
+                }
+            };
+            let found = self.beside(trial, value, [low, high]);
+            match found {
+                (Verdict::Stable, at, _) => return Ok(at),
+                (Verdict::Undecided, ..) => return Err(Interval::Undecided),
+                (Verdict::Unstable, at, motion) => match self.reach(trial, at, &motion) {
+                    Cut::All => return Err(Interval::Empty),
+                    Cut::Above(bound) => high = high.min(bound.min(at)),
+                    Cut::Below(bound) => low = low.max(bound.max(at)),
+                },
+            }
+            if low > high || low > limit || high < -limit {
+                return Err(Interval::Empty);
+            }
+        }
+        Err(Interval::Undecided)
+    }
+
+    /// The verdict at a value or, where it is undecided, at growing distances to either side.
+    fn beside(
+        &self,
+        trial: &mut Trial,
+        value: f64,
+        [low, high]: [f64; 2],
+    ) -> (Verdict, f64, Vec<Motion>) {
+        let steps = std::iter::successors(Some(NEAR), |step| Some(step * WIDER))
+            .take_while(|step| *step <= AGREES);
+        let away = steps
+            .flat_map(|step| [step, -step])
+            .map(|step| value + step * self.size(value));
+        let mut last = Vec::new();
+        for at in std::iter::once(value).chain(away.filter(|at| (low..=high).contains(at))) {
+            let (verdict, motion) = self.judge(trial, at);
+            if verdict != Verdict::Undecided {
+                return (verdict, at, motion);
+            }
+            last = motion;
+        }
+        (Verdict::Undecided, value, last)
+    }
+
+    /// The values that a mechanism at one value cuts off.
+    fn reach(&self, trial: &Trial, value: f64, motion: &[Motion]) -> Cut {
+        let [without, with] =
+            [0.0, self.natural].map(|at| trial.power(&(self.setting)(at), motion));
+        let slope = (with - without) / self.natural;
+        let bound = -without / slope;
+        if !bound.is_finite() || bound.abs() > MAX_REACH * self.natural {
+            return Cut::All;
+        }
+        // A verdict at the value comes with a mechanism that does work there.
+        if slope > 0.0 {
+            Cut::Above(bound.min(value))
+        } else {
+            Cut::Below(bound.max(value))
+        }
+    }
+
+    fn judge(&self, trial: &mut Trial, value: f64) -> (Verdict, Vec<Motion>) {
+        trial.judge_at(&(self.setting)(value), Place::AtEdge)
+    }
+
+    /// The size that distances from a value are measured in.
+    fn size(&self, value: f64) -> f64 {
+        if value.abs() < 1e-3 * self.natural {
+            self.natural
+        } else {
+            value.abs()
+        }
+    }
+
+    /// What is a rounding away from 0 is 0.
+    fn rounded(&self, value: f64) -> f64 {
+        if value.abs() < 1e-9 * self.natural {
+            0.0
+        } else {
+            value
+        }
+    }
+}
