@@ -140,8 +140,19 @@ pub(super) fn of(
             }
         }
     }
+    let is_cone =
+        |part: &Part| !trial::is_loaded(part.component) && !trial::is_limited(part.component);
+    if let Some(Interval::Between { .. }) = intervals.tilt
+        && !components.iter().all(|(part, _)| is_cone(part))
+    {
+        intervals.notes.push(ONE_ARC.into());
+    }
     (Margins::new(intervals, kinds), judged)
 }
+
+/// Loads that do not turn and limits make the tilts at which a frame stands several arcs.
+const ONE_ARC: &str = "tilt: listed loads and robots' limits do not turn with gravity, so the frame may stand at other \
+                       tilts too; this interval contains 0, or is the nearest one where the frame falls unturned";
 
 /// The intervals of all limits: no robot can save a frame in which another component falls.
 fn robots(components: &[(&Part, &ComponentIntervals)]) -> Vec<RobotIntervals> {

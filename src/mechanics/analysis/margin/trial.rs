@@ -102,19 +102,12 @@ impl<'a> Trial<'a> {
 
     /// Whether the scene lists a load on the component.
     pub fn is_loaded(&self) -> bool {
-        self.given
-            .bodies
-            .iter()
-            .any(|b| b.listed != LoadVector::NONE)
+        is_loaded(self.given)
     }
 
     /// Whether some robot's limit is neither none nor infinite, so that twice the loads is not twice the forces.
     pub fn is_limited(&self) -> bool {
-        self.given.grips.iter().any(|grip| {
-            [grip.limits.fx, grip.limits.fy, grip.limits.torque]
-                .into_iter()
-                .any(|l| l > 0.0 && l.is_finite())
-        })
+        is_limited(self.given)
     }
 
     /// Whether the changed component stands, and how it begins to move where it falls.
@@ -258,6 +251,21 @@ impl<'a> Trial<'a> {
         }
         changed
     }
+}
+
+/// Whether the scene lists a load on a component.
+pub(super) fn is_loaded(component: &Assembly) -> bool {
+    let mut bodies = component.bodies.iter();
+    bodies.any(|body| body.listed != LoadVector::NONE)
+}
+
+/// Whether some limit of a robot on a component is neither 0 nor infinite.
+pub(super) fn is_limited(component: &Assembly) -> bool {
+    component.grips.iter().any(|grip| {
+        [grip.limits.fx, grip.limits.fy, grip.limits.torque]
+            .into_iter()
+            .any(|limit| limit > 0.0 && limit.is_finite())
+    })
 }
 
 /// The limits of a grip as a setting has them.
