@@ -20,7 +20,7 @@ use drystone::internals::program::{
     sticking_columns,
 };
 use drystone::internals::solve::{
-    Conditioning, ITERATIONS, SolverSettings, Status, by_clarabel, solve_within,
+    Conditioning, MAX_ITERATIONS, SolverSettings, Status, by_clarabel, solve_within,
 };
 use serde_json::{Value, json};
 
@@ -56,20 +56,20 @@ fn main() {
 fn told(blocks: usize, angle: f64, name: &str, problem: &QuadraticProgram) {
     let settings = SolverSettings::from(Conditioning::Plain);
     let [ours, theirs] =
-        [solve_within, by_clarabel].map(|solver| solver(problem, settings, ITERATIONS));
+        [solve_within, by_clarabel].map(|solver| solver(problem, settings, MAX_ITERATIONS));
     let times = TURNS.medians::<&dyn Fn()>(&[
         &|| {
             drop(black_box(solve_within(
                 black_box(problem),
                 settings,
-                ITERATIONS,
+                MAX_ITERATIONS,
             )))
         },
         &|| {
             drop(black_box(by_clarabel(
                 black_box(problem),
                 settings,
-                ITERATIONS,
+                MAX_ITERATIONS,
             )))
         },
     ]);

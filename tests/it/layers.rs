@@ -170,7 +170,7 @@ const DOORS: &[(&str, &[&str])] = &[
     ),
     ("schemars", &["scene/format.rs", "scene/format/"]),
     ("clarabel", &["solve/"]),
-    ("amd", &["solve/normal/panels.rs"]),
+    ("amd", &["solve/normal/elimination_tree.rs"]),
     (
         "resvg",
         &[

@@ -340,7 +340,7 @@ fn examined(situation: &FrameContext, options: Options, known: &mut Known) -> Fr
         .filter(|k| !known.findings.contains_key(&keys[*k]))
         .collect();
     let one = |k: &usize| {
-        let _until = DeadlineGuard::set(options.deadline);
+        let _until = DeadlineGuard::new(options.deadline);
         solved(&components[*k], options)
     };
     // Many small components are worth the threads; the order of the results is that of the components either way.
@@ -375,7 +375,7 @@ fn examined(situation: &FrameContext, options: Options, known: &mut Known) -> Fr
         analysis.doubts.insert(0, UndecidedReason::Late);
     }
     stages.solution = start.elapsed().as_secs_f64() - stages.assembly;
-    let _until = DeadlineGuard::set(options.deadline);
+    let _until = DeadlineGuard::new(options.deadline);
     let methods = found.iter().map(|f| f.1.method);
     analysis.solve = SolveReport {
         method: methods.max().unwrap_or(Method::ClosedForm),

@@ -127,7 +127,7 @@ fn balance_within(program: &Program, settings: SolverSettings, short: usize) -> 
             for margin in margins {
                 let face = whole.narrowed(&solved, *margin);
                 // Margins order the columns, so a face of as many columns and full ones is one that was tried.
-                let of = (face.columns.len(), face.full.len());
+                let of = (face.columns.len(), face.at_limit.len());
                 if sizes.contains(&of) {
                     continue;
                 }

@@ -67,9 +67,9 @@ const SLACK_IN_USE: f64 = 0.5;
 /// Of many blocks the first stage is solved more sharply. In a wall of 2 000 bricks turned by 40° the second stage had
 /// no balance on the columns found without.
 const FINER: CrossoverTolerance = CrossoverTolerance {
-    by: 1e-2,
-    slack: 1.2 * SLACK_IN_USE * SAME_OF_MANY,
-    before: 3.0,
+    tolerance_factor: 1e-2,
+    max_slack: 1.2 * SLACK_IN_USE * SAME_OF_MANY,
+    early_factor: 3.0,
 };
 
 /// A block is light whose load is less than this part of the largest.
@@ -197,10 +197,10 @@ fn finer(loads: &[f64]) -> CrossoverTolerance {
         .filter(|load| *load > 0.0)
         .fold(f64::INFINITY, f64::min);
     CrossoverTolerance {
-        before: if lightest < LIGHT * largest(loads) {
+        early_factor: if lightest < LIGHT * largest(loads) {
             0.0
         } else {
-            FINER.before
+            FINER.early_factor
         },
         ..FINER
     }
@@ -212,7 +212,7 @@ fn without_middles(whole: &Face, settings: SolverSettings, effort: &mut Effort) 
     let cost = |c: &Column| f64::from(u8::from(c.force.is_sticking()));
     let (conic, row_of) = kinematic_dual(&whole.loads, &slanted.columns, cost);
     let finer = SolverSettings {
-        finer: Some(finer(&whole.loads)),
+        crossover: Some(finer(&whole.loads)),
         ..settings
     };
     let answer = once(&conic, finer, effort);

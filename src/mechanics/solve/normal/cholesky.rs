@@ -1,247 +1,249 @@
-//! [`Cholesky`]: the factor L·Lᵀ of Σ weight·column·columnᵀ, panel by panel.
+//! [`Cholesky`]: the factor L·Lᵀ of A·W·Aᵀ = Σ weight·column·columnᵀ, supernode by supernode.
 //!
-//! A panel takes the columns whose first unknown is eliminated in it, and the products that its children hand up; it
-//! factors its own columns, keeps them, and hands on what is left of its rows (the multifrontal method, Duff and Reid 1983).
-//! So the matrix itself is never written down.
+//! The multifrontal method (Duff and Reid 1983; Liu 1992). Each supernode in postorder
+//!
+//! 1. assembles its frontal matrix: the columns of A whose first unknown it eliminates, and the update matrices of its
+//!    children from the stack (extend-add);
+//! 2. factors its own columns;
+//! 3. pushes what is left of the rows below, its own update matrix, onto the stack.
+//!
+//! A·W·Aᵀ itself is never assembled as a whole.
 
-use super::elements::Elements;
-use super::panels::{Supernode, Supernodes};
-use super::product::{Packed, dot, factor};
+use super::column_groups::ColumnGroups;
+use super::dense::{PackedRows, dot, factor_columns};
+use super::supernodes::{Supernode, Supernodes};
 
-/// A factor, and all that is needed to make it anew with other weights.
+/// A factor, and all that is needed to compute it again with other weights.
 pub(super) struct Cholesky {
-    panels: Supernodes,
-    /// Where the values of each panel begin: column by column, each of its own width and rows.
+    supernodes: Supernodes,
+    /// Where the values of each supernode begin. They are stored column by column; each column has the supernode's own
+    /// rows and the rows below.
     begin: Vec<usize>,
     values: Vec<f64>,
-    /// The families of columns that each panel takes.
-    taken: Vec<Vec<u32>>,
-    scratch: Scratch,
+    /// For each supernode, the groups of columns of A whose first unknown it eliminates.
+    assembled_groups: Vec<Vec<u32>>,
+    workspace: Workspace,
 }
 
-/// Room that every factoring uses again.
+/// Buffers that every factorization uses again.
 #[derive(Default)]
-struct Scratch {
-    /// Where each position stands in the panel at hand.
+struct Workspace {
+    /// The local row of each position in the current front.
     local: Vec<u32>,
-    /// What panels hand up, the last one last.
-    handed: Vec<f64>,
-    /// Products of the columns of one family.
-    products: Vec<f64>,
-    /// Rows of a child that stand side by side in its parent's panel as well.
-    runs: Vec<Run>,
-    packed: Packed,
+    /// Update matrices (contribution blocks), packed lower triangles; a stack.
+    update_stack: Vec<f64>,
+    /// The weighted Gram matrix of one group of columns.
+    gram: Vec<f64>,
+    /// Rows of a child that are also consecutive in its parent's front.
+    runs: Vec<RowRun>,
+    packed: PackedRows,
 }
 
-/// Where column c of a packed lower triangle of `rows` rows would have its row 0.
+/// Where row 0 of column c would be in a packed lower triangle of `rows` rows, were it stored.
 fn packed_begin(rows: usize, c: usize) -> usize {
     c * rows - c * (c + 1) / 2
 }
 
-/// Entries of a packed lower triangle.
+/// The number of entries in a packed lower triangle.
 fn packed_size(rows: usize) -> usize {
     rows * (rows + 1) / 2
 }
 
 impl Cholesky {
-    /// Finds the order of elimination, and numbers the unknowns of the columns in it; `None` where there is none.
-    pub fn new(elements: &mut Elements) -> Option<Cholesky> {
-        let panels = Supernodes::new(elements)?;
-        elements.renumber(&panels.position);
+    /// Symbolic analysis. Finds the order of elimination and permutes the rows of the columns into it; `None` if no order
+    /// is found.
+    pub fn new(columns: &mut ColumnGroups) -> Option<Cholesky> {
+        let supernodes = Supernodes::new(columns)?;
+        columns.permute_rows(&supernodes.position);
         let mut begin = vec![0];
-        let mut of_column = vec![0; elements.unknowns()];
-        for (k, panel) in panels.panels.iter().enumerate() {
-            of_column[panel.first..panel.first + panel.width].fill(k);
-            begin.push(begin[k] + panel.width * (panel.width + panel.rows.len()));
+        let mut supernode_of = vec![0; columns.unknowns()];
+        for (k, node) in supernodes.list.iter().enumerate() {
+            supernode_of[node.first..node.first + node.width].fill(k);
+            begin.push(begin[k] + node.width * (node.width + node.rows.len()));
         }
-        let mut taken = vec![Vec::new(); panels.panels.len()];
-        for k in 0..elements.families() {
-            if let Some(first) = elements.family(k).places.first() {
-                taken[of_column[*first as usize]].push(k as u32);
+        let mut assembled_groups = vec![Vec::new(); supernodes.list.len()];
+        for k in 0..columns.group_count() {
+            if let Some(first) = columns.group(k).rows.first() {
+                assembled_groups[supernode_of[*first as usize]].push(k as u32);
             }
         }
-        let values = vec![0.0; begin[panels.panels.len()]];
-        let scratch = Scratch {
-            local: vec![0; elements.unknowns()],
-            ..Scratch::default()
+        let values = vec![0.0; begin[supernodes.list.len()]];
+        let workspace = Workspace {
+            local: vec![0; columns.unknowns()],
+            ..Workspace::default()
         };
         Some(Cholesky {
-            panels,
+            supernodes,
             begin,
             values,
-            taken,
-            scratch,
+            assembled_groups,
+            workspace,
         })
     }
 
-    /// Multiplications and additions of one factoring.
+    /// The number of multiplications and additions of one factorization.
     pub fn operations(&self) -> f64 {
-        let of = |panel: &Supernode| {
-            let (w, m) = (panel.width as f64, panel.rows.len() as f64);
+        let of = |node: &Supernode| {
+            let (w, m) = (node.width as f64, node.rows.len() as f64);
             w * m * m + w * w * m + w * w * w / 3.0
         };
-        self.panels.panels.iter().map(of).sum()
+        self.supernodes.list.iter().map(of).sum()
     }
 
-    /// A list of unknowns in the order of elimination.
-    pub fn in_order(&self, list: &[f64]) -> Vec<f64> {
+    /// Permutes a list of unknowns into the order of elimination.
+    pub fn to_elimination_order(&self, list: &[f64]) -> Vec<f64> {
         let mut ordered = vec![0.0; list.len()];
-        for (value, position) in list.iter().zip(&self.panels.position) {
+        for (value, position) in list.iter().zip(&self.supernodes.position) {
             ordered[*position as usize] = *value;
         }
         ordered
     }
 
-    /// A list in the order of elimination as it was given.
-    pub fn as_given(&self, list: &[f64]) -> Vec<f64> {
-        let positions = self.panels.position.iter();
+    /// Permutes a list from the order of elimination back to that of the program.
+    pub fn to_program_order(&self, list: &[f64]) -> Vec<f64> {
+        let positions = self.supernodes.position.iter();
         positions.map(|position| list[*position as usize]).collect()
     }
 
-    /// Factors Σ weight·column·columnᵀ + least·1.
-    pub fn factor(&mut self, elements: &Elements, weights: &[f64], least: f64) {
-        let Scratch {
+    /// Factors A·W·Aᵀ + diagonal·1, with one weight for each column.
+    pub fn factor(&mut self, columns: &ColumnGroups, weights: &[f64], diagonal: f64) {
+        let Workspace {
             local,
-            handed,
-            products,
+            update_stack,
+            gram,
             runs,
             packed,
-        } = &mut self.scratch;
-        handed.clear();
-        let mut waiting: Vec<usize> = Vec::new();
-        for (p, panel) in self.panels.panels.iter().enumerate() {
-            let rows = &self.panels.rows[panel.rows.clone()];
-            let (width, below) = (panel.width, rows.len());
+        } = &mut self.workspace;
+        update_stack.clear();
+        // The supernodes whose update matrices are on the stack.
+        let mut on_stack: Vec<usize> = Vec::new();
+        for (p, node) in self.supernodes.list.iter().enumerate() {
+            let rows = &self.supernodes.rows[node.rows.clone()];
+            let (width, below) = (node.width, rows.len());
             let height = width + below;
             let values = &mut self.values[self.begin[p]..self.begin[p + 1]];
             values.fill(0.0);
             for k in 0..width {
-                local[panel.first + k] = k as u32;
-                values[k * height + k] = least;
+                local[node.first + k] = k as u32;
+                values[k * height + k] = diagonal;
             }
             for (k, row) in rows.iter().enumerate() {
                 local[*row as usize] = (width + k) as u32;
             }
-            // The children's products lie on top; what this panel hands up is gathered behind them and takes their place.
-            let first_child = waiting.len() - panel.children;
-            let from_children = |p: &usize| packed_size(self.panels.panels[*p].rows.len());
-            let size: usize = waiting[first_child..].iter().map(from_children).sum();
-            let base = handed.len() - size;
-            let own = handed.len();
-            handed.resize(own + packed_size(below), 0.0);
-            let (children, rest) = handed.split_at_mut(own);
+            // The children's update matrices lie on top of the stack. This supernode's own one is assembled above them and
+            // moved into their place at the end.
+            let first_child = on_stack.len() - node.children;
+            let update_size = |p: &usize| packed_size(self.supernodes.list[*p].rows.len());
+            let size: usize = on_stack[first_child..].iter().map(update_size).sum();
+            let base = update_stack.len() - size;
+            let own = update_stack.len();
+            update_stack.resize(own + packed_size(below), 0.0);
+            let (children, update) = update_stack.split_at_mut(own);
             let mut front = Front {
                 width,
                 height,
                 values,
-                rest,
+                update,
             };
-            for k in &self.taken[p] {
-                let family = elements.family(*k as usize);
-                family.products(weights, products);
-                let places = family.places;
-                for (i, column) in places.iter().enumerate() {
-                    let mut column = front.column(local[*column as usize] as usize);
-                    let sums = &products[i * places.len()..(i + 1) * places.len()];
-                    for (row, sum) in places[i..].iter().zip(&sums[i..]) {
-                        column[local[*row as usize] as usize] += sum;
-                    }
-                }
+            for k in &self.assembled_groups[p] {
+                let group = columns.group(*k as usize);
+                group.weighted_gram(weights, gram);
+                front.assemble(group.rows, gram, local);
             }
             let mut at = base;
-            for child in waiting.drain(first_child..) {
-                let rows = &self.panels.rows[self.panels.panels[child].rows.clone()];
-                Run::all(rows, local, runs);
-                for (k, run) in runs.iter().enumerate() {
-                    for i in run.from..run.end {
-                        let mut column = front.column(run.to + i - run.from);
-                        let begin = at;
-                        at += rows.len() - i;
-                        let products = &children[begin..at];
-                        for run in &runs[k..] {
-                            let from = run.from.max(i);
-                            let to = run.to + from - run.from;
-                            column.add(to, &products[from - i..run.end - i]);
-                        }
-                    }
-                }
+            for child in on_stack.drain(first_child..) {
+                let rows = &self.supernodes.rows[self.supernodes.list[child].rows.clone()];
+                RowRun::find(rows, local, runs);
+                let end = at + packed_size(rows.len());
+                front.extend_add(rows.len(), &children[at..end], runs);
+                at = end;
             }
-            factor(front.values, height, width, packed);
+            factor_columns(front.values, height, width, packed);
             if below > 0 {
-                packed.fill(front.values, height, width);
-                packed.take_from(front.rest, below, |c| packed_begin(below, c));
-                waiting.push(p);
+                packed.pack(front.values, height, width);
+                packed.subtract_gram(front.update, below, |c| packed_begin(below, c));
+                on_stack.push(p);
             }
-            handed.copy_within(own.., base);
-            handed.truncate(base + packed_size(below));
+            update_stack.copy_within(own.., base);
+            update_stack.truncate(base + packed_size(below));
         }
     }
 
-    /// Solves for right-hand sides that stand side by side, in place, in the order of elimination.
+    /// Solves for N right-hand sides at once, in place, in the order of elimination.
     pub fn solve<const N: usize>(&self, x: &mut [[f64; N]]) {
-        let mut below: Vec<[f64; N]> = Vec::new();
-        for (p, panel) in self.panels.panels.iter().enumerate() {
-            let rows = &self.panels.rows[panel.rows.clone()];
-            let (width, height) = (panel.width, panel.width + rows.len());
+        self.forward(x);
+        self.backward(x);
+    }
+
+    /// L·x = right-hand side, children first.
+    fn forward<const N: usize>(&self, x: &mut [[f64; N]]) {
+        let mut sums: Vec<[f64; N]> = Vec::new();
+        for (p, node) in self.supernodes.list.iter().enumerate() {
+            let rows = &self.supernodes.rows[node.rows.clone()];
+            let (width, height) = (node.width, node.width + rows.len());
             let values = &self.values[self.begin[p]..self.begin[p + 1]];
-            below.clear();
-            below.resize(height, [0.0; N]);
+            sums.clear();
+            sums.resize(height, [0.0; N]);
             for (k, column) in values.chunks_exact(height).enumerate() {
-                let at = panel.first + k;
+                let at = node.first + k;
                 for n in 0..N {
-                    x[at][n] = (x[at][n] - below[k][n]) * column[k];
+                    x[at][n] = (x[at][n] - sums[k][n]) * column[k];
                 }
                 let own = x[at];
-                for (sum, l) in below[k + 1..].iter_mut().zip(&column[k + 1..]) {
+                for (sum, l) in sums[k + 1..].iter_mut().zip(&column[k + 1..]) {
                     for n in 0..N {
                         sum[n] += l * own[n];
                     }
                 }
             }
-            for (row, sum) in rows.iter().zip(&below[width..]) {
+            for (row, sum) in rows.iter().zip(&sums[width..]) {
                 for n in 0..N {
                     x[*row as usize][n] -= sum[n];
                 }
             }
         }
+    }
+
+    /// Lᵀ·x = right-hand side, parents first.
+    fn backward<const N: usize>(&self, x: &mut [[f64; N]]) {
         let mut lists: [Vec<f64>; N] = std::array::from_fn(|_| Vec::new());
-        for (p, panel) in self.panels.panels.iter().enumerate().rev() {
-            let rows = &self.panels.rows[panel.rows.clone()];
-            let (width, height) = (panel.width, panel.width + rows.len());
+        for (p, node) in self.supernodes.list.iter().enumerate().rev() {
+            let rows = &self.supernodes.rows[node.rows.clone()];
+            let (width, height) = (node.width, node.width + rows.len());
             let values = &self.values[self.begin[p]..self.begin[p + 1]];
             for (n, list) in lists.iter_mut().enumerate() {
                 list.clear();
-                list.extend(x[panel.first..panel.first + width].iter().map(|x| x[n]));
+                list.extend(x[node.first..node.first + width].iter().map(|x| x[n]));
                 list.extend(rows.iter().map(|row| x[*row as usize][n]));
             }
             for (k, column) in values.chunks_exact(height).enumerate().rev() {
                 for (n, list) in lists.iter_mut().enumerate() {
                     let sum = dot(&list[k + 1..], &column[k + 1..]);
                     list[k] = (list[k] - sum) * column[k];
-                    x[panel.first + k][n] = list[k];
+                    x[node.first + k][n] = list[k];
                 }
             }
         }
     }
 }
 
-/// Rows of a panel that stand side by side in another one too.
-struct Run {
+/// Rows of a child's update matrix that are consecutive in its parent's front too.
+struct RowRun {
     from: usize,
     end: usize,
-    /// Where the first of them stands there.
+    /// The local row of the first of them in the parent.
     to: usize,
 }
 
-impl Run {
-    /// All rows, where each stands elsewhere being given.
-    fn all(rows: &[u32], local: &[u32], runs: &mut Vec<Run>) {
+impl RowRun {
+    /// Splits the rows of a child into runs; `local` has the local row of each position in the parent.
+    fn find(rows: &[u32], local: &[u32], runs: &mut Vec<RowRun>) {
         runs.clear();
         for (k, row) in rows.iter().enumerate() {
             let to = local[*row as usize] as usize;
             match runs.last_mut() {
                 Some(run) if run.to + (k - run.from) == to => run.end = k + 1,
-                _ => runs.push(Run {
+                _ => runs.push(RowRun {
                     from: k,
                     end: k + 1,
                     to,
@@ -251,60 +253,89 @@ impl Run {
     }
 }
 
-/// The matrix of one panel: its own columns, and the lower triangle that it hands up.
+/// The frontal matrix of one supernode, a lower triangle: its own columns, and the update matrix it passes on.
 struct Front<'a> {
     width: usize,
     height: usize,
     values: &'a mut [f64],
-    rest: &'a mut [f64],
+    update: &'a mut [f64],
 }
 
 impl Front<'_> {
-    /// A column, such that row r stands at r.
-    fn column(&mut self, c: usize) -> Shifted<'_> {
+    /// Adds the Gram matrix of a group of columns with these rows.
+    fn assemble(&mut self, rows: &[u32], gram: &[f64], local: &[u32]) {
+        for (i, column) in rows.iter().enumerate() {
+            let mut column = self.column(local[*column as usize] as usize);
+            let sums = &gram[i * rows.len()..(i + 1) * rows.len()];
+            for (row, sum) in rows[i..].iter().zip(&sums[i..]) {
+                column[local[*row as usize] as usize] += sum;
+            }
+        }
+    }
+
+    /// Adds the update matrix of a child, a packed lower triangle of `rows` rows.
+    fn extend_add(&mut self, rows: usize, update: &[f64], runs: &[RowRun]) {
+        let mut end = 0;
+        for (k, run) in runs.iter().enumerate() {
+            for i in run.from..run.end {
+                let mut column = self.column(run.to + i - run.from);
+                let begin = end;
+                end += rows - i;
+                let entries = &update[begin..end];
+                for run in &runs[k..] {
+                    let from = run.from.max(i);
+                    let to = run.to + from - run.from;
+                    column.add(to, &entries[from - i..run.end - i]);
+                }
+            }
+        }
+    }
+
+    /// Column c of the front, from the diagonal on or earlier, indexed by its local rows.
+    fn column(&mut self, c: usize) -> FrontColumn<'_> {
         match c.checked_sub(self.width) {
-            None => Shifted {
+            None => FrontColumn {
                 list: &mut self.values[c * self.height..(c + 1) * self.height],
-                by: 0,
+                first_row: 0,
             },
             Some(c) => {
                 let rows = self.height - self.width;
                 let begin = packed_begin(rows, c) + c;
-                Shifted {
-                    list: &mut self.rest[begin..begin + rows - c],
-                    by: self.width + c,
+                FrontColumn {
+                    list: &mut self.update[begin..begin + rows - c],
+                    first_row: self.width + c,
                 }
             }
         }
     }
 }
 
-/// Rows from one on.
-struct Shifted<'a> {
+/// The rows of a column, from `first_row` on.
+struct FrontColumn<'a> {
     list: &'a mut [f64],
-    by: usize,
+    first_row: usize,
 }
 
-impl Shifted<'_> {
-    /// Adds a list to the rows from one on.
+impl FrontColumn<'_> {
+    /// Adds a list to the rows from `row` on.
     fn add(&mut self, row: usize, list: &[f64]) {
-        let begin = row - self.by;
+        let begin = row - self.first_row;
         for (v, w) in self.list[begin..begin + list.len()].iter_mut().zip(list) {
             *v += w;
         }
     }
 }
 
-impl std::ops::Index<usize> for Shifted<'_> {
+impl std::ops::Index<usize> for FrontColumn<'_> {
     type Output = f64;
 
     fn index(&self, row: usize) -> &f64 {
-        &self.list[row - self.by]
+        &self.list[row - self.first_row]
     }
 }
 
-impl std::ops::IndexMut<usize> for Shifted<'_> {
+impl std::ops::IndexMut<usize> for FrontColumn<'_> {
     fn index_mut(&mut self, row: usize) -> &mut f64 {
-        &mut self.list[row - self.by]
+        &mut self.list[row - self.first_row]
     }
 }

@@ -28,10 +28,10 @@ fn lattice(wide: usize, high: usize, numbers: &mut Numbers) -> (usize, Vec<Vec<(
     (3 * wide * high, columns)
 }
 
-fn elements(unknowns: usize, columns: &[Vec<(usize, f64)>]) -> Elements {
+fn elements(unknowns: usize, columns: &[Vec<(usize, f64)>]) -> ColumnGroups {
     let entries = columns.iter().enumerate();
     let entries = entries.flat_map(|(k, column)| column.iter().map(move |(i, v)| (k, *i, *v)));
-    Elements::new(unknowns, columns.len(), entries)
+    ColumnGroups::new(unknowns, columns.len(), entries)
 }
 
 /// max loadsᵀy  s.t.  columnᵀy ≤ cost.
@@ -64,17 +64,17 @@ fn forces(loads: &[f64], columns: &[Vec<(usize, f64)>], cost: &[f64]) -> Quadrat
     }
 }
 
-fn limits() -> Limits {
-    Limits {
+fn criteria() -> StoppingCriteria {
+    StoppingCriteria {
         tolerance: TOLERANCE,
-        finer: None,
+        crossover: None,
         iterations: 100,
         deadline: None,
     }
 }
 
 fn solved(problem: &QuadraticProgram) -> Answer {
-    solve_where(problem, limits(), 0.0).expect("of this kind")
+    solve_any_size(problem, criteria(), 0.0).expect("of this kind")
 }
 
 fn product(a: &[f64], b: &[f64]) -> f64 {
@@ -115,7 +115,7 @@ fn a_factor_solves_what_it_factored_for_one_right_hand_side_and_for_two() {
         factor.factor(&posed, &weights, 0.0);
         let wanted: [Vec<f64>; 2] =
             std::array::from_fn(|_| (0..unknowns).map(|_| numbers.next()).collect());
-        let ordered = [0, 1].map(|n| factor.in_order(&wanted[n]));
+        let ordered = [0, 1].map(|n| factor.to_elimination_order(&wanted[n]));
         let mut both: Vec<[f64; 2]> = (0..unknowns)
             .map(|k| [ordered[0][k], ordered[1][k]])
             .collect();
@@ -128,12 +128,12 @@ fn a_factor_solves_what_it_factored_for_one_right_hand_side_and_for_two() {
             one.iter().map(|v| v[0]).collect::<Vec<f64>>(),
         ];
         for (found, wanted) in found.iter().zip([&wanted[0], &wanted[1], &wanted[0]]) {
-            let x = factor.as_given(found);
+            let x = factor.to_program_order(found);
             let mut along = vec![0.0; columns.len()];
-            plain.along(&x, &mut along);
+            plain.transpose_product(&x, &mut along);
             along.iter_mut().zip(&weights).for_each(|(a, w)| *a *= w);
             let mut given = vec![0.0; unknowns];
-            plain.add(&along, &mut given);
+            plain.add_product(&along, &mut given);
             for (given, wanted) in given.iter().zip(wanted) {
                 assert!(
                     (given - wanted).abs() < 1e-7,
@@ -156,9 +156,13 @@ fn what_nothing_holds_does_not_move() {
     let mut posed = elements(9, &columns);
     let mut factor = Cholesky::new(&mut posed).expect("an order");
     factor.factor(&posed, &[1.0; 4], 0.0);
-    let mut x: Vec<[f64; 1]> = factor.in_order(&[1.0; 9]).iter().map(|v| [*v]).collect();
+    let mut x: Vec<[f64; 1]> = factor
+        .to_elimination_order(&[1.0; 9])
+        .iter()
+        .map(|v| [*v])
+        .collect();
     factor.solve(&mut x);
-    let x = factor.as_given(&x.iter().map(|v| v[0]).collect::<Vec<_>>());
+    let x = factor.to_program_order(&x.iter().map(|v| v[0]).collect::<Vec<_>>());
     // (4 + 1)·x₀ + x₆ = 1 and x₀ + x₆ = 1.
     for (k, wanted) in [(0, 0.0), (1, 1.0), (2, 1.0), (6, 1.0)] {
         assert!((x[k] - wanted).abs() < 1e-14, "{x:?}");
@@ -275,17 +279,17 @@ fn it_gives_up_after_its_iterations_and_at_its_deadline() {
     let (unknowns, list) = lattice(6, 6, &mut numbers);
     let loads: Vec<f64> = (0..unknowns).map(|_| numbers.next()).collect();
     let problem = kinematic(&loads, &list, &vec![1.0; list.len()]);
-    let few = Limits {
+    let few = StoppingCriteria {
         iterations: 2,
-        ..limits()
+        ..criteria()
     };
-    let answer = solve_where(&problem, few, 0.0).expect("of this kind");
+    let answer = solve_any_size(&problem, few, 0.0).expect("of this kind");
     assert_eq!((answer.status, answer.iterations), (Status::Unsolved, 2));
-    let late = Limits {
-        deadline: Some(Instant::now()),
-        ..limits()
+    let late = StoppingCriteria {
+        deadline: Some(std::time::Instant::now()),
+        ..criteria()
     };
-    let answer = solve_where(&problem, late, 0.0).expect("of this kind");
+    let answer = solve_any_size(&problem, late, 0.0).expect("of this kind");
     assert_eq!((answer.status, answer.iterations), (Status::Unsolved, 0));
 }
 
@@ -295,14 +299,14 @@ fn other_kinds_of_programs_are_left_to_clarabel() {
     let (unknowns, list) = lattice(5, 5, &mut numbers);
     let (loads, cost) = (vec![1.0; unknowns], vec![1.0; list.len()]);
     let plain = kinematic(&loads, &list, &cost);
-    let taken = |problem: &QuadraticProgram| solve_where(problem, limits(), 0.0).is_some();
+    let taken = |problem: &QuadraticProgram| solve_any_size(problem, criteria(), 0.0).is_some();
     assert!(taken(&plain) && taken(&forces(&loads, &list, &cost)));
-    assert!(solve(&plain, limits()).is_none(), "too small");
-    let few = Limits {
+    assert!(solve(&plain, criteria()).is_none(), "too small");
+    let few = StoppingCriteria {
         iterations: 1,
-        ..limits()
+        ..criteria()
     };
-    let unsolved = |least_work: f64| solve_where(&plain, few, least_work);
+    let unsolved = |least_work: f64| solve_any_size(&plain, few, least_work);
     assert!(unsolved(0.0).is_some_and(|a| a.status == Status::Unsolved));
     assert!(unsolved(1e9).is_none(), "a chain without a status");
     let mut squared = plain.clone();
@@ -429,7 +433,7 @@ fn least_squares_above_floors_meet_their_conditions_and_cost_what_clarabel_finds
 }
 
 #[test]
-fn columns_of_the_same_two_bodies_are_one_family_and_act_as_they_stood() {
+fn columns_of_the_same_two_bodies_are_one_group_and_act_as_before() {
     let mut numbers = Numbers(3);
     let mut column = |unknowns: &[usize]| -> Vec<(usize, f64)> {
         unknowns.iter().map(|i| (*i, numbers.next())).collect()
@@ -445,22 +449,25 @@ fn columns_of_the_same_two_bodies_are_one_family_and_act_as_they_stood() {
         column(&[8]),
     ];
     let mut elements = elements(9, &columns);
-    assert_eq!([elements.count(), elements.families()], [7, 2]);
-    assert_eq!(elements.family(0).places, [0, 1, 2, 3, 4, 5]);
-    assert_eq!(elements.family(1).places, [3, 4, 5, 6, 7, 8]);
-    assert_eq!(elements.family(1).first, 4);
-    let number: Vec<u32> = vec![4, 0, 8, 2, 6, 1, 7, 3, 5];
-    elements.renumber(&number);
+    assert_eq!([elements.column_count(), elements.group_count()], [7, 2]);
+    assert_eq!(elements.group(0).rows, [0, 1, 2, 3, 4, 5]);
+    assert_eq!(elements.group(1).rows, [3, 4, 5, 6, 7, 8]);
+    assert_eq!(elements.group(1).first, 4);
+    let position: Vec<u32> = vec![4, 0, 8, 2, 6, 1, 7, 3, 5];
+    elements.permute_rows(&position);
     let amounts: Vec<f64> = (0..7).map(|_| numbers.next()).collect();
     let y: Vec<f64> = (0..9).map(|_| numbers.next()).collect();
     let (mut sum, mut products) = (vec![0.0; 9], vec![0.0; 7]);
-    elements.add(&amounts, &mut sum);
-    elements.along(&y, &mut products);
+    elements.add_product(&amounts, &mut sum);
+    elements.transpose_product(&y, &mut products);
     for (k, column) in columns.iter().enumerate() {
-        let along: f64 = column.iter().map(|(i, v)| v * y[number[*i] as usize]).sum();
+        let along: f64 = column
+            .iter()
+            .map(|(i, v)| v * y[position[*i] as usize])
+            .sum();
         assert!((products[k] - along).abs() < 1e-14, "column {k}");
         for (i, v) in column {
-            sum[number[*i] as usize] -= v * amounts[k];
+            sum[position[*i] as usize] -= v * amounts[k];
         }
     }
     assert!(sum.iter().all(|v| v.abs() < 1e-14), "{sum:?}");

@@ -1,25 +1,30 @@
-//! Dense parts of a factor: Cholesky's columns, and products taken from a lower triangle.
+//! Dense kernels of the factorization: Cholesky of the columns of a supernode, and its update matrix.
 //!
-//! Four rows stand side by side in the packed form, so that one product of four by four numbers is sixteen independent
-//! sums, which the compiler keeps in registers.
+//! A right-looking blocked Cholesky factorization (Golub and Van Loan, Matrix Computations, section 4.2). Rows are packed
+//! in groups of four, so that a product of four by four numbers is sixteen independent sums, which the compiler keeps in
+//! vector registers.
 
-/// A pivot that is less than this part of what stood there before has been lost to rounding.
-const LOST: f64 = 1e-13;
+/// A pivot below this fraction of the diagonal entry before elimination consists of rounding. Its column is set to zero, which
+/// leaves the unknown at 0: nothing holds the body in that direction.
+///
+/// Relative, some hundred times the rounding of a sum of f64. Ten times larger, weak but real supports would be dropped; ten
+/// times smaller, the rounding of a sum of many terms would count as a support and make the unknown huge.
+const LOST_PIVOT: f64 = 1e-13;
 
-/// Columns factored one by one before what follows them is changed.
-const STEP: usize = 16;
+/// Columns that are factored one by one before the columns to their right are updated together.
+const BLOCK_COLUMNS: usize = 16;
 
-/// Rows of some columns, four rows side by side: entry k of group g stands at g·columns + k.
+/// Rows of some columns, in groups of four: entry k of group g is at g·columns + k.
 #[derive(Default)]
-pub(super) struct Packed {
+pub(super) struct PackedRows {
     entries: Vec<[f64; 4]>,
     columns: usize,
     rows: usize,
 }
 
-impl Packed {
-    /// The rows from `from` on of columns of `height` rows.
-    pub fn fill(&mut self, columns: &[f64], height: usize, from: usize) {
+impl PackedRows {
+    /// Packs the rows from `from` on of columns that have `height` rows each.
+    pub fn pack(&mut self, columns: &[f64], height: usize, from: usize) {
         self.columns = columns.len() / height;
         self.rows = height - from;
         self.entries.clear();
@@ -32,9 +37,16 @@ impl Packed {
         }
     }
 
-    /// Takes rows·rowsᵀ from the first `columns` columns of a lower triangle, of which row r of column c stands at
-    /// `begin(c)` + r.
-    pub fn take_from(&self, target: &mut [f64], columns: usize, begin: impl Fn(usize) -> usize) {
+    /// Subtracts rows·rowsᵀ from the first `columns` columns of a lower triangle, a symmetric update of rank
+    /// `self.columns`.
+    ///
+    /// Row r of column c of the triangle is at `begin(c)` + r in `target`.
+    pub fn subtract_gram(
+        &self,
+        target: &mut [f64],
+        columns: usize,
+        begin: impl Fn(usize) -> usize,
+    ) {
         let groups = || self.entries.chunks_exact(self.columns).enumerate();
         for (g, left) in groups().take(columns.div_ceil(4)) {
             let c = 4 * g;
@@ -42,6 +54,7 @@ impl Packed {
             for (h, right) in groups().skip(g) {
                 let r = 4 * h;
                 let sums = products(left, right);
+                // Off the diagonal and away from the last rows all four entries are in the triangle.
                 let whole = h > g && r + 4 <= self.rows;
                 for (i, sums) in sums.iter().enumerate().take(wide) {
                     let at = begin(c + i) + r;
@@ -52,8 +65,8 @@ impl Packed {
                             }
                         }
                         _ => {
-                            let within = |j: &usize| r + j < self.rows && r + j >= c + i;
-                            for j in (0..4).filter(within) {
+                            let is_inside = |j: &usize| r + j < self.rows && r + j >= c + i;
+                            for j in (0..4).filter(is_inside) {
                                 target[at + j] -= sums[j];
                             }
                         }
@@ -64,7 +77,7 @@ impl Packed {
     }
 }
 
-/// Σ leftᵢ·rightⱼ of four rows with four rows.
+/// The sums Σ leftᵢ·rightⱼ for four rows by four rows.
 fn products(left: &[[f64; 4]], right: &[[f64; 4]]) -> [[f64; 4]; 4] {
     let mut sums = [[0.0; 4]; 4];
     for (a, b) in left.iter().zip(right) {
@@ -77,14 +90,22 @@ fn products(left: &[[f64; 4]], right: &[[f64; 4]]) -> [[f64; 4]; 4] {
     sums
 }
 
-/// Factors the first `width` columns, of `height` rows each, in place; what stands on the diagonal becomes 1/pivot, and 0
-/// with all its column where the pivot is lost.
-pub(super) fn factor(values: &mut [f64], height: usize, width: usize, packed: &mut Packed) {
-    let before: Vec<f64> = (0..width).map(|k| values[k * height + k]).collect();
+/// Factors the first `width` columns, of `height` rows each, in place.
+///
+/// The diagonal entry becomes the inverse of the pivot's root, 1/L(k, k). Where the pivot is lost to rounding, the whole
+/// column becomes 0.
+pub(super) fn factor_columns(
+    values: &mut [f64],
+    height: usize,
+    width: usize,
+    packed: &mut PackedRows,
+) {
+    let diagonal: Vec<f64> = (0..width).map(|k| values[k * height + k]).collect();
     let mut begin = 0;
     while begin < width {
-        let end = (begin + STEP).min(width);
+        let end = (begin + BLOCK_COLUMNS).min(width);
         for k in begin..end {
+            // Columns of this block that were factored before; earlier blocks have updated this column already.
             let (left, right) = values.split_at_mut(k * height);
             let column = &mut right[k..height];
             for source in left.chunks_exact(height).skip(begin) {
@@ -94,7 +115,7 @@ pub(super) fn factor(values: &mut [f64], height: usize, width: usize, packed: &m
                 }
             }
             let pivot = column[0];
-            if pivot > LOST * before[k] {
+            if pivot > LOST_PIVOT * diagonal[k] {
                 let scale = 1.0 / pivot.sqrt();
                 column[0] = scale;
                 column[1..].iter_mut().for_each(|v| *v *= scale);
@@ -104,14 +125,14 @@ pub(super) fn factor(values: &mut [f64], height: usize, width: usize, packed: &m
         }
         if end < width {
             let (done, rest) = values.split_at_mut(end * height);
-            packed.fill(&done[begin * height..], height, end);
-            packed.take_from(rest, width - end, |c| c * height + end);
+            packed.pack(&done[begin * height..], height, end);
+            packed.subtract_gram(rest, width - end, |c| c * height + end);
         }
         begin = end;
     }
 }
 
-/// A sum of products, in four parts.
+/// The dot product of two lists of equal length, summed in four parts.
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; 4];
     let (fours, others) = (a.chunks_exact(4), b.chunks_exact(4));
@@ -123,4 +144,9 @@ pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
         }
     }
     (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
+}
+
+/// The largest absolute value in a list, 0 for an empty list.
+pub(super) fn max_norm(list: &[f64]) -> f64 {
+    list.iter().fold(0.0, |m: f64, v| m.max(v.abs()))
 }

@@ -12,7 +12,7 @@
 //! depend on the loads, nor on rows and columns that are new. Nothing here is believed without its proof.
 
 use super::Amounts;
-use super::factor::Factor;
+use super::incremental_cholesky::Factor;
 use crate::program::{Column, Force, Program, columns};
 
 /// A column wants in where it gains more than this share of its own size times what is left.

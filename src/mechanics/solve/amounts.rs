@@ -1,0 +1,120 @@
+//! [`Amounts`]: the forces of a program, by contact and grip; and [`Effort`].
+
+use super::residual_norm::largest;
+use crate::geometry::{Vector, cross, quarter_turn};
+use crate::program::{Force, Program};
+
+/// Amounts of the forces of a program, pure numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Amounts {
+    /// Per contact: normal forces ≥ 0 at the two application points. Among sticking forces: pulls.
+    pub normal: Vec<[f64; 2]>,
+    /// Per contact: friction along (−n_y, n_x).
+    pub friction: Vec<f64>,
+    /// Per grip: force x, force y, torque/L.
+    pub grip: Vec<[f64; 3]>,
+}
+
+impl Amounts {
+    /// No force anywhere.
+    pub fn none(program: &Program) -> Amounts {
+        Amounts {
+            normal: vec![[0.0; 2]; program.contacts.len()],
+            friction: vec![0.0; program.contacts.len()],
+            grip: vec![[0.0; 3]; program.grips.len()],
+        }
+    }
+
+    /// Σ (N1 + N2 + |T|) + Σ (|Fx| + |Fy| + |M|/L), the cost of the source.
+    pub fn total(&self) -> f64 {
+        let contacts: f64 = self
+            .normal
+            .iter()
+            .flatten()
+            .chain(&self.friction)
+            .map(|v| v.abs())
+            .sum();
+        contacts + self.grip.iter().flatten().map(|v| v.abs()).sum::<f64>()
+    }
+
+    /// The largest entry of loads − Σ force, pure numbers: 0 where every block is balanced.
+    pub fn unbalanced(&self, program: &Program) -> f64 {
+        let mut residual = program.loads.clone();
+        let mut act = |block: usize, force: Vector, moment: f64| {
+            for (row, value) in [force.x, force.y, moment].into_iter().enumerate() {
+                residual[3 * block + row] -= value;
+            }
+        };
+        for (k, contact) in program.contacts.iter().enumerate() {
+            let (normal, tangent) = (contact.normal, quarter_turn(contact.normal));
+            let [first, second] = self.normal[k].map(|amount| normal * amount);
+            let first = first + tangent * self.friction[k];
+            let both = [(contact.on, 1.0)].into_iter();
+            for ((block, arms), sign) in both.chain(contact.from.map(|from| (from, -1.0))) {
+                let moment = cross(arms[0], first) + cross(arms[1], second);
+                act(block, (first + second) * sign, moment * sign);
+            }
+        }
+        for (grip, [x, y, moment]) in program.grips.iter().zip(&self.grip) {
+            let force = Vector::new(*x, *y);
+            act(grip.block, force, cross(grip.arm, force) + moment);
+        }
+        largest(&residual)
+    }
+
+    /// Multiplies every amount by a number.
+    pub(super) fn multiply(&mut self, by: f64) {
+        let friction = self.friction.iter_mut();
+        let (normal, grip) = (self.normal.iter_mut(), self.grip.iter_mut());
+        let pairs = normal.flatten().chain(friction);
+        pairs.chain(grip.flatten()).for_each(|v| *v *= by);
+    }
+
+    /// Adds `amount` of a force.
+    pub fn add(&mut self, force: Force, amount: f64) {
+        match force {
+            Force::Ray {
+                contact,
+                point,
+                normal,
+                friction,
+            } => {
+                self.normal[contact][point] += normal * amount;
+                self.friction[contact] += friction * amount;
+            }
+            Force::StickNormal { contact, point } => self.normal[contact][point] += amount,
+            Force::StickFriction { contact, sign } => self.friction[contact] += sign * amount,
+            Force::Grip {
+                grip,
+                component,
+                sign,
+            }
+            | Force::StickGrip {
+                grip,
+                component,
+                sign,
+            } => {
+                self.grip[grip][component] += sign * amount;
+            }
+        }
+    }
+}
+
+/// How much work a result took.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Effort {
+    /// Interior-point iterations.
+    pub iterations: usize,
+    /// Programs solved.
+    pub programs: usize,
+}
+
+impl Effort {
+    /// The sum of two efforts.
+    pub fn and(self, other: Effort) -> Effort {
+        Effort {
+            iterations: self.iterations + other.iterations,
+            programs: self.programs + other.programs,
+        }
+    }
+}

@@ -1,0 +1,37 @@
+//! [`DeadlineGuard`]: a time limit for all programs that a thread solves.
+
+use std::cell::Cell;
+use std::time::Instant;
+
+thread_local! {
+    /// When this thread's programs are given up.
+    static DEADLINE: Cell<Option<Instant>> = const { Cell::new(None) };
+}
+
+/// While this lives, programs of this thread are given up at a deadline.
+///
+/// A deadline belongs to a run, not to a program. So it is not an argument of everything that poses a program.
+#[derive(Debug)]
+pub(crate) struct DeadlineGuard {
+    former: Option<Instant>,
+}
+
+impl DeadlineGuard {
+    /// Sets the deadline from now on; `None` is no deadline. Dropping the guard restores the former one.
+    pub(crate) fn new(deadline: Option<Instant>) -> DeadlineGuard {
+        DeadlineGuard {
+            former: DEADLINE.replace(deadline),
+        }
+    }
+}
+
+impl Drop for DeadlineGuard {
+    fn drop(&mut self) {
+        DEADLINE.set(self.former);
+    }
+}
+
+/// The deadline of this thread.
+pub(super) fn deadline() -> Option<Instant> {
+    DEADLINE.get()
+}

@@ -1,0 +1,353 @@
+//! Least squares of amounts with lower bounds: an interior-point method for a quadratic program with a block-diagonal matrix.
+//!
+//! ```text
+//! min ½ xᵀPx + linearᵀx   s.t.   A x = loads,   s = x + floor ≥ 0,   multipliers z ≥ 0 of the bounds
+//! ```
+//!
+//! P couples only the few columns of one contact. The method is Mehrotra's predictor and corrector (Nocedal and Wright,
+//! Numerical Optimization, 2006, section 16.6). Each step solves A·W·Aᵀ·dy = right-hand side with W = (P + Z/S)⁻¹, one small
+//! block for each contact. With P + Z/S = L·Lᵀ the matrix is that of the columns L⁻¹·Aᵀ, each of weight 1, so the factor of
+//! the linear programs serves here too.
+//!
+//! The amounts x and their distances s from the bounds are separate variables: for an amount far above its bound, a small
+//! change of x would be lost in the rounding of s.
+
+use std::time::Instant;
+
+use super::block_matrix::{
+    BlockDiagonal, MAX_BLOCK_COLUMNS, backward_substitute, cholesky_in_place, forward_substitute,
+};
+use super::cholesky::Cholesky;
+use super::column_groups::ColumnGroups;
+use super::dense::{dot, max_norm};
+use super::iterate::{REGULARIZATION, STEP_TO_BOUNDARY, shorten_step};
+use crate::program::QuadraticProgram;
+use crate::solve::answer::{Answer, Status};
+use crate::solve::settings::StoppingCriteria;
+
+/// The gap is closed to this fraction of the tolerance, if that can be reached. A gap of a billionth of the squares leaves
+/// forces off by some 10⁻⁵ of themselves (the square root), and one or two more steps are cheap.
+const GAP_FACTOR: f64 = 1e-3;
+
+/// A step shorter than this makes hardly any progress.
+const SHORT_STEP: f64 = 0.1;
+
+/// A step longer than [`LONG_STEP`] makes none either if it leaves more than [`STALLED_SHARE`] of the unbalanced loads: such a step
+/// usually leaves a third of them.
+const LONG_STEP: f64 = 0.8;
+const STALLED_SHARE: f64 = 0.8;
+
+/// After this many steps in a row without progress the method gives up: no amounts balance the loads.
+const MAX_IDLE_STEPS: usize = 3;
+
+/// Solves the program; `None` if it is of another form, or if the method ends without an optimum.
+///
+/// Chains are welcome: for an arch of 10 000 stones, whose thrust is thousands of loads, clarabel calls the least squares
+/// infeasible.
+pub(super) fn solve(problem: &QuadraticProgram, criteria: StoppingCriteria) -> Option<Answer> {
+    if !has_only_floors(problem) {
+        return None;
+    }
+    let tolerance = criteria.tolerance;
+    let mut run = BlockQp::new(BlockDiagonal::quadratic_of(problem)?, problem)?;
+    run.set_starting_point();
+    let (mut iterations, mut idle_steps) = (0, 0);
+    while !run.is_optimal(tolerance, GAP_FACTOR * tolerance) {
+        let is_late = criteria.deadline.is_some_and(|end| Instant::now() >= end);
+        if iterations == criteria.iterations || is_late || idle_steps == MAX_IDLE_STEPS {
+            if run.is_optimal(tolerance, tolerance) {
+                break;
+            }
+            return None;
+        }
+        let former = max_norm(&run.residuals.primal);
+        let step = run.step();
+        let is_stalled = max_norm(&run.residuals.primal) > STALLED_SHARE * former;
+        let is_in_vain = step > LONG_STEP && is_stalled && !run.is_balanced(tolerance);
+        idle_steps = if step < SHORT_STEP || is_in_vain {
+            idle_steps + 1
+        } else {
+            0
+        };
+        if !run.mu().is_finite() {
+            return None;
+        }
+        iterations += 1;
+    }
+    let y = run.factor.to_program_order(&run.y);
+    Some(Answer {
+        status: Status::Solved,
+        z: y.iter().map(|v| -v).chain(run.z).collect(),
+        s: vec![0.0; y.len()].into_iter().chain(run.s).collect(),
+        x: run.x,
+        iterations,
+    })
+}
+
+/// Whether the rows are the balance and one lower bound for each column.
+fn has_only_floors(problem: &QuadraticProgram) -> bool {
+    let n = problem.unknowns;
+    let is_floor = |(row, column, value): &(usize, usize, f64)| {
+        *row - problem.equalities == *column && *value == -1.0
+    };
+    let mut below = problem.matrix.iter().filter(|e| e.0 >= problem.equalities);
+    // With fewer columns than rows there is seldom a balance at all, which clarabel sees after two iterations.
+    problem.equalities != 0
+        && n >= problem.equalities
+        && problem.bound.len() == problem.equalities + n
+        && below.all(is_floor)
+}
+
+/// A run of the method.
+struct BlockQp {
+    quadratic: BlockDiagonal,
+    /// A, with the unknowns in the order of elimination.
+    columns: ColumnGroups,
+    /// L⁻¹·Aᵀ, the columns of which have weight 1.
+    whitened: ColumnGroups,
+    factor: Cholesky,
+    ones: Vec<f64>,
+    /// L for each block, in the lower triangle.
+    lower: Vec<f64>,
+    loads: Vec<f64>,
+    linear: Vec<f64>,
+    floor: Vec<f64>,
+    x: Vec<f64>,
+    y: Vec<f64>,
+    s: Vec<f64>,
+    z: Vec<f64>,
+    residuals: Residuals,
+}
+
+/// What the conditions of an optimum leave at the iterate.
+struct Residuals {
+    /// loads − A x.
+    primal: Vec<f64>,
+    /// Aᵀy + z − Px − linear.
+    dual: Vec<f64>,
+    /// x + floor − s.
+    bound: Vec<f64>,
+    /// Largest entries of A x, of Px and of Aᵀy.
+    size: [f64; 3],
+}
+
+/// A direction of the iterate.
+struct Direction {
+    x: Vec<f64>,
+    y: Vec<f64>,
+    s: Vec<f64>,
+    z: Vec<f64>,
+}
+
+impl BlockQp {
+    fn new(quadratic: BlockDiagonal, problem: &QuadraticProgram) -> Option<BlockQp> {
+        let n = problem.unknowns;
+        let balance = problem
+            .matrix
+            .iter()
+            .filter(|e| e.0 < problem.equalities)
+            .map(|(row, column, value)| (*column, *row, *value));
+        let mut columns = ColumnGroups::with_groups(problem.equalities, &quadratic.blocks, balance);
+        if columns.max_entries() > super::MAX_ENTRIES {
+            return None;
+        }
+        let factor = Cholesky::new(&mut columns)?;
+        let (loads, floor) = problem.bound.split_at(problem.equalities);
+        Some(BlockQp {
+            lower: vec![0.0; quadratic.entries.len()],
+            quadratic,
+            whitened: columns.clone(),
+            ones: vec![1.0; n],
+            loads: factor.to_elimination_order(loads),
+            factor,
+            linear: problem.linear.clone(),
+            floor: floor.to_vec(),
+            x: vec![0.0; n],
+            y: vec![0.0; problem.equalities],
+            s: vec![1.0; n],
+            z: vec![1.0; n],
+            residuals: Residuals {
+                primal: vec![0.0; problem.equalities],
+                dual: vec![0.0; n],
+                bound: vec![0.0; n],
+                size: [0.0; 3],
+            },
+            columns,
+        })
+    }
+
+    /// The starting point: the least squares without bounds, then s and z shifted until they are positive.
+    fn set_starting_point(&mut self) {
+        self.factor_system();
+        let mut side: Vec<[f64; 1]> = self.loads.iter().map(|v| [*v]).collect();
+        self.factor.solve(&mut side);
+        self.y = side.iter().map(|v| v[0]).collect();
+        self.columns.transpose_product(&self.y, &mut self.x);
+        let mut x = std::mem::take(&mut self.x);
+        self.apply_weight(&mut x);
+        self.x = x;
+        let mean = self.x.iter().map(|x| x.abs()).sum::<f64>() / self.x.len().max(1) as f64;
+        let inside = if mean > 0.0 { mean } else { 1.0 };
+        for k in 0..self.x.len() {
+            self.s[k] = f64::max(self.x[k] + self.floor[k], inside);
+            self.z[k] = inside * (inside / self.s[k]);
+        }
+        self.update_residuals();
+    }
+
+    fn update_residuals(&mut self) {
+        let residuals = &mut self.residuals;
+        residuals.primal.fill(0.0);
+        self.columns.add_product(&self.x, &mut residuals.primal);
+        let balanced = max_norm(&residuals.primal);
+        for (rest, load) in residuals.primal.iter_mut().zip(&self.loads) {
+            *rest = load - *rest;
+        }
+        self.quadratic.multiply(&self.x, &mut residuals.dual);
+        let squared = max_norm(&residuals.dual);
+        // `bound` holds Aᵀy until the loop below.
+        (self.columns).transpose_product(&self.y, &mut residuals.bound);
+        residuals.size = [balanced, squared, max_norm(&residuals.bound)];
+        for k in 0..self.x.len() {
+            residuals.dual[k] = residuals.bound[k] + self.z[k] - residuals.dual[k] - self.linear[k];
+            residuals.bound[k] = (self.x[k] - self.s[k]) + self.floor[k];
+        }
+    }
+
+    /// μ, the mean of the products s·z.
+    fn mu(&self) -> f64 {
+        dot(&self.s, &self.z) / self.s.len().max(1) as f64
+    }
+
+    fn is_balanced(&self, tolerance: f64) -> bool {
+        max_norm(&self.residuals.primal) <= tolerance * f64::max(1.0, self.residuals.size[0])
+    }
+
+    /// The convergence test: residuals relative to their terms, and the gap Σ s·z relative to the objective.
+    fn is_optimal(&self, tolerance: f64, gap: f64) -> bool {
+        let [_, squared, along] = self.residuals.size;
+        let is_small = |list: &[f64], of: f64| max_norm(list) <= tolerance * f64::max(1.0, of);
+        let mut product = vec![0.0; self.x.len()];
+        self.quadratic.multiply(&self.x, &mut product);
+        let objective = 0.5 * dot(&self.x, &product) + dot(&self.linear, &self.x);
+        self.is_balanced(tolerance)
+            && is_small(&self.residuals.dual, squared.max(along))
+            && is_small(&self.residuals.bound, max_norm(&self.x))
+            && dot(&self.s, &self.z) <= gap * f64::max(1.0, objective.abs())
+    }
+
+    /// Factors P + Z/S block by block, and with it the normal equations.
+    fn factor_system(&mut self) {
+        for (k, block) in self.quadratic.blocks.iter().enumerate() {
+            let (width, range) = (block.len(), self.quadratic.range(k));
+            let lower = &mut self.lower[range.clone()];
+            lower.copy_from_slice(&self.quadratic.entries[range]);
+            for (i, at) in block.clone().enumerate() {
+                lower[i * width + i] += self.z[at] / self.s[at];
+            }
+            cholesky_in_place(lower, width);
+            // Row by row of the group: L⁻¹ times that row of the columns.
+            let rows = self.columns.group(k).rows.len();
+            let values = self.columns.group(k).values;
+            let whitened = self.whitened.values_mut(k);
+            for r in 0..rows {
+                let mut row = [0.0; MAX_BLOCK_COLUMNS];
+                for (v, column) in row.iter_mut().zip(values.chunks_exact(rows)) {
+                    *v = column[r];
+                }
+                forward_substitute(lower, width, &mut row[..width]);
+                for (v, column) in row.iter().zip(whitened.chunks_exact_mut(rows)) {
+                    column[r] = *v;
+                }
+            }
+        }
+        (self.factor).factor(&self.whitened, &self.ones, REGULARIZATION);
+    }
+
+    /// Replaces a list by W·list, W = (P + Z/S)⁻¹.
+    fn apply_weight(&self, list: &mut [f64]) {
+        for (k, block) in self.quadratic.blocks.iter().enumerate() {
+            let lower = &self.lower[self.quadratic.range(k)];
+            let own = &mut list[block.clone()];
+            forward_substitute(lower, block.len(), own);
+            backward_substitute(lower, block.len(), own);
+        }
+    }
+
+    /// Newton's direction along which each product s·z changes by `target`, and a share of the residuals vanishes.
+    fn direction(&self, target: &[f64], residual_share: f64) -> Direction {
+        let n = self.x.len();
+        // (P + Z/S) dx = Aᵀdy + side.
+        let side: Vec<f64> = (0..n)
+            .map(|k| {
+                let (s, z) = (self.s[k], self.z[k]);
+                residual_share * self.residuals.dual[k]
+                    + (target[k] - residual_share * z * self.residuals.bound[k]) / s
+            })
+            .collect();
+        let mut weighted = side.clone();
+        self.apply_weight(&mut weighted);
+        let mut sum = vec![0.0; self.loads.len()];
+        self.columns.add_product(&weighted, &mut sum);
+        let primal = self.residuals.primal.iter().zip(&sum);
+        let mut right: Vec<[f64; 1]> = primal
+            .map(|(rest, sum)| [residual_share * rest - sum])
+            .collect();
+        self.factor.solve(&mut right);
+        // Back substitution: dx, then ds and dz.
+        let y: Vec<f64> = right.iter().map(|v| v[0]).collect();
+        let mut x = vec![0.0; n];
+        self.columns.transpose_product(&y, &mut x);
+        x.iter_mut().zip(&side).for_each(|(x, r)| *x += r);
+        self.apply_weight(&mut x);
+        let s: Vec<f64> = x
+            .iter()
+            .zip(&self.residuals.bound)
+            .map(|(x, rest)| x + residual_share * rest)
+            .collect();
+        let z = (0..n).map(|k| (target[k] - self.z[k] * s[k]) / self.s[k]);
+        Direction {
+            z: z.collect(),
+            x,
+            y,
+            s,
+        }
+    }
+
+    /// Ratio test: the longest step that keeps s and z ≥ 0, at most 1/[`STEP_TO_BOUNDARY`].
+    fn max_step(&self, along: &Direction) -> f64 {
+        let (s, z) = (self.s.iter().zip(&along.s), self.z.iter().zip(&along.z));
+        shorten_step(1.0 / STEP_TO_BOUNDARY, s.chain(z))
+    }
+
+    /// One iteration; returns the step length.
+    fn step(&mut self) -> f64 {
+        self.factor_system();
+        // Predictor (affine scaling).
+        let products = self.s.iter().zip(&self.z);
+        let mut target: Vec<f64> = products.map(|(s, z)| -s * z).collect();
+        let predictor = self.direction(&target, 1.0);
+        // Centring: σ falls with the cube of what the predictor leaves.
+        let short = 1.0 - self.max_step(&predictor).min(1.0);
+        let sigma = short * short * short;
+        let centre = sigma * self.mu();
+        // Corrector.
+        for (k, target) in target.iter_mut().enumerate() {
+            *target += centre - predictor.s[k] * predictor.z[k];
+        }
+        let along = self.direction(&target, 1.0 - sigma);
+        // Step length.
+        let step = f64::min(STEP_TO_BOUNDARY * self.max_step(&along), 1.0);
+        let lists = [
+            (&mut self.x, &along.x),
+            (&mut self.y, &along.y),
+            (&mut self.s, &along.s),
+            (&mut self.z, &along.z),
+        ];
+        for (list, along) in lists {
+            list.iter_mut().zip(along).for_each(|(v, d)| *v += step * d);
+        }
+        self.update_residuals();
+        step
+    }
+}

@@ -1,0 +1,195 @@
+//! The primal-dual interior-point method for linear programs, on the homogeneous self-dual form.
+//!
+//! Unknowns are amounts f ≥ 0, velocities y, slacks z ≥ 0 and the pair τ, κ ≥ 0:
+//!
+//! ```text
+//! A f = loads·τ,   Aᵀy + z = cost·τ,   loadsᵀy − costᵀf = κ.
+//! ```
+//!
+//! At the end either τ > 0, and f/τ, y/τ are optima, or κ > 0, and y or f is a certificate that there is no optimum. With
+//! the quadratic term, max loadsᵀy − ½|y|², there always is one: τ stays 1, and the first equation has y on its left too.
+//!
+//! Steps of each iteration: residuals, convergence test, then one Newton step ([`super::newton`]: predictor, centring,
+//! corrector, step length). Two steps are not in textbooks: [`InteriorPoint::restore_balance`] and
+//! [`InteriorPoint::drop_non_basic`]. References: Xu, Hung and Ye 1996; Andersen and Andersen 2000 (homogeneous form);
+//! Mehrotra 1992 (predictor and corrector); Gondzio 1996 (further correctors).
+
+use std::time::Instant;
+
+use super::cholesky::Cholesky;
+use super::dense::dot;
+use super::iterate::{Iterate, LinearProgram, REGULARIZATION, STEP_TO_BOUNDARY};
+use super::newton::Newton;
+use super::residuals::{Optimality, Residuals, Termination};
+use super::slack_trend::SlackTrend;
+use crate::solve::settings::{CrossoverTolerance, StoppingCriteria};
+
+/// The optimum, a certificate, or the last iterate.
+pub(super) struct Solution {
+    /// `None` if the method gave up.
+    pub termination: Option<Termination>,
+    /// f, one for each column.
+    pub amounts: Vec<f64>,
+    /// z, one for each column.
+    pub slack: Vec<f64>,
+    /// y, in the order of elimination. A certificate is scaled to a gain of 1.
+    pub velocities: Vec<f64>,
+    pub iterations: usize,
+}
+
+/// The largest number of calls to [`InteriorPoint::restore_balance`]. Each costs as much as an iteration.
+const MAX_RESTORATIONS: usize = 3;
+
+/// A variable this many times larger than its slack is taken to be basic. At 10 the method's own centring, whose products are all
+/// near μ, would make variables look basic that are not; at 1000 basic ones would be dropped.
+const BASIC_RATIO: f64 = 100.0;
+
+/// Below this τ/κ allow [`EXTRA_ITERATIONS`] more iterations: an infeasibility certificate is that close.
+const CERTIFICATE_RATIO: f64 = 1e-4;
+const EXTRA_ITERATIONS: usize = 3;
+
+/// Solves a linear program with the factor's pattern, which belongs to its columns.
+pub(super) fn solve(
+    lp: &LinearProgram,
+    factor: &mut Cholesky,
+    criteria: StoppingCriteria,
+) -> Solution {
+    let mut run = InteriorPoint::new(lp, factor);
+    let (mut iterations, mut restorations) = (0, 0);
+    let factor_of_tolerance = criteria.crossover.map_or(1.0, |c| c.tolerance_factor);
+    let final_tolerance = factor_of_tolerance * criteria.tolerance;
+    let mut trend = SlackTrend::default();
+    let termination = loop {
+        let optimality = Optimality::evaluate(lp, &run.at, &mut run.residuals);
+        // Convergence test.
+        if let Some(termination) = optimality.termination(lp, final_tolerance) {
+            break Some(termination);
+        }
+        if let Some(crossover) = criteria.crossover {
+            let early = crossover.early_factor * criteria.tolerance;
+            if run.is_never_complementary(&optimality, crossover, final_tolerance, &mut trend)
+                && optimality.is_optimal(lp, early)
+            {
+                run.drop_non_basic(early);
+                break Some(Termination::Optimal);
+            }
+        }
+        let is_late = criteria.deadline.is_some_and(|end| Instant::now() >= end);
+        if restorations < MAX_RESTORATIONS && optimality.lacks_only_balance(lp, final_tolerance) {
+            run.restore_balance();
+            restorations += 1;
+            continue;
+        }
+        let max_iterations = match optimality.tau < CERTIFICATE_RATIO * optimality.kappa {
+            true => criteria.iterations + EXTRA_ITERATIONS,
+            false => criteria.iterations,
+        };
+        let is_over = iterations >= max_iterations || is_late || !optimality.mu.is_finite();
+        if is_over || !run.step(&optimality) {
+            // The crossover tolerance is out of reach: the plain one may be met.
+            break optimality.termination(lp, criteria.tolerance);
+        }
+        iterations += 1;
+    };
+    let at = run.at;
+    let scale = match termination {
+        Some(Termination::PrimalInfeasible) => 1.0 / dot(lp.loads, &at.y),
+        Some(Termination::Unbounded) => -1.0 / dot(lp.cost, &at.f),
+        _ => 1.0 / at.tau,
+    };
+    let scaled = |list: Vec<f64>| -> Vec<f64> { list.into_iter().map(|v| v * scale).collect() };
+    Solution {
+        termination,
+        amounts: scaled(at.f),
+        slack: scaled(at.z),
+        velocities: scaled(at.y),
+        iterations,
+    }
+}
+
+/// A run of the method.
+struct InteriorPoint<'a> {
+    lp: &'a LinearProgram<'a>,
+    factor: &'a mut Cholesky,
+    at: Iterate,
+    residuals: Residuals,
+    newton: Newton,
+}
+
+impl<'a> InteriorPoint<'a> {
+    fn new(lp: &'a LinearProgram<'a>, factor: &'a mut Cholesky) -> InteriorPoint<'a> {
+        let (columns, unknowns) = (lp.cost.len(), lp.loads.len());
+        InteriorPoint {
+            at: Iterate::starting_point(lp, factor),
+            lp,
+            factor,
+            residuals: Residuals {
+                primal: vec![0.0; unknowns],
+                dual: vec![0.0; columns],
+            },
+            newton: Newton::new(lp),
+        }
+    }
+
+    fn step(&mut self, optimality: &Optimality) -> bool {
+        let (lp, residuals) = (self.lp, &self.residuals);
+        (self.newton).step(lp, self.factor, &mut self.at, residuals, optimality)
+    }
+
+    /// Whether the slack of the basic columns will still be too large at the final tolerance, as far as its trend shows.
+    fn is_never_complementary(
+        &self,
+        optimality: &Optimality,
+        crossover: CrossoverTolerance,
+        final_tolerance: f64,
+        trend: &mut SlackTrend,
+    ) -> bool {
+        let now = optimality.relative_to_cost(self.at.basic_slack());
+        trend
+            .extrapolate(now, final_tolerance)
+            .is_some_and(|slack| slack > crossover.max_slack)
+    }
+
+    /// Changes the amounts until they balance the loads, by the least Σ (df/f)².
+    ///
+    /// A Newton step finds amounts as f/z times differences of velocities. Near the limit of standing these weights differ so
+    /// much that 10⁻⁶ of the loads remain unbalanced, step after step. The amounts themselves differ less, so weights
+    /// of f² restore the balance. Needed only at the end, where the residual consists of rounding.
+    fn restore_balance(&mut self) {
+        let weights: Vec<f64> = self.at.f.iter().map(|f| f * f).collect();
+        (self.factor).factor(self.lp.columns, &weights, REGULARIZATION);
+        let mut side: Vec<[f64; 1]> = self.residuals.primal.iter().map(|v| [*v]).collect();
+        self.factor.solve(&mut side);
+        let multipliers: Vec<f64> = side.iter().map(|v| v[0]).collect();
+        let mut changes = vec![0.0; weights.len()];
+        (self.lp.columns).transpose_product(&multipliers, &mut changes);
+        // Step length: no amount may fall to 0.
+        let decrease = |(f, change): (&f64, &f64)| -f * change;
+        let most = self.at.f.iter().zip(&changes).map(decrease);
+        let step = f64::min(
+            1.0,
+            STEP_TO_BOUNDARY / most.fold(STEP_TO_BOUNDARY, f64::max),
+        );
+        for (f, change) in self.at.f.iter_mut().zip(&changes) {
+            *f += step * *f * *f * change;
+        }
+    }
+
+    /// Sets the amounts to 0 that cost something and are not clearly basic. Keeps them if the others are not an
+    /// optimum to the tolerance.
+    fn drop_non_basic(&mut self, tolerance: f64) {
+        let former = self.at.f.clone();
+        let slack = self.at.z.iter().zip(self.lp.cost);
+        for (f, (z, cost)) in self.at.f.iter_mut().zip(slack) {
+            if *cost > 0.0 && *f <= BASIC_RATIO * z {
+                *f = 0.0;
+            }
+        }
+        Optimality::evaluate(self.lp, &self.at, &mut self.residuals);
+        self.restore_balance();
+        let optimality = Optimality::evaluate(self.lp, &self.at, &mut self.residuals);
+        if !optimality.is_optimal(self.lp, tolerance) {
+            self.at.f = former;
+        }
+    }
+}

@@ -1,0 +1,45 @@
+//! The amounts of least norm that balance the loads, of any sign: f = Aᵀ(A·Aᵀ)⁻¹·loads.
+//!
+//! One factor of A·Aᵀ, and iterative refinement of the multipliers y in A·Aᵀ·y = loads (Golub and Van Loan, Matrix Computations,
+//! section 3.5.3).
+
+use super::cholesky::Cholesky;
+use super::column_groups::ColumnGroups;
+use super::dense::max_norm;
+
+/// Solves with the factor, the first and those that refine; each gains the digits that the factor has.
+const MAX_SOLVES: usize = 3;
+
+/// The amounts, and the multipliers y of the balance in the order of elimination.
+pub(super) struct LeastNorm {
+    pub amounts: Vec<f64>,
+    pub multipliers: Vec<f64>,
+}
+
+/// Returns the amounts of least norm; `None` if they leave more than the tolerance unbalanced.
+pub(super) fn solve(
+    columns: &ColumnGroups,
+    factor: &mut Cholesky,
+    loads: &[f64],
+    tolerance: f64,
+) -> Option<LeastNorm> {
+    let mut amounts = vec![1.0; columns.column_count()];
+    factor.factor(columns, &amounts, 0.0);
+    let mut multipliers = vec![0.0; loads.len()];
+    let mut residual = loads.to_vec();
+    for _ in 0..MAX_SOLVES {
+        let mut change: Vec<[f64; 1]> = residual.iter().map(|v| [*v]).collect();
+        factor.solve(&mut change);
+        let changes = multipliers.iter_mut().zip(&change);
+        changes.for_each(|(y, d)| *y += d[0]);
+        columns.transpose_product(&multipliers, &mut amounts);
+        residual.fill(0.0);
+        columns.add_product(&amounts, &mut residual);
+        let both = residual.iter_mut().zip(loads);
+        both.for_each(|(v, load)| *v = load - *v);
+    }
+    (max_norm(&residual) <= tolerance).then_some(LeastNorm {
+        amounts,
+        multipliers,
+    })
+}

@@ -1,0 +1,135 @@
+//! [`Residuals`] and [`Optimality`]: what the equations of the homogeneous form leave, and the convergence tests.
+
+use super::dense::{dot, max_norm};
+use super::iterate::{Iterate, LinearProgram};
+
+/// How the interior-point method ended. The primal program is the one in forces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Termination {
+    /// f/τ and y/τ are optima.
+    Optimal,
+    /// No amounts balance the loads: y is a certificate, loadsᵀy > 0 and Aᵀy ≤ 0.
+    PrimalInfeasible,
+    /// The cost has no lower bound: f is a certificate, A f = 0 and costᵀf < 0.
+    Unbounded,
+}
+
+/// A certificate of infeasibility may violate its equations by this fraction of what it gains.
+///
+/// Forces that live on the violation would have to be 10⁸ times the loads. Ten times larger, a wall near its limit, whose
+/// thrusts are many times its loads, could be called infeasible. A tenth asks for more digits than the normal equations
+/// keep there.
+const CERTIFICATE_TOL: f64 = 1e-8;
+
+/// The residual vectors of the homogeneous form.
+pub(super) struct Residuals {
+    /// loads·τ − A f, less velocity_weight·y.
+    pub primal: Vec<f64>,
+    /// cost·τ − Aᵀy − z.
+    pub dual: Vec<f64>,
+}
+
+/// The sizes by which convergence is judged, at one iterate.
+pub(super) struct Optimality {
+    /// κ + costᵀf − loadsᵀy, the residual of the last equation.
+    pub gap: f64,
+    /// μ, the mean of the products amount·slack and τκ.
+    pub mu: f64,
+    primal_objective: f64,
+    dual_objective: f64,
+    /// Largest entries of the primal residual and of A f.
+    primal: [f64; 2],
+    /// Largest entries of the dual residual and of Aᵀy + z.
+    dual: [f64; 2],
+    /// Largest amount, slack and velocity.
+    size: [f64; 3],
+    pub tau: f64,
+    pub kappa: f64,
+}
+
+impl Optimality {
+    /// Computes the residuals at an iterate, into `residuals`, and their sizes.
+    pub fn evaluate(lp: &LinearProgram, at: &Iterate, residuals: &mut Residuals) -> Optimality {
+        residuals.primal.fill(0.0);
+        lp.columns.add_product(&at.f, &mut residuals.primal);
+        let balanced = max_norm(&residuals.primal);
+        let loads = lp.loads.iter().zip(&at.y);
+        for (rest, (load, y)) in residuals.primal.iter_mut().zip(loads) {
+            *rest = load * at.tau - *rest - lp.velocity_weight * y;
+        }
+        lp.columns.transpose_product(&at.y, &mut residuals.dual);
+        let mut priced = 0.0f64;
+        for ((rest, cost), z) in residuals.dual.iter_mut().zip(lp.cost).zip(&at.z) {
+            let sum = *rest + z;
+            priced = priced.max(sum.abs());
+            *rest = cost * at.tau - sum;
+        }
+        let half_square = 0.5 * lp.velocity_weight * dot(&at.y, &at.y);
+        let primal_objective = dot(lp.cost, &at.f) + half_square;
+        let dual_objective = dot(lp.loads, &at.y) - half_square;
+        Optimality {
+            gap: at.kappa + primal_objective - dual_objective,
+            mu: (dot(&at.f, &at.z) + at.tau * at.kappa) / (at.f.len() + 1) as f64,
+            primal_objective,
+            dual_objective,
+            primal: [max_norm(&residuals.primal), balanced],
+            dual: [max_norm(&residuals.dual), priced],
+            size: [max_norm(&at.f), max_norm(&at.z), max_norm(&at.y)],
+            tau: at.tau,
+            kappa: at.kappa,
+        }
+    }
+
+    /// Whether the amounts balance the loads, relative to the largest load and amount.
+    pub fn is_primal_feasible(&self, lp: &LinearProgram, tolerance: f64) -> bool {
+        let f = self.size[0];
+        let scale = f64::max(1.0, max_norm(lp.loads) + f / self.tau);
+        self.primal[0] < tolerance * self.tau * scale
+    }
+
+    /// Whether velocities and slacks meet the costs, and the gap between the objectives is closed.
+    fn is_dual_optimal(&self, lp: &LinearProgram, tolerance: f64) -> bool {
+        let tau = self.tau;
+        let [_, z, y] = self.size;
+        let (primal, dual) = (self.primal_objective / tau, self.dual_objective / tau);
+        let gap = (primal - dual).abs();
+        let scale = f64::max(1.0, max_norm(lp.cost) + (y + z) / tau);
+        self.dual[0] < tolerance * tau * scale
+            && gap < tolerance * primal.abs().min(dual.abs()).max(1.0)
+    }
+
+    /// Whether all conditions of an optimum hold to the tolerance.
+    pub fn is_optimal(&self, lp: &LinearProgram, tolerance: f64) -> bool {
+        self.is_primal_feasible(lp, tolerance) && self.is_dual_optimal(lp, tolerance)
+    }
+
+    /// Whether the balance is all that is missing.
+    pub fn lacks_only_balance(&self, lp: &LinearProgram, tolerance: f64) -> bool {
+        !self.is_primal_feasible(lp, tolerance) && self.is_dual_optimal(lp, tolerance)
+    }
+
+    /// The gap between the objectives, and a sum of slacks, both relative to the cost.
+    pub fn relative_to_cost(&self, slack: f64) -> [f64; 2] {
+        [self.primal_objective - self.dual_objective, slack]
+            .map(|v| v.abs() / self.primal_objective.abs())
+    }
+
+    /// The convergence test: an optimum, a certificate, or `None` to go on.
+    pub fn termination(&self, lp: &LinearProgram, tolerance: f64) -> Option<Termination> {
+        let [f, z, y] = self.size;
+        if self.is_optimal(lp, tolerance) {
+            return Some(Termination::Optimal);
+        }
+        if self.tau >= self.kappa {
+            return None;
+        }
+        let (primal, dual) = (self.primal_objective, self.dual_objective);
+        if dual > 0.0 && self.dual[1] < CERTIFICATE_TOL * dual.min(y + z) {
+            return Some(Termination::PrimalInfeasible);
+        }
+        if primal < 0.0 && self.primal[1] < CERTIFICATE_TOL * f64::min(-primal, f) {
+            return Some(Termination::Unbounded);
+        }
+        None
+    }
+}
