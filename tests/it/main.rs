@@ -7,6 +7,7 @@
 )]
 
 mod accuracy;
+mod agreement;
 mod assembly;
 mod book;
 mod bound;

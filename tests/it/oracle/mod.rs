@@ -164,7 +164,7 @@ fn off(told: f64, exact: f64, weight: f64) -> f64 {
     }
 }
 
-fn number_of(variable: &str, otherwise: u64) -> u64 {
+pub fn number_of(variable: &str, otherwise: u64) -> u64 {
     std::env::var(variable)
         .ok()
         .and_then(|v| v.parse().ok())

@@ -1,0 +1,198 @@
+//! The same truth by every way in: `check --json`, `batch`, a session, a report's `.json`, the facts of snapshots and figures say
+//! the same of random scenes.
+
+use std::process::Command;
+
+use drystone::analysis::Options;
+use drystone::figure;
+use drystone::result::{Layout, Timing, to_json};
+use drystone::scene::format::SceneFile;
+use drystone::session::Session;
+use drystone::snapshot::fact::{DIGITS, Facts};
+use drystone::{Analysis, Scene};
+use serde_json::Value;
+use tempfile::TempDir;
+
+use crate::oracle::{number_of, random};
+
+/// How many scenes are compared on an ordinary run; `DRYSTONE_AGREEMENT` sets another number.
+const SCENES: u64 = 30;
+
+/// Random scenes in a folder, in the order of their names.
+fn scenes(folder: &TempDir) -> Vec<Value> {
+    std::fs::create_dir(folder.path().join("in")).expect("made");
+    let files = (0..).map(|number| random::scene(7_000 + number).1);
+    let sound = files.filter(|file| Scene::from_json(&file.to_string()).is_ok());
+    let files: Vec<Value> = sound
+        .take(number_of("DRYSTONE_AGREEMENT", SCENES) as usize)
+        .collect();
+    for (number, file) in files.iter().enumerate() {
+        let path = folder.path().join(format!("in/{number:04}.json"));
+        std::fs::write(path, file.to_string()).expect("writable");
+    }
+    files
+}
+
+/// What a command prints.
+fn run(folder: &TempDir, line: &str) -> String {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_drystone"));
+    command
+        .args(line.split_whitespace())
+        .current_dir(folder.path());
+    let output = command.output().expect("starts");
+    assert!(
+        output
+            .status
+            .code()
+            .is_some_and(|code| code != 2 && code != 4),
+        "{line}"
+    );
+    String::from_utf8(output.stdout).expect("UTF-8")
+}
+
+fn lines(text: &str) -> Vec<Value> {
+    text.lines()
+        .map(|line| serde_json::from_str(line).expect("JSON"))
+        .collect()
+}
+
+#[test]
+fn every_way_in_says_the_same() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let files = scenes(&folder);
+    let checked = lines(&run(&folder, "check --json --no-timing --margins in"));
+    let batch = lines(&run(&folder, "batch --fields all --margins in"));
+    run(&folder, "report --margins in -o report.json");
+    let report = std::fs::read(folder.path().join("report.json")).expect("written");
+    let report: Value = serde_json::from_slice(&report).expect("JSON");
+    assert_eq!((checked.len(), batch.len()), (files.len(), files.len()));
+    assert_eq!(report["scenes"], Value::from(checked.clone()));
+    for (number, file) in files.iter().enumerate() {
+        let (check, mut line) = (&checked[number], batch[number].clone());
+        let keys = line.as_object_mut().expect("an object");
+        assert_eq!(
+            keys.remove("verdict"),
+            Some(check["frames"][0]["verdict"].clone())
+        );
+        assert_eq!(&line, check, "scene {number}");
+
+        let scene: SceneFile = serde_json::from_value(file.clone()).expect("a scene file");
+        let options = Options::default().margins(true);
+        let session = Session::with(scene, options).expect("a sound scene");
+        let margins = session.analysis();
+        let told = to_json(&margins, Timing::LeftOut, Layout::OneLine);
+        let told: Value = serde_json::from_str(&told).expect("JSON");
+        assert_eq!(told["frames"], check["frames"], "scene {number}");
+        assert_eq!(
+            session.verdict().word(),
+            check["frames"][0]["verdict"],
+            "scene {number}"
+        );
+
+        let analysis = Analysis::new(Scene::from_json(&file.to_string()).expect("sound"));
+        says_facts(&Facts::new(&analysis, DIGITS).text(), &check["frames"][0]);
+        let caption = figure::caption(&analysis);
+        let word = match check["frames"][0]["verdict"].as_str().expect("a word") {
+            "stable" => "It stands",
+            "unstable" => "It falls",
+            _ => "It is undecided",
+        };
+        assert!(caption.contains(word), "{word}: {caption}");
+    }
+}
+
+/// A number as facts write it, and half of its last digit.
+fn written(word: &str) -> (f64, f64) {
+    let (mantissa, exponent) = word.split_once('e').unwrap_or((word, "0"));
+    let decimals = mantissa
+        .split_once('.')
+        .map_or(0, |(_, part)| part.len() as i32);
+    let exponent: i32 = exponent.parse().expect("a power of ten");
+    let value: f64 = word.parse().unwrap_or_else(|_| panic!("a number: {word}"));
+    (value, 0.5 * 10_f64.powi(exponent - decimals))
+}
+
+/// The values behind a name in a line of facts, such as `N 6.00000 N` or `N at its ends 3.0 3.0 N`.
+fn values<'a>(line: &'a str, name: &str) -> Vec<&'a str> {
+    let (_, found) = line.split_once(": ").expect("a fact has values");
+    let part = found.split(", ").find_map(|part| {
+        let rest = part.strip_prefix(name)?.strip_prefix(' ')?;
+        let first = rest.chars().next()?;
+        (first.is_ascii_digit() || first == '-').then_some(rest)
+    });
+    let part = part.unwrap_or_else(|| panic!("{name}: {line}"));
+    let numbers = part
+        .split(' ')
+        .take_while(|word| word.parse::<f64>().is_ok());
+    numbers.collect()
+}
+
+/// Facts list the verdict, the sums, each interface with its forces and each robot of a result, in the result's order.
+fn says_facts(text: &str, frame: &Value) {
+    let near = |word: &str, exact: f64| {
+        let (value, half) = written(word);
+        // What was rounded may have been a hair off a tie.
+        assert!(
+            (value - exact).abs() <= 1.01 * half,
+            "{word} {exact}: {text}"
+        );
+    };
+    let number = |value: &Value| value.as_f64().expect("a number");
+    let verdict = frame["verdict"].as_str().expect("a word");
+    let of_kind = |kind: &str| -> Vec<&str> {
+        let lines = text.lines().map(str::trim);
+        lines.filter(|line| line.starts_with(kind)).collect()
+    };
+    assert!(
+        of_kind("frame 1")[0].ends_with(&format!(": {verdict}")),
+        "{text}"
+    );
+    let sums = of_kind("sums")[0];
+    near(values(sums, "weight")[0], number(&frame["weight"]));
+    let interfaces = frame["interfaces"].as_array().expect("a list");
+    let listed = of_kind("interface");
+    assert_eq!(listed.len(), interfaces.len(), "{text}");
+    if verdict == "undecided" {
+        return;
+    }
+    near(
+        values(sums, "total force")[0],
+        number(&frame["total_force"]),
+    );
+    near(
+        values(sums, "total sticking")[0],
+        number(&frame["total_sticking"]),
+    );
+    for (line, interface) in listed.iter().zip(interfaces) {
+        let normal = &interface["normal_forces"];
+        near(
+            values(line, "N")[0],
+            number(&normal[0]) + number(&normal[1]),
+        );
+        near(values(line, "T")[0], number(&interface["friction_force"]));
+        near(values(line, "μ")[0], number(&interface["mu"]));
+    }
+    let robots = frame["robots"].as_array().expect("a list");
+    for (line, robot) in of_kind("robot").iter().zip(robots) {
+        for (word, exact) in values(line, "force")
+            .iter()
+            .zip(robot["force"].as_array().expect("x, y"))
+        {
+            near(word, number(exact));
+        }
+        near(values(line, "torque")[0], number(&robot["torque"]));
+    }
+    let failures = frame["failures"].as_array().expect("a list");
+    assert_eq!(of_kind("failure").len(), failures.len(), "{text}");
+    for (line, failure) in of_kind("failure").iter().zip(failures) {
+        let missing = values(line, "missing");
+        match (failure["torque"].as_f64(), failure["kind"] == "robot_force") {
+            (Some(torque), _) => near(missing[0], torque),
+            (None, true) => {
+                near(missing[0], number(&failure["force"][0]));
+                near(missing[1], number(&failure["force"][1]));
+            }
+            (None, false) => near(missing[0], number(&failure["amount"])),
+        }
+    }
+}
