@@ -1,18 +1,24 @@
-//! [`BoxIndex`]: things found by the boxes around them.
+//! [`BoxIndex`]: finds all items whose bounding box intersects a query box.
 //!
-//! Of few every box is looked at; of many a tree is made first, which is dearer than many such looks. A box may have more
-//! sides than the plane has: of thin stones that lean, upright boxes overlap by the hundred, and boxes that lean as they
-//! do, or tell directions apart, do not.
+//! Up to [`MAX_SCANNED_ITEMS`] items are kept in a list sorted by the left end of their boxes and scanned (sweep and
+//! prune). More items are put into a bounding-volume hierarchy: a binary tree that splits the items at the median of one
+//! coordinate, and whose nodes store the box around their items. Building the tree costs more than many scans of a short
+//! list.
+//!
+//! A box may have more than the two coordinates of the plane. The axis-parallel boxes of thin, inclined stones overlap by
+//! the hundred; boxes that also bound x + y and y − x ([`Aabb::with_diagonals`]), or a direction, do not.
+//!
+//! Reference: Ericson, Real-Time Collision Detection, 2005, chapters 6 (bounding-volume hierarchies) and 7 (sorted lists).
 
 use super::Point;
 
-/// Up to so many things need no tree.
-const FEW: usize = 64;
+/// The largest number of items that are kept in a sorted list; more are put into a tree.
+const MAX_SCANNED_ITEMS: usize = 64;
 
-/// So many things are looked at together, at most.
-const TOGETHER: usize = 8;
+/// The largest number of items in a leaf of the tree.
+const MAX_LEAF_ITEMS: usize = 8;
 
-/// The least and the greatest of each coordinate of a thing.
+/// An axis-aligned bounding box: the least and the greatest value of each of `D` coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Aabb<const D: usize = 2> {
     pub(crate) min: [f64; D],
@@ -20,239 +26,256 @@ pub(crate) struct Aabb<const D: usize = 2> {
 }
 
 impl Aabb {
-    /// The box with everything that lies `by` metres off it.
-    pub(crate) fn grown(self, by: f64) -> Aabb {
+    /// The box extended by `margin` metres on each side.
+    pub(crate) fn grown(self, margin: f64) -> Aabb {
         Aabb {
-            min: self.min.map(|least| least - by),
-            max: self.max.map(|most| most + by),
+            min: self.min.map(|min| min - margin),
+            max: self.max.map(|max| max + margin),
         }
     }
 }
 
 impl Aabb<4> {
-    /// The upright box around some points and the one that leans by 45°: x, y, x + y and y − x.
-    pub(crate) fn leaning(points: &[Point]) -> Aabb<4> {
-        points.iter().fold(Aabb::NOTHING, |around, p| {
+    /// Bounds of some points in x, y, x + y and y − x: an upright box and one turned by 45°.
+    pub(crate) fn with_diagonals(points: &[Point]) -> Aabb<4> {
+        points.iter().fold(Aabb::EMPTY, |bounds, p| {
             let at = [p.x, p.y, p.x + p.y, p.y - p.x];
-            around.and(&Aabb { min: at, max: at })
+            bounds.union(&Aabb { min: at, max: at })
         })
     }
 }
 
 impl<const D: usize> Aabb<D> {
-    const NOTHING: Aabb<D> = Aabb {
+    /// The box that contains no point: the neutral element of [`Aabb::union`].
+    const EMPTY: Aabb<D> = Aabb {
         min: [f64::INFINITY; D],
         max: [f64::NEG_INFINITY; D],
     };
 
-    /// Whether two boxes share a point.
-    pub(crate) fn meets(&self, other: &Aabb<D>) -> bool {
+    /// Whether the two boxes share a point; boxes that only touch do.
+    pub(crate) fn intersects(&self, other: &Aabb<D>) -> bool {
         (0..D).all(|d| self.min[d] <= other.max[d] && self.max[d] >= other.min[d])
     }
 
-    fn and(&self, other: &Aabb<D>) -> Aabb<D> {
+    /// The smallest box that contains both boxes.
+    fn union(&self, other: &Aabb<D>) -> Aabb<D> {
         Aabb {
             min: std::array::from_fn(|d| self.min[d].min(other.min[d])),
             max: std::array::from_fn(|d| self.max[d].max(other.max[d])),
         }
     }
 
-    /// Twice its middle.
-    fn middle(&self, d: usize) -> f64 {
+    /// Twice the box's centre in coordinate `d`: it serves to order boxes, for which the factor does not matter.
+    fn doubled_centre(&self, d: usize) -> f64 {
         self.min[d] + self.max[d]
     }
 }
 
-/// Things that have boxes around them.
+/// Items that can be searched by their bounding boxes.
 pub(crate) enum BoxIndex<T, const D: usize = 2> {
-    Few(SortedBoxes<T, D>),
-    Many(Tree<T, D>),
+    /// Up to [`MAX_SCANNED_ITEMS`] items.
+    Sorted(SortedBoxes<T, D>),
+    /// More items.
+    Tree(BoxTree<T, D>),
 }
 
-/// Things sorted by the left ends of their boxes.
+/// Items sorted by the left ends of their boxes.
 pub(crate) struct SortedBoxes<T, const D: usize> {
-    all: Vec<Placed<T, D>>,
+    entries: Vec<SortedEntry<T, D>>,
 }
 
-struct Placed<T, const D: usize> {
-    own: Aabb<D>,
-    /// How far the boxes up to and with this one reach to the right.
-    reach: f64,
-    thing: T,
+struct SortedEntry<T, const D: usize> {
+    bounds: Aabb<D>,
+    /// The rightmost end of all boxes up to and including this one.
+    max_right: f64,
+    item: T,
 }
 
 impl<T, const D: usize> SortedBoxes<T, D> {
-    fn new(things: Vec<T>, around: impl Fn(&T) -> Aabb<D>) -> SortedBoxes<T, D> {
-        let placed = |thing: T| Placed {
-            own: around(&thing),
-            reach: 0.0,
-            thing,
+    fn new(items: Vec<T>, bounds: impl Fn(&T) -> Aabb<D>) -> SortedBoxes<T, D> {
+        let entry = |item: T| SortedEntry {
+            bounds: bounds(&item),
+            max_right: 0.0,
+            item,
         };
-        let mut all: Vec<Placed<T, D>> = things.into_iter().map(placed).collect();
-        all.sort_by(|a, b| a.own.min[0].total_cmp(&b.own.min[0]));
-        let mut farthest = f64::NEG_INFINITY;
-        for placed in &mut all {
-            farthest = farthest.max(placed.own.max[0]);
-            placed.reach = farthest;
+        let mut entries: Vec<SortedEntry<T, D>> = items.into_iter().map(entry).collect();
+        entries.sort_by(|a, b| a.bounds.min[0].total_cmp(&b.bounds.min[0]));
+        let mut max_right = f64::NEG_INFINITY;
+        for entry in &mut entries {
+            max_right = max_right.max(entry.bounds.max[0]);
+            entry.max_right = max_right;
         }
-        SortedBoxes { all }
+        SortedBoxes { entries }
     }
 
-    fn intersecting(&self, asked: Aabb<D>) -> impl Iterator<Item = &T> {
-        // Before `begin` all boxes end, and from `end` on all begin, beside the one asked about.
-        let left = asked.min[0];
-        let begin = self.all.partition_point(|placed| placed.reach < left);
-        let rest = self.all[begin..].iter();
-        let some = rest.take_while(move |placed| placed.own.min[0] <= asked.max[0]);
-        some.filter_map(move |Placed { own, thing, .. }| own.meets(&asked).then_some(thing))
+    fn intersecting(&self, query: Aabb<D>) -> impl Iterator<Item = &T> {
+        // All boxes before `begin` end to the left of the query. The scan stops at the first that begins to its right.
+        let left = query.min[0];
+        let begin = self.entries.partition_point(|entry| entry.max_right < left);
+        let rest = self.entries[begin..].iter();
+        let candidates = rest.take_while(move |entry| entry.bounds.min[0] <= query.max[0]);
+        candidates.filter_map(move |SortedEntry { bounds, item, .. }| {
+            bounds.intersects(&query).then_some(item)
+        })
     }
 }
 
-/// Things halved again and again, across what parts them best, until few are left together.
-pub(crate) struct Tree<T, const D: usize> {
-    all: Vec<(Aabb<D>, T)>,
-    /// Each before the two that it parts in.
+/// A bounding-volume hierarchy: a binary tree of boxes, with up to [`MAX_LEAF_ITEMS`] items in each leaf.
+pub(crate) struct BoxTree<T, const D: usize> {
+    /// The items with their boxes, in the order of the leaves.
+    entries: Vec<(Aabb<D>, T)>,
+    /// The nodes in depth-first order: a node is followed by its first child's subtree, then by its second child's.
     nodes: Vec<Node<D>>,
 }
 
 struct Node<const D: usize> {
-    around: Aabb<D>,
-    /// The first node that is not part of this one.
-    next: usize,
-    /// Its things, where it has no parts.
-    things: std::ops::Range<usize>,
+    /// The box around all items below this node.
+    bounds: Aabb<D>,
+    /// Index of the first node after this subtree: where a search goes on that does not descend here.
+    skip_to: usize,
+    /// Indices of a leaf's items; empty for an inner node.
+    items: std::ops::Range<usize>,
 }
 
-impl<T, const D: usize> Tree<T, D> {
-    fn new(things: Vec<T>, around: impl Fn(&T) -> Aabb<D>) -> Tree<T, D> {
-        let boxes = things.iter().map(around).enumerate();
-        let mut order: Vec<(Aabb<D>, usize)> = boxes.map(|(n, own)| (own, n)).collect();
-        let usual = usual(&order);
-        let mut nodes = Vec::with_capacity(4 * order.len() / TOGETHER);
-        parted(&mut order, 0, &usual, &mut nodes);
-        let mut things: Vec<Option<T>> = things.into_iter().map(Some).collect();
-        let taken = order.into_iter();
-        let all = taken.filter_map(|(own, number)| Some((own, things[number].take()?)));
-        Tree {
-            all: all.collect(),
+impl<T, const D: usize> BoxTree<T, D> {
+    fn new(items: Vec<T>, bounds: impl Fn(&T) -> Aabb<D>) -> BoxTree<T, D> {
+        let boxes = items.iter().map(bounds).enumerate();
+        let mut order: Vec<(Aabb<D>, usize)> = boxes.map(|(n, bounds)| (bounds, n)).collect();
+        let typical = typical_extent(&order);
+        let mut nodes = Vec::with_capacity(4 * order.len() / MAX_LEAF_ITEMS);
+        build(&mut order, 0, &typical, &mut nodes);
+        let mut items: Vec<Option<T>> = items.into_iter().map(Some).collect();
+        let entries = order
+            .into_iter()
+            .filter_map(|(bounds, number)| Some((bounds, items[number].take()?)));
+        BoxTree {
+            entries: entries.collect(),
             nodes,
         }
     }
 
-    fn intersecting(&self, asked: Aabb<D>) -> impl Iterator<Item = &T> {
-        let (mut node, mut things) = (0, [].iter());
+    fn intersecting(&self, query: Aabb<D>) -> impl Iterator<Item = &T> {
+        // A depth-first walk without a stack: `skip_to` leads past a subtree whose box misses the query.
+        let (mut node, mut leaf) = (0, [].iter());
         std::iter::from_fn(move || {
             loop {
-                if let Some((_, thing)) = things.find(|(own, _)| asked.meets(own)) {
-                    return Some(thing);
+                if let Some((_, item)) = leaf.find(|(bounds, _)| query.intersects(bounds)) {
+                    return Some(item);
                 }
                 let next = self.nodes.get(node)?;
-                if asked.meets(&next.around) {
-                    things = self.all[next.things.clone()].iter();
+                if query.intersects(&next.bounds) {
+                    leaf = self.entries[next.items.clone()].iter();
                     node += 1;
                 } else {
-                    node = next.next;
+                    node = next.skip_to;
                 }
             }
         })
     }
 }
 
-/// How long boxes are in each direction, half of them at most; where they are but points, a part of how far the inner half of
-/// them is spread. The ground may reach much farther than all else.
-fn usual<const D: usize>(order: &[(Aabb<D>, usize)]) -> [f64; D] {
-    const PART: f64 = 1e-3;
-    let mut all = Vec::with_capacity(order.len());
-    let mut part = |of: &dyn Fn(&Aabb<D>) -> f64, quarters: usize| {
-        all.clear();
-        all.extend(order.iter().map(|(own, _)| of(own)));
-        let place = quarters * all.len() / 4;
-        *all.select_nth_unstable_by(place, f64::total_cmp).1
+/// The typical size of a box in each coordinate, by which distances in different coordinates are compared.
+///
+/// It is the median size plus a thousandth of the interquartile range of the centres. The second term keeps the size of
+/// point-like boxes above 0. Median and quartiles, because the ground may be far larger than everything else.
+fn typical_extent<const D: usize>(order: &[(Aabb<D>, usize)]) -> [f64; D] {
+    const SPREAD_SHARE: f64 = 1e-3;
+    let mut values = Vec::with_capacity(order.len());
+    let mut quartile = |value: &dyn Fn(&Aabb<D>) -> f64, quarters: usize| {
+        values.clear();
+        values.extend(order.iter().map(|(bounds, _)| value(bounds)));
+        let place = quarters * values.len() / 4;
+        *values.select_nth_unstable_by(place, f64::total_cmp).1
     };
     std::array::from_fn(|d| {
-        let length = part(&|own| own.max[d] - own.min[d], 2);
-        let middle = |own: &Aabb<D>| own.middle(d);
-        length + PART * (part(&middle, 3) - part(&middle, 1)) + f64::MIN_POSITIVE
+        let median_size = quartile(&|bounds| bounds.max[d] - bounds.min[d], 2);
+        let centre = |bounds: &Aabb<D>| bounds.doubled_centre(d);
+        let spread = quartile(&centre, 3) - quartile(&centre, 1);
+        median_size + SPREAD_SHARE * spread + f64::MIN_POSITIVE
     })
 }
 
-/// How far apart the middles of boxes are, twice.
-fn spread<const D: usize>(order: &[(Aabb<D>, usize)]) -> [f64; D] {
-    let (mut least, mut most) = ([f64::INFINITY; D], [f64::NEG_INFINITY; D]);
-    for (own, _) in order {
+/// Twice the range of the boxes' centres in each coordinate.
+fn doubled_centre_range<const D: usize>(order: &[(Aabb<D>, usize)]) -> [f64; D] {
+    let (mut min, mut max) = ([f64::INFINITY; D], [f64::NEG_INFINITY; D]);
+    for (bounds, _) in order {
         for d in 0..D {
-            least[d] = least[d].min(own.middle(d));
-            most[d] = most[d].max(own.middle(d));
+            min[d] = min[d].min(bounds.doubled_centre(d));
+            max[d] = max[d].max(bounds.doubled_centre(d));
         }
     }
-    std::array::from_fn(|d| most[d] - least[d])
+    std::array::from_fn(|d| max[d] - min[d])
 }
 
-/// Puts boxes in the order of the tree's leaves and adds its nodes; the first of them is number `begin` of all.
-fn parted<const D: usize>(
+/// Sorts boxes into the order of the leaves and appends the nodes of their subtree.
+///
+/// `begin` is the index of the first of these boxes among all.
+fn build<const D: usize>(
     order: &mut [(Aabb<D>, usize)],
     begin: usize,
-    usual: &[f64; D],
+    typical: &[f64; D],
     nodes: &mut Vec<Node<D>>,
 ) {
     let number = nodes.len();
     nodes.push(Node {
-        around: Aabb::NOTHING,
-        next: 0,
-        things: begin..begin,
+        bounds: Aabb::EMPTY,
+        skip_to: 0,
+        items: begin..begin,
     });
-    if order.len() <= TOGETHER {
-        nodes[number].around = order.iter().fold(Aabb::NOTHING, |all, b| all.and(&b.0));
-        nodes[number].things.end += order.len();
+    if order.len() <= MAX_LEAF_ITEMS {
+        nodes[number].bounds = order.iter().fold(Aabb::EMPTY, |all, b| all.union(&b.0));
+        nodes[number].items.end += order.len();
     } else {
-        let spread = spread(order);
-        let parts = |d: &usize| spread[*d] / usual[*d];
-        let across = (0..D).max_by(|a, b| parts(a).total_cmp(&parts(b)));
-        let across = across.unwrap_or(0);
+        // Split across the coordinate in which the centres are spread over the most typical sizes.
+        let range = doubled_centre_range(order);
+        let relative = |d: &usize| range[*d] / typical[*d];
+        let split = (0..D).max_by(|a, b| relative(a).total_cmp(&relative(b)));
+        let split = split.unwrap_or(0);
         let half = order.len() / 2;
         order.select_nth_unstable_by(half, |(a, _), (b, _)| {
-            a.middle(across).total_cmp(&b.middle(across))
+            a.doubled_centre(split).total_cmp(&b.doubled_centre(split))
         });
         let (low, high) = order.split_at_mut(half);
-        parted(low, begin, usual, nodes);
+        build(low, begin, typical, nodes);
         let second = nodes.len();
-        parted(high, begin + half, usual, nodes);
-        nodes[number].around = nodes[number + 1].around.and(&nodes[second].around);
+        build(high, begin + half, typical, nodes);
+        nodes[number].bounds = nodes[number + 1].bounds.union(&nodes[second].bounds);
     }
-    nodes[number].next = nodes.len();
+    nodes[number].skip_to = nodes.len();
 }
 
 impl<T, const D: usize> BoxIndex<T, D> {
-    pub(crate) fn new(things: Vec<T>, around: impl Fn(&T) -> Aabb<D>) -> BoxIndex<T, D> {
-        if things.len() > FEW {
-            return BoxIndex::Many(Tree::new(things, around));
+    /// An index of `items`; `bounds` gives the box of an item.
+    pub(crate) fn new(items: Vec<T>, bounds: impl Fn(&T) -> Aabb<D>) -> BoxIndex<T, D> {
+        if items.len() > MAX_SCANNED_ITEMS {
+            return BoxIndex::Tree(BoxTree::new(items, bounds));
         }
-        BoxIndex::Few(SortedBoxes::new(things, around))
+        BoxIndex::Sorted(SortedBoxes::new(items, bounds))
     }
 
-    /// All of them with the boxes around them, in no order that may matter.
+    /// All items with their boxes. Callers must not rely on their order.
     pub(crate) fn all(&self) -> impl Iterator<Item = (&Aabb<D>, &T)> {
-        let (few, many) = self.parts();
-        let few = few.into_iter().flat_map(|row| &row.all);
-        let many = many.into_iter().flat_map(|tree| &tree.all);
-        (few.map(|placed| (&placed.own, &placed.thing)))
-            .chain(many.map(|(own, thing)| (own, thing)))
+        let (sorted, tree) = self.variants();
+        let sorted = sorted.into_iter().flat_map(|list| &list.entries);
+        let tree = tree.into_iter().flat_map(|tree| &tree.entries);
+        (sorted.map(|entry| (&entry.bounds, &entry.item)))
+            .chain(tree.map(|(bounds, item)| (bounds, item)))
     }
 
-    /// Those whose boxes share a point with a box, in no order that may matter.
-    pub(crate) fn intersecting(&self, around: Aabb<D>) -> impl Iterator<Item = &T> {
-        let (few, many) = self.parts();
-        let few = few
-            .into_iter()
-            .flat_map(move |row| row.intersecting(around));
-        let many = many.into_iter();
-        few.chain(many.flat_map(move |tree| tree.intersecting(around)))
+    /// The items whose boxes intersect `query`. Callers must not rely on their order.
+    pub(crate) fn intersecting(&self, query: Aabb<D>) -> impl Iterator<Item = &T> {
+        let (sorted, tree) = self.variants();
+        let sorted = sorted.into_iter();
+        let sorted = sorted.flat_map(move |list| list.intersecting(query));
+        let tree = tree.into_iter();
+        sorted.chain(tree.flat_map(move |tree| tree.intersecting(query)))
     }
 
-    fn parts(&self) -> (Option<&SortedBoxes<T, D>>, Option<&Tree<T, D>>) {
+    /// One of the two is `Some`: both are chained, so that one iterator type serves both variants.
+    fn variants(&self) -> (Option<&SortedBoxes<T, D>>, Option<&BoxTree<T, D>>) {
         match self {
-            BoxIndex::Few(few) => (Some(few), None),
-            BoxIndex::Many(tree) => (None, Some(tree)),
+            BoxIndex::Sorted(list) => (Some(list), None),
+            BoxIndex::Tree(tree) => (None, Some(tree)),
         }
     }
 }
@@ -267,24 +290,27 @@ mod tests {
 
     /// A hundred needles side by side, all leaning by 45°: their upright boxes meet, the leaning ones do not.
     #[test]
-    fn needles_that_lean_are_told_apart() {
+    fn inclined_needles_do_not_intersect() {
         let needle = |n: usize| {
             let x = n as f64;
             [Point::new(x, 0.0), Point::new(x + 200.0, 200.0)]
         };
-        let leaning = |n: &usize| Aabb::leaning(&needle(*n));
-        let things = BoxIndex::new((0..100).collect(), leaning);
+        let bounds = |n: &usize| Aabb::with_diagonals(&needle(*n));
+        let things = BoxIndex::new((0..100).collect(), bounds);
         for n in 0..100 {
-            assert_eq!(things.intersecting(leaning(&n)).collect::<Vec<_>>(), [&n]);
+            assert_eq!(things.intersecting(bounds(&n)).collect::<Vec<_>>(), [&n]);
         }
     }
 
     #[test]
-    fn few_and_many_are_found_alike() {
+    fn list_and_tree_find_the_same_items() {
         for side in [7_usize, 8, 12] {
             let at = |n: usize| [(n / side) as f64, (n % side) as f64];
             let things = BoxIndex::new((0..side * side).collect(), |n| point(at(*n)));
-            assert_eq!(matches!(things, BoxIndex::Few(_)), side * side <= FEW);
+            assert_eq!(
+                matches!(things, BoxIndex::Sorted(_)),
+                side * side <= MAX_SCANNED_ITEMS
+            );
             assert_eq!(things.all().count(), side * side);
             let found = things.intersecting(Aabb {
                 min: [0.5, 1.0],
@@ -299,13 +325,13 @@ mod tests {
 
     /// Boxes of several sizes with corners in whole numbers, so that many only touch.
     #[test]
-    fn found_is_whatever_shares_a_point_and_nothing_else() {
+    fn exactly_the_boxes_that_share_a_point_are_found() {
         let mut seed = 1_u64;
         let mut upto = |n: u64| {
             seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
             ((seed >> 33) % n) as i32
         };
-        for count in [1, 2, 5, 20, FEW, FEW + 1, 150] {
+        for count in [1, 2, 5, 20, MAX_SCANNED_ITEMS, MAX_SCANNED_ITEMS + 1, 150] {
             let mut any = || {
                 let (x, y) = (upto(12), upto(12));
                 [x, y, x + upto(5), y + upto(5)]

@@ -1,34 +1,37 @@
-//! Sums of which little is left: large terms that cancel, kept with twice the digits.
+//! [`CompensatedSum`]: a sum with about 32 digits, for large terms that nearly cancel.
 //!
-//! The rounding of every addition and product is itself a floating-point number; it is added up beside the sum
-//! (Knuth's two-sum, and the fused product).
+//! The rounding error of a floating-point addition or product is itself a floating-point number. It is computed exactly
+//! and added up separately. References: Knuth, The Art of Computer Programming 2, §4.2.2 (two-sum); Ogita, Rump and
+//! Oishi, Accurate Sum and Dot Product, 2005 (the same with products).
 
-/// A sum kept with twice the digits of a number.
+/// A sum that is kept as a rounded value and the sum of all rounding errors.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct CompensatedSum {
-    high: f64,
-    low: f64,
+    rounded: f64,
+    error: f64,
 }
 
 impl CompensatedSum {
     /// Adds a number.
     pub fn add(&mut self, value: f64) {
-        let sum = self.high + value;
-        let part = sum - self.high;
-        self.low += (self.high - (sum - part)) + (value - part);
-        self.high = sum;
+        // Two-sum: the error is exact whichever of the two numbers is larger.
+        let sum = self.rounded + value;
+        let added = sum - self.rounded;
+        self.error += (self.rounded - (sum - added)) + (value - added);
+        self.rounded = sum;
     }
 
     /// Adds the product of two numbers.
     pub fn add_product(&mut self, a: f64, b: f64) {
         let product = a * b;
         self.add(product);
-        self.low += a.mul_add(b, -product);
+        // A fused multiply-add rounds once, so it returns the rounding error of the product.
+        self.error += a.mul_add(b, -product);
     }
 
-    /// The sum, rounded once.
+    /// The sum, rounded to an `f64`.
     pub fn value(self) -> f64 {
-        self.high + self.low
+        self.rounded + self.error
     }
 }
 

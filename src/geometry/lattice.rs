@@ -1,7 +1,7 @@
-//! [`Lattice`]: whole-number places and cells, where collisions and contacts are exact.
+//! [`Lattice`]: cells with integer coordinates, so that collisions and contacts are decided exactly.
 //!
-//! Invariant: everything is decided in integers; metres appear only in [`Lattice::point`] and [`Lattice::polygon`].
-//! Triangular lattice: point (x, y) is at side·(x + y/2, y·√3/2). Square lattice: at side·(x, y).
+//! Invariant: every decision is made in integers; metres appear only in [`Lattice::point`] and what uses it.
+//! Node (x, y) of the triangular lattice lies at side·(x + y/2, y·√3/2), of the square lattice at side·(x, y).
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -16,41 +16,42 @@ pub enum LatticeKind {
     Square,
 }
 
-/// Which triangle on a bottom edge; a square is [`Half::Whole`].
+/// The shape of a cell, and of a triangle the side of its horizontal edge on which it lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Half {
-    /// A square cell.
-    Whole,
-    /// The triangle above its bottom edge: (x, y), (x+1, y), (x, y+1).
+pub enum CellShape {
+    /// A square.
+    Square,
+    /// The triangle above its horizontal edge: (x, y), (x+1, y), (x, y+1).
     Up,
-    /// The triangle below that edge: (x, y), (x+1, y), (x+1, y−1).
+    /// The triangle below its horizontal edge: (x, y), (x+1, y−1), (x+1, y).
     Down,
 }
 
-/// One cell of a lattice, named by the left end of its horizontal edge.
+/// One cell of a lattice, identified by the left end of its lower edge; of a downward triangle, of its upper edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Cell {
     /// First lattice coordinate.
     pub x: i64,
     /// Second lattice coordinate.
     pub y: i64,
-    /// Which cell there.
-    pub half: Half,
+    /// Square, upward or downward triangle.
+    pub shape: CellShape,
 }
 
-type Node = (i64, i64);
+/// A lattice node by its two coordinates.
+pub(crate) type Node = (i64, i64);
 
-/// A directed lattice edge with its cell on the left.
-pub(crate) type Step = (Node, Node);
+/// A directed edge of a cell, from node to node, with the cell on its left.
+pub(crate) type LatticeEdge = (Node, Node);
 
 impl Cell {
-    /// The corners, anticlockwise, in lattice coordinates.
+    /// The nodes at the corners, anticlockwise.
     pub fn corners(self) -> Vec<(i64, i64)> {
         let (x, y) = (self.x, self.y);
-        match self.half {
-            Half::Whole => vec![(x, y), (x + 1, y), (x + 1, y + 1), (x, y + 1)],
-            Half::Up => vec![(x, y), (x + 1, y), (x, y + 1)],
-            Half::Down => vec![(x, y), (x + 1, y - 1), (x + 1, y)],
+        match self.shape {
+            CellShape::Square => vec![(x, y), (x + 1, y), (x + 1, y + 1), (x, y + 1)],
+            CellShape::Up => vec![(x, y), (x + 1, y), (x, y + 1)],
+            CellShape::Down => vec![(x, y), (x + 1, y - 1), (x + 1, y)],
         }
     }
 
@@ -59,13 +60,13 @@ impl Cell {
         Cell {
             x: self.x + by.0,
             y: self.y + by.1,
-            half: self.half,
+            shape: self.shape,
         }
     }
 
-    /// The cell turned anticlockwise about the lattice origin by `steps` of 60° (triangles) or 90° (squares).
+    /// The cell rotated anticlockwise about node (0, 0) by `steps` of 60° (triangles) or 90° (squares).
     pub fn turned(self, steps: i64) -> Cell {
-        let kind = if self.half == Half::Whole {
+        let kind = if self.shape == CellShape::Square {
             LatticeKind::Square
         } else {
             LatticeKind::Triangular
@@ -85,32 +86,37 @@ impl Cell {
             return Cell {
                 x,
                 y,
-                half: Half::Whole,
+                shape: CellShape::Square,
             };
         }
-        // Two corners of a triangle share a row: they are its horizontal edge, and the third tells the side.
+        // Two corners of a triangle share a row: they are its horizontal edge, and the third lies above or below it.
         for i in 0..3 {
             let (a, b, c) = (corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3]);
             if a.1 == b.1 {
-                let half = if c.1 > a.1 { Half::Up } else { Half::Down };
+                let shape = if c.1 > a.1 {
+                    CellShape::Up
+                } else {
+                    CellShape::Down
+                };
                 return Cell {
                     x: a.0.min(b.0),
                     y: a.1,
-                    half,
+                    shape,
                 };
             }
         }
         unreachable!("a lattice triangle has a horizontal edge")
     }
 
-    pub(crate) fn steps(self) -> impl Iterator<Item = Step> {
+    /// The edges, anticlockwise.
+    pub(crate) fn edges(self) -> impl Iterator<Item = LatticeEdge> {
         let corners = self.corners();
         let n = corners.len();
         (0..n).map(move |i| (corners[i], corners[(i + 1) % n]))
     }
 }
 
-/// A lattice node turned anticlockwise about the origin by `steps` of 60° (triangular) or 90° (square).
+/// A node rotated anticlockwise about node (0, 0) by `steps` of 60° (triangular lattice) or 90° (square lattice).
 pub(crate) fn turned(kind: LatticeKind, node: (i64, i64), steps: i64) -> (i64, i64) {
     let (mut x, mut y) = node;
     match kind {
@@ -131,14 +137,14 @@ pub(crate) fn turned(kind: LatticeKind, node: (i64, i64), steps: i64) -> (i64, i
 /// A regular lattice with its edge length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lattice {
-    /// Which lattice.
+    /// Triangles or squares.
     pub kind: LatticeKind,
     /// Edge length in metres.
     pub side: f64,
 }
 
 impl Lattice {
-    /// Where a lattice point lies, in metres. The coordinates need not be whole.
+    /// The position of lattice coordinates, in metres. The coordinates need not be integers.
     ///
     /// ```
     /// use drystone::internals::geometry::{Lattice, LatticeKind};
@@ -149,7 +155,7 @@ impl Lattice {
     /// ```
     pub fn point(&self, x: f64, y: f64) -> Point {
         match self.kind {
-            // The half row is added as a whole number of halves, so that equal places get equal bits.
+            // 2x + y is an integer for every node, so that equal positions get equal bits.
             LatticeKind::Triangular => Point::new(
                 (2.0 * x + y) * (self.side / 2.0),
                 y * (self.side * HALF_SQRT_3),
@@ -158,6 +164,7 @@ impl Lattice {
         }
     }
 
+    /// The position of a node, in metres.
     pub(crate) fn node(&self, node: Node) -> Point {
         self.point(node.0 as f64, node.1 as f64)
     }
@@ -171,7 +178,7 @@ impl Lattice {
         }
     }
 
-    /// Centroid of one cell.
+    /// Centroid of one cell, in metres.
     pub fn cell_centre(&self, cell: Cell) -> Point {
         let corners = cell.corners();
         let sum = corners
@@ -180,12 +187,12 @@ impl Lattice {
         Point::from(sum / corners.len() as f64)
     }
 
-    /// The outline of a set of cells: outer ring and holes, straight runs of edges joined into one.
+    /// The union of some cells as one polygon with its holes. Collinear edges are merged into one side.
     ///
-    /// `None` where the cells are not all joined by edges.
+    /// `None` if the cells are not all connected by common edges.
     pub fn polygon(&self, cells: &[Cell]) -> Option<Polygon> {
         let rings = trace(cells)?;
-        Some(Polygon::from_traced(
+        Some(Polygon::from_valid_rings(
             rings
                 .iter()
                 .map(|ring| ring.iter().map(|n| self.node(*n)).collect())
@@ -194,53 +201,57 @@ impl Lattice {
     }
 }
 
+/// √3/2: the height of a triangle with sides of length 1.
 const HALF_SQRT_3: f64 = 0.866_025_403_784_438_6;
 
-/// The boundary of a set of cells as directed edges, the cells on their left, in their order.
-pub(crate) fn boundary(cells: &[Cell]) -> Vec<Step> {
-    let mut all: Vec<Step> = cells.iter().flat_map(|c| c.steps()).collect();
+/// The boundary edges of a set of cells, sorted; the cells lie on their left.
+pub(crate) fn boundary(cells: &[Cell]) -> Vec<LatticeEdge> {
+    let mut all: Vec<LatticeEdge> = cells.iter().flat_map(|c| c.edges()).collect();
     all.sort_unstable();
     all.dedup();
-    let is_outer = |(a, b): &&Step| all.binary_search(&(*b, *a)).is_err();
+    // An inner edge belongs to two cells, once in each direction.
+    let is_outer = |(a, b): &&LatticeEdge| all.binary_search(&(*b, *a)).is_err();
     all.iter().filter(is_outer).copied().collect()
 }
 
-/// Outer ring first, then the holes from the smallest, straight runs joined. `None` unless the cells hang together by edges.
+/// The boundary rings of a set of cells: the outline first, then the holes. `None` unless the cells are connected.
 fn trace(cells: &[Cell]) -> Option<Vec<Vec<Node>>> {
-    if !joined(cells) {
+    if !is_connected(cells) {
         return None;
     }
     let edges = boundary(cells);
-    let mut left = vec![true; edges.len()];
+    let mut unused = vec![true; edges.len()];
     let mut rings = Vec::new();
     for first in 0..edges.len() {
         let mut ring = vec![];
         let mut at = first;
-        while std::mem::replace(&mut left[at], false) {
+        while std::mem::replace(&mut unused[at], false) {
             let (a, b) = edges[at];
             ring.push(a);
-            // Where rings touch in a node, turn as far left as possible, so that each cell stays with its own ring. Of
-            // several ways on only one can turn left, and where none does one goes straight on.
+            // Where two rings touch in a node, turn as far left as possible, so that each ring stays with its own cells.
+            // At most one continuation turns left; if none does, one goes straight on.
             let begin = edges.partition_point(|edge| edge.0 < b);
-            let ways = (begin..edges.len()).take_while(|k| edges[*k].0 == b);
-            let next = (ways.filter(|k| left[*k])).max_by_key(|k| turn(a, b, edges[*k].1));
+            let candidates = (begin..edges.len()).take_while(|k| edges[*k].0 == b);
+            let next = (candidates.filter(|k| unused[*k])).max_by_key(|k| turn(a, b, edges[*k].1));
             let Some(next) = next else { break };
             at = next;
         }
         if !ring.is_empty() {
-            rings.push(straightened(&ring));
+            rings.push(without_collinear_nodes(&ring));
         }
     }
+    // Only the outline runs anticlockwise and has a positive area.
     rings.sort_by_key(|ring| std::cmp::Reverse(doubled_area(ring)));
     Some(rings)
 }
 
-/// To which side the path a → b → c turns: 1 left, 0 straight on, −1 right.
+/// The direction in which the path a → b → c turns: 1 left, 0 straight on, −1 right.
 fn turn(a: Node, b: Node, c: Node) -> i64 {
     ((b.0 - a.0) * (c.1 - b.1) - (b.1 - a.1) * (c.0 - b.0)).signum()
 }
 
-fn straightened(ring: &[Node]) -> Vec<Node> {
+/// The nodes of a ring at which it turns.
+fn without_collinear_nodes(ring: &[Node]) -> Vec<Node> {
     let n = ring.len();
     (0..n)
         .filter(|i| {
@@ -251,6 +262,7 @@ fn straightened(ring: &[Node]) -> Vec<Node> {
         .collect()
 }
 
+/// Twice the area of a ring in lattice coordinates, positive if it runs anticlockwise.
 fn doubled_area(ring: &[Node]) -> i64 {
     let n = ring.len();
     (0..n)
@@ -258,24 +270,26 @@ fn doubled_area(ring: &[Node]) -> i64 {
         .sum()
 }
 
-fn joined(cells: &[Cell]) -> bool {
-    let mut owner: BTreeMap<Step, Cell> = BTreeMap::new();
+/// Whether each cell can be reached from each other one across common edges; false for no cells.
+fn is_connected(cells: &[Cell]) -> bool {
+    let mut owner: BTreeMap<LatticeEdge, Cell> = BTreeMap::new();
     for cell in cells {
-        for step in cell.steps() {
-            owner.insert(step, *cell);
+        for edge in cell.edges() {
+            owner.insert(edge, *cell);
         }
     }
     let Some(first) = cells.first() else {
         return false;
     };
+    // Depth-first search: the neighbour across an edge owns the same edge in the other direction.
     let mut seen = BTreeSet::from([*first]);
-    let mut queue = vec![*first];
-    while let Some(cell) = queue.pop() {
-        for (a, b) in cell.steps() {
+    let mut stack = vec![*first];
+    while let Some(cell) = stack.pop() {
+        for (a, b) in cell.edges() {
             if let Some(next) = owner.get(&(b, a))
                 && seen.insert(*next)
             {
-                queue.push(*next);
+                stack.push(*next);
             }
         }
     }

@@ -6,6 +6,9 @@
 
 mod lattice;
 mod box_index;
+mod bounds;
+mod crossing;
+mod edge;
 mod overlap;
 mod polygon;
 mod compensated_sum;
@@ -13,15 +16,17 @@ pub(crate) mod snap;
 mod tolerance;
 mod zonotope;
 
+pub use bounds::Bounds;
 pub(crate) use box_index::{Aabb, BoxIndex};
 pub use compensated_sum::CompensatedSum;
+pub use edge::Edge;
 pub(crate) use lattice::boundary;
-pub use lattice::{Cell, Half, Lattice, LatticeKind};
+pub use lattice::{Cell, CellShape, Lattice, LatticeKind};
 pub use overlap::{ConvexPieces, Overlap, overlap};
 pub(crate) use polygon::sin_cos_degrees;
-pub use polygon::{Bounds, Edge, Polygon, PolygonError};
+pub use polygon::{Polygon, PolygonError};
 pub use tolerance::Tolerance;
-pub use zonotope::{Triple, quick_gauge_bound, zonotope_gauge, zonotope_gauge_bound};
+pub use zonotope::{Vec3, quick_gauge_bound, zonotope_gauge, zonotope_gauge_bound};
 
 /// A place in the plane, in metres.
 pub type Point = nalgebra::Point2<f64>;

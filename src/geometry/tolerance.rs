@@ -1,44 +1,51 @@
-//! The only epsilons of the crate that speak of lengths.
+//! [`Tolerance`]: all tolerances of the crate that are lengths.
 //!
-//! Off a lattice, coordinates carry noise: a file written from 32-bit floats is off by 6·10⁻⁸ of the coordinate, a
-//! rounded one by more. A scene estimates that from how its coordinates are written. Two edges therefore *touch* when they
-//! lie within [`Tolerance::gap`] of each other, and a common stretch shorter than [`Tolerance::shortest`] is a corner that
-//! touches, not an interface. How short that is depends on the edges: a tip of a millionth of a block that stands on another
-//! is all the support there is, and two bricks that overlap by as much are neighbours.
+//! Only scenes off a lattice need them. There, coordinates are rounded: a file written from 32-bit floats is off by
+//! 6·10⁻⁸ of each coordinate, a file with few decimals by more. The scene estimates this from how its coordinates are
+//! written. Two edges *touch* when their distance is at most [`Tolerance::gap`]. They form an interface when they
+//! overlap over more than [`Tolerance::min_contact_length`], and otherwise only a touching corner. That length depends
+//! on the edges: a tip of a millionth of a block may be the only support of a stone, but two long bricks that overlap by
+//! as little are just neighbours.
 
-/// How close is close, in metres, for one scene.
+/// The lengths, in metres, up to which differences between two bodies of a scene count as rounding.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
-    /// Largest distance between two edges that still touch, and the deepest overlap that is still noise.
+    /// The largest distance between two edges that touch, and the largest depth of an overlap that is ignored.
     pub gap: f64,
-    /// A common stretch of long edges shorter than this is a touching corner.
+    /// Long edges that overlap by less than this are a touching corner.
     pub min_length: f64,
-    /// A common stretch of any edges shorter than this is the rounding of coordinates.
+    /// Edges of any length that overlap by less than this do so by the rounding of coordinates.
     pub rounding: f64,
-    /// Largest sine of the angle between two edges that still face each other, whatever their length.
+    /// The largest sine of the angle between two edges that face each other, whatever their length.
     pub angle: f64,
 }
 
 impl Tolerance {
-    /// Gap in parts of the scene's reach.
+    /// The gap as a fraction of the scene's extent.
+    ///
+    /// It is 20 µm for a building of 20 m. Ten times as much would close joints of 0.2 mm, which may be open on purpose. A
+    /// tenth is less than what 32-bit floats lose at two edges (6·10⁻⁸ of each coordinate), so that contacts go missing.
     pub const GAP_PER_EXTENT: f64 = 1e-6;
-    /// Stretch in parts of the gap.
+    /// The shortest interface of long edges, as a fraction of the gap.
     pub const LENGTH_PER_GAP: f64 = 0.25;
-    /// Stretch in parts of the shorter edge, where that is less.
+    /// The shortest interface as a fraction of the shorter edge, where this is less.
     pub const LENGTH_PER_EDGE: f64 = 1e-3;
-    /// The largest angle between two edges that face each other.
+    /// The largest angle between two edges that face each other, radians.
+    ///
+    /// A tenth would miss short joints whose ends are rounded. Ten times as much would make interfaces of open wedges.
     pub const MAX_ANGLE: f64 = 0.01;
-    /// The reach counts for at most so many typical block sizes, so that a far-flung scene keeps its small contacts.
+    /// The extent counts for at most this many typical block sizes, so that scattered blocks keep their small contacts.
     pub const MAX_EXTENT_IN_BLOCKS: f64 = 1000.0;
 
-    /// The tolerance of a scene whose blocks reach `extent` metres across in all and are `typical` metres large each.
+    /// The tolerance of a scene that is `extent` metres across and whose blocks are `typical` metres large.
     ///
-    /// Both are lengths in metres; a scene without blocks has extent 0 and gets the tolerance 0.
+    /// A scene without blocks has extent 0 and gets the tolerance 0.
     pub fn new(extent: f64, typical: f64) -> Tolerance {
-        Tolerance::from_gap(Self::GAP_PER_EXTENT * extent.min(Self::MAX_EXTENT_IN_BLOCKS * typical))
+        let extent = extent.min(Self::MAX_EXTENT_IN_BLOCKS * typical);
+        Tolerance::from_gap(Self::GAP_PER_EXTENT * extent)
     }
 
-    /// The tolerance by which edges within `gap` metres of each other touch.
+    /// The tolerance under which edges touch up to a distance of `gap` metres.
     pub fn from_gap(gap: f64) -> Tolerance {
         Tolerance {
             gap,
@@ -48,7 +55,7 @@ impl Tolerance {
         }
     }
 
-    /// The same, where coordinates are off by no more than `rounding` metres.
+    /// The same tolerance for coordinates that are known to be off by at most `rounding` metres.
     pub fn with_rounding(self, rounding: f64) -> Tolerance {
         Tolerance {
             rounding: (Self::LENGTH_PER_GAP * rounding).min(self.min_length),
@@ -56,14 +63,14 @@ impl Tolerance {
         }
     }
 
-    /// The shortest common stretch that is an interface of two edges, metres, the shorter one `edge` long.
+    /// The length in metres that two edges must have in common to form an interface; `edge` is the shorter edge's length.
     pub fn min_contact_length(&self, edge: f64) -> f64 {
         self.min_length
             .min(Self::LENGTH_PER_EDGE * edge)
             .max(self.rounding)
     }
 
-    /// Exact comparison, for lattices.
+    /// Exact comparison, for scenes on a lattice.
     pub const EXACT: Tolerance = Tolerance {
         gap: 0.0,
         min_length: 0.0,

@@ -1,102 +1,121 @@
-//! How far a point of space is from being a bounded combination of given directions.
+//! The gauge of a zonotope: how large the coefficients of a combination of given vectors must be to reach a point.
 //!
-//! The zonotope of generators g₁ … gₘ is the set { Σ aᵢ gᵢ : |aᵢ| ≤ 1 }. [`zonotope_gauge`] finds the smallest τ for which a
-//! point lies in τ times it. A convex body is the intersection of the half-spaces of its facets, a zonotope's facets are
-//! spanned by pairs of its generators, and its half-width along n is Σ |n·gᵢ|; so
+//! The zonotope of the generators g₁ … gₘ is the set { Σ aᵢ gᵢ : |aᵢ| ≤ 1 }. Its gauge (Minkowski functional) at a point r
+//! is the smallest τ ≥ 0 for which r lies in the zonotope scaled by τ. A convex body is the intersection of the
+//! half-spaces of its facets. Each facet of a zonotope in space is spanned by two of its generators, and the zonotope's
+//! half-width along a normal n is Σ |n·gᵢ|. Therefore
 //!
 //! ```text
 //! τ = max |n·r| / Σ |n·gᵢ|   over n = gᵢ × gⱼ
 //! ```
 //!
-//! A zonotope that is flat or a single line has no such facets; the normals that bound it within its plane or line are
-//! tried as well. Any direction n gives a lower bound of τ, so more of them never harm.
+//! A zonotope that is flat, or a line segment, has no such facets. The normals that bound it within its plane or line are
+//! tried as well. Every direction n gives a lower bound of τ, so that additional directions do no harm.
+//!
+//! [`zonotope_gauge`] evaluates this formula. [`zonotope_gauge_bound`] and [`quick_gauge_bound`] return upper bounds in
+//! linear time, from the combination with the least sum of squares.
+//!
+//! Reference: Ziegler, Lectures on Polytopes, 1995, chapter 7 (zonotopes); Rockafellar, Convex Analysis, 1970, §15
+//! (gauges).
 
-/// A point or direction of space.
-pub type Triple = [f64; 3];
+/// A vector of space.
+pub type Vec3 = [f64; 3];
 
-/// Generators beyond this number are added up in pairs of like direction, which makes the zonotope smaller.
-const MOST: usize = 40;
+/// The largest number of generators of which all pairs are tested. More are first reduced by adding up similar ones.
+///
+/// The test takes m³ steps for m generators. Adding up generators makes the answer larger than the smallest τ.
+const MAX_GENERATORS: usize = 40;
 
-/// Beyond this number they are first added up by cells of direction, so that the work stays bounded.
-const MANY: usize = 120;
+/// Above this number, generators are first added up by direction cells, because comparing all pairs takes m³ steps too.
+const MAX_PAIRED_GENERATORS: usize = 120;
 
-/// So few generators are tested at once; for more a combination of least squares may do.
-const FEW: usize = 12;
+/// Up to this number the exact test is as quick as an upper bound.
+const MAX_GENERATORS_TESTED_AT_ONCE: usize = 12;
 
-/// Several times the rounding of a sum of three products.
+/// The relative rounding of a sum of three products, with some reserve.
+///
+/// A tenth would take the rounding of a flat zonotope for a width, and return a finite τ for a point outside its plane.
+/// Ten times as much would raise τ by some per cent in zonotopes that are 10⁻¹² of their length wide.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// The smallest τ for which `point` lies in τ times the zonotope of the generators; infinite where there is none.
+/// The smallest τ for which `point` lies in the zonotope scaled by τ; infinite if there is none.
 ///
-/// Exact to rounding for up to 40 generators that are not parallel, and never too small: with more of them, those of like
-/// direction are added up, and the answer may be larger than the smallest.
+/// The answer is exact up to rounding for at most 40 generators that are not parallel, and never too small. If there are
+/// more, generators of similar direction are added up, and the answer may be too large.
 ///
 /// ```
 /// use drystone::internals::geometry::zonotope_gauge;
-/// let box_of = [[2.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 4.0]];
-/// assert!((zonotope_gauge(&box_of, [1.0, -3.0, 0.0]) - 1.0).abs() < 1e-12);
-/// assert_eq!(zonotope_gauge(&box_of[..2], [1.0, -3.0, 0.1]), f64::INFINITY);
+/// let axes = [[2.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 4.0]];
+/// assert!((zonotope_gauge(&axes, [1.0, -3.0, 0.0]) - 1.0).abs() < 1e-12);
+/// assert_eq!(zonotope_gauge(&axes[..2], [1.0, -3.0, 0.1]), f64::INFINITY);
 /// ```
-pub fn zonotope_gauge(generators: &[Triple], point: Triple) -> f64 {
+pub fn zonotope_gauge(generators: &[Vec3], point: Vec3) -> f64 {
     if norm(point) == 0.0 {
         return 0.0;
     }
-    let size = generators.iter().map(|g| norm(*g)).fold(0.0, f64::max);
-    if size == 0.0 || !size.is_finite() || !norm(point).is_finite() {
+    let longest = generators.iter().map(|g| norm(*g)).fold(0.0, f64::max);
+    if longest == 0.0 || !longest.is_finite() || !norm(point).is_finite() {
         return f64::INFINITY;
     }
-    let unit = |v: &Triple| v.map(|x| x / size);
-    let few = merged(generators.iter().map(unit));
-    exact(&few, unit(&point))
+    // Scaled to lengths of at most 1, so that products neither overflow nor vanish.
+    let scaled = |v: &Vec3| v.map(|x| x / longest);
+    let reduced = reduce(generators.iter().map(scaled));
+    gauge_over_normals(&reduced, scaled(&point))
 }
 
-/// An upper bound of [`zonotope_gauge`], found without looking at facets: the largest |aᵢ| of the combination Σ aᵢ gᵢ of least
-/// squares that gives the point. `None` where the generators do not span space well enough to tell.
-pub fn zonotope_gauge_bound(generators: &[Triple], point: Triple) -> Option<f64> {
-    if generators.len() <= FEW {
+/// An upper bound of [`zonotope_gauge`]; the gauge itself for up to 12 generators.
+///
+/// The bound is the largest coefficient |aᵢ| of the combination Σ aᵢ gᵢ = `point` with the least Σ aᵢ², found from the
+/// normal equations. `None` if the generators are too close to a plane for these to be solved accurately.
+pub fn zonotope_gauge_bound(generators: &[Vec3], point: Vec3) -> Option<f64> {
+    if generators.len() <= MAX_GENERATORS_TESTED_AT_ONCE {
         return Some(zonotope_gauge(generators, point));
     }
-    let size = generators.iter().map(|g| norm(*g)).fold(0.0, f64::max);
+    // The Gram matrix G = Σ g gᵀ of the scaled generators.
+    let longest = generators.iter().map(|g| norm(*g)).fold(0.0, f64::max);
     let mut gram = [[0.0; 3]; 3];
     for g in generators {
         for (row, a) in gram.iter_mut().zip(g) {
             for (sum, b) in row.iter_mut().zip(g) {
-                *sum += (a / size) * (b / size);
+                *sum += (a / longest) * (b / longest);
             }
         }
     }
+    // Solve G y = point by cofactors. The coefficients are then aᵢ = gᵢ·y.
     let [a, b, c] = gram;
-    let minors = [cross(b, c), cross(c, a), cross(a, b)];
-    let volume = dot(a, minors[0]);
+    let cofactors = [cross(b, c), cross(c, a), cross(a, b)];
+    let determinant = dot(a, cofactors[0]);
     let trace = a[0] + b[1] + c[2];
-    // Below this the digits of the combination are not enough to believe it.
-    if !(volume > 1e-9 * trace * trace * trace) {
+    // With a determinant below 10⁻⁹ of the cubed trace, fewer than seven digits of the coefficients are right.
+    if !(determinant > 1e-9 * trace * trace * trace) {
         return None;
     }
-    let unit = point.map(|v| v / size);
+    let scaled = point.map(|v| v / longest);
     let mut y = [0.0; 3];
-    for (row, part) in minors.iter().zip(unit) {
+    for (row, part) in cofactors.iter().zip(scaled) {
         for (sum, v) in y.iter_mut().zip(row) {
-            *sum += v * part / volume;
+            *sum += v * part / determinant;
         }
     }
-    let most = generators
+    let max = generators
         .iter()
-        .map(|g| dot(g.map(|v| v / size), y).abs())
+        .map(|g| dot(g.map(|v| v / longest), y).abs())
         .fold(0.0, f64::max);
-    Some(most * (1.0 + 1e-5))
+    // The reserve covers the digits that the division by a small determinant loses.
+    Some(max * (1.0 + 1e-5))
 }
 
-/// A bound that [`zonotope_gauge`] never answers above, without looking at facets: as [`zonotope_gauge_bound`], for any number of
-/// generators up to that from which on they are added up. `None` where digits do not suffice to tell.
+/// An upper bound of what [`zonotope_gauge`] returns, for any number of generators up to 40; cheaper and wider than
+/// [`zonotope_gauge_bound`].
 ///
-/// The combination of least squares does not depend on the units of the axes, so each axis is measured by what the
-/// generators reach along it. A body without friction that pushes sideways is then no nearly flat zonotope.
-pub fn quick_gauge_bound(generators: &[Triple], point: Triple) -> Option<f64> {
-    if generators.len() > MOST {
+/// The combination of least squares does not depend on the units of the axes. Each axis is therefore scaled by the
+/// generators' root sum of squares along it: the forces on a body that is pushed sideways without friction are then not a
+/// nearly flat zonotope. `None` if rounding could exceed the bound, or if there are too many generators.
+pub fn quick_gauge_bound(generators: &[Vec3], point: Vec3) -> Option<f64> {
+    if generators.len() > MAX_GENERATORS {
         return None;
     }
-    let (mut squares, mut products, mut sum) = ([0.0; 3], [0.0; 3], 0.0);
+    let (mut squares, mut products, mut lengths) = ([0.0; 3], [0.0; 3], 0.0);
     for [x, y, z] in generators {
         let own = [x * x, y * y, z * z];
         for (sum, square) in squares.iter_mut().zip(own) {
@@ -105,173 +124,182 @@ pub fn quick_gauge_bound(generators: &[Triple], point: Triple) -> Option<f64> {
         for (sum, product) in products.iter_mut().zip([y * z, z * x, x * y]) {
             *sum += product;
         }
-        sum += (own[0] + own[1] + own[2]).sqrt();
+        lengths += (own[0] + own[1] + own[2]).sqrt();
     }
+    // The scaled Gram matrix has ones on its diagonal and p, q, r beside them.
     let [a, b, c] = squares.map(f64::sqrt);
     let [p, q, r] = [
         products[0] / (b * c),
         products[1] / (c * a),
         products[2] / (a * b),
     ];
-    // The Gram matrix with ones on its diagonal, whose determinant is at most 9/4 times its smallest eigenvalue.
-    let volume = 1.0 + 2.0 * p * q * r - p * p - q * q - r * r;
-    if !(volume > 1e-3) {
+    let determinant = 1.0 + 2.0 * p * q * r - p * p - q * q - r * r;
+    if !(determinant > 1e-3) {
         return None;
     }
+    // Solve by cofactors, in the units of the axes again.
     let [x, y, z] = [point[0] / a, point[1] / b, point[2] / c];
-    let amounts = [
-        ((1.0 - p * p) * x + (p * q - r) * y + (r * p - q) * z) / (volume * a),
-        ((p * q - r) * x + (1.0 - q * q) * y + (q * r - p) * z) / (volume * b),
-        ((r * p - q) * x + (q * r - p) * y + (1.0 - r * r) * z) / (volume * c),
+    let solution = [
+        ((1.0 - p * p) * x + (p * q - r) * y + (r * p - q) * z) / (determinant * a),
+        ((p * q - r) * x + (1.0 - q * q) * y + (q * r - p) * z) / (determinant * b),
+        ((r * p - q) * x + (q * r - p) * y + (1.0 - r * r) * z) / (determinant * c),
     ];
-    let most = generators
+    let max = generators
         .iter()
-        .map(|g| dot(*g, amounts).abs())
+        .map(|g| dot(*g, solution).abs())
         .fold(0.0, f64::max);
-    // No width is less, and so much rounding counts against the generators and for the point.
-    let narrowest = (volume * 4.0 / 9.0).sqrt() * a.min(b).min(c);
-    let rounding = 2.0 * ROUNDING * sum / narrowest;
-    let bound = most * (1.0 + 1e-4 + 2.0 * rounding) + ROUNDING * norm(point) / narrowest;
-    let sure = rounding < 0.25 && amounts.iter().all(|v| v.is_finite()) && bound.is_finite();
-    sure.then_some(bound)
+    // `zonotope_gauge` subtracts rounding from each width. No width is less than the root of the smallest eigenvalue,
+    // and with ones on the diagonal that eigenvalue is at least 4/9 of the determinant.
+    let min_width = (determinant * 4.0 / 9.0).sqrt() * a.min(b).min(c);
+    let rounding = 2.0 * ROUNDING * lengths / min_width;
+    let bound = max * (1.0 + 1e-4 + 2.0 * rounding) + ROUNDING * norm(point) / min_width;
+    let is_reliable =
+        rounding < 0.25 && solution.iter().all(|v| v.is_finite()) && bound.is_finite();
+    is_reliable.then_some(bound)
 }
 
-/// The test itself, on generators of size up to 1.
-fn exact(generators: &[Triple], point: Triple) -> f64 {
-    let longest = generators
-        .iter()
-        .copied()
-        .max_by(|a, b| norm(*a).total_cmp(&norm(*b)));
-    let Some(longest) = longest else {
+/// The largest |n·r| / Σ |n·gᵢ| over all normals n that can bound the zonotope; generators have lengths of at most 1.
+fn gauge_over_normals(generators: &[Vec3], point: Vec3) -> f64 {
+    let by_length = |a: &Vec3, b: &Vec3| norm(*a).total_cmp(&norm(*b));
+    let Some(longest) = generators.iter().copied().max_by(by_length) else {
         return f64::INFINITY;
     };
-    let mut worst: f64 = 0.0;
+    let mut gauge: f64 = 0.0;
     let rounding = Rounding {
-        off: ROUNDING * norm(point),
+        distance: ROUNDING * norm(point),
         width: ROUNDING * generators.iter().map(|g| norm(*g)).sum::<f64>(),
     };
-    let mut along = |normal: Triple| {
+    let mut try_normal = |normal: Vec3| {
         let length = norm(normal);
         if length > 0.0 {
             let normal = normal.map(|v| v / length);
-            worst = worst.max(ratio(generators, point, normal, rounding));
+            gauge = gauge.max(ratio(generators, point, normal, rounding));
         }
     };
+    // Facets: every pair of generators spans one.
     for (k, a) in generators.iter().enumerate() {
         for b in &generators[..k] {
-            along(cross(*a, *b));
+            try_normal(cross(*a, *b));
         }
     }
-    // What bounds a flat zonotope within its plane, and a line along and beside itself.
-    let widest = generators
+    // The plane of a flat zonotope; of a line segment, any plane through it.
+    let plane = generators
         .iter()
         .map(|g| cross(longest, *g))
-        .max_by(|a, b| norm(*a).total_cmp(&norm(*b)))
+        .max_by(by_length)
         .filter(|n| norm(*n) > ROUNDING * norm(longest) * norm(longest));
-    let plane = widest.unwrap_or_else(|| {
+    let plane = plane.unwrap_or_else(|| {
         let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let across = axes.map(|axis| cross(longest, axis));
-        across
-            .into_iter()
-            .max_by(|a, b| norm(*a).total_cmp(&norm(*b)))
-            .unwrap_or_default()
+        across.into_iter().max_by(by_length).unwrap_or_default()
     });
-    along(plane);
-    along(longest);
+    // The normal of that plane, and within it the normals of the sides and the directions along them.
+    try_normal(plane);
+    try_normal(longest);
     for g in generators {
-        let beside = cross(plane, *g);
-        along(beside);
-        along(cross(beside, *g));
+        let in_plane = cross(plane, *g);
+        try_normal(in_plane);
+        try_normal(cross(in_plane, *g));
     }
-    worst
+    gauge
 }
 
-/// By how much the two sums of a [`ratio`] may be off.
+/// Bounds of the rounding errors of the two sums in [`ratio`].
 #[derive(Clone, Copy)]
 struct Rounding {
-    off: f64,
+    /// Of |n·r|.
+    distance: f64,
+    /// Of Σ |n·gᵢ|.
     width: f64,
 }
 
-/// |n·r| / Σ |n·gᵢ|, its rounding counted against the generators.
-fn ratio(generators: &[Triple], point: Triple, normal: Triple, rounding: Rounding) -> f64 {
-    let off = dot(normal, point).abs();
-    if off <= rounding.off {
+/// |n·r| / Σ |n·gᵢ|; 0 if |n·r| is only rounding, and otherwise with the rounding subtracted from the width.
+fn ratio(generators: &[Vec3], point: Vec3, normal: Vec3, rounding: Rounding) -> f64 {
+    let distance = dot(normal, point).abs();
+    if distance <= rounding.distance {
         return 0.0;
     }
     let width: f64 = generators.iter().map(|g| dot(normal, *g).abs()).sum();
-    let sure = width - rounding.width;
-    if sure > 0.0 {
-        off / sure
+    let certain_width = width - rounding.width;
+    if certain_width > 0.0 {
+        distance / certain_width
     } else {
         f64::INFINITY
     }
 }
 
-/// Generators that differ: parallel ones added up, and those of like direction where they are many.
+/// At most [`MAX_GENERATORS`] generators whose zonotope lies within that of the given ones.
 ///
-/// The sum of two generators stands for them within their zonotope, never beyond it.
-fn merged(generators: impl ExactSizeIterator<Item = Triple>) -> Vec<Triple> {
-    let mut all: Vec<Triple> = Vec::with_capacity(generators.len().min(MANY));
-    let cells = generators.len() > MANY;
-    let mut bins: Vec<Triple> = vec![[0.0; 3]; if cells { 3 * CELLS * CELLS } else { 0 }];
+/// The sum of two generators spans a part of their zonotope, so that the gauge can only grow. Parallel generators are
+/// added up without any loss.
+fn reduce(generators: impl ExactSizeIterator<Item = Vec3>) -> Vec<Vec3> {
+    let use_cells = generators.len() > MAX_PAIRED_GENERATORS;
+    let mut reduced: Vec<Vec3> = Vec::with_capacity(generators.len().min(MAX_PAIRED_GENERATORS));
+    let cells = if use_cells {
+        3 * CELLS_PER_SIDE * CELLS_PER_SIDE
+    } else {
+        0
+    };
+    let mut cell_sums: Vec<Vec3> = vec![[0.0; 3]; cells];
     for g in generators.filter(|g| norm(*g) > 0.0) {
-        if cells {
-            let bin = &mut bins[cell(g)];
-            *bin = sum(*bin, g);
+        if use_cells {
+            let cell_sum = &mut cell_sums[direction_cell(g)];
+            *cell_sum = aligned_sum(*cell_sum, g);
             continue;
         }
-        let parallel = |a: &Triple| norm(cross(*a, g)) <= ROUNDING * norm(*a) * norm(g);
-        match all.iter_mut().find(|a| parallel(a)) {
-            Some(a) => *a = sum(*a, g),
-            None => all.push(g),
+        let is_parallel = |a: &Vec3| norm(cross(*a, g)) <= ROUNDING * norm(*a) * norm(g);
+        match reduced.iter_mut().find(|a| is_parallel(a)) {
+            Some(a) => *a = aligned_sum(*a, g),
+            None => reduced.push(g),
         }
     }
-    all.extend(bins.into_iter().filter(|g| norm(*g) > 0.0));
-    while all.len() > MOST {
+    reduced.extend(cell_sums.into_iter().filter(|g| norm(*g) > 0.0));
+    // Merge the pair that loses least, until few enough are left.
+    while reduced.len() > MAX_GENERATORS {
         let mut best = (f64::INFINITY, 0, 1);
-        for i in 0..all.len() {
-            for j in i + 1..all.len() {
-                // What is lost: the part of the smaller one across the larger.
-                let lost = norm(cross(all[i], all[j])) / norm(all[i]).max(norm(all[j]));
-                if lost < best.0 {
-                    best = (lost, i, j);
+        for i in 0..reduced.len() {
+            for j in i + 1..reduced.len() {
+                // The loss is the part of the shorter one that is perpendicular to the longer one.
+                let (a, b) = (reduced[i], reduced[j]);
+                let loss = norm(cross(a, b)) / norm(a).max(norm(b));
+                if loss < best.0 {
+                    best = (loss, i, j);
                 }
             }
         }
         let (_, i, j) = best;
-        all[i] = sum(all[i], all[j]);
-        all.swap_remove(j);
+        reduced[i] = aligned_sum(reduced[i], reduced[j]);
+        reduced.swap_remove(j);
     }
-    all
+    reduced
 }
 
-/// Cells along each side of a face of the cube of directions.
-const CELLS: usize = 6;
+/// Directions are sorted into this many cells along each edge of a face of a cube.
+const CELLS_PER_SIDE: usize = 6;
 
-/// The cell of a direction, the same for its opposite.
-fn cell(g: Triple) -> usize {
+/// The number of the cell in which a direction lies; opposite directions have the same cell.
+fn direction_cell(g: Vec3) -> usize {
     let axis = (0..3)
         .max_by(|i, j| g[*i].abs().total_cmp(&g[*j].abs()))
         .unwrap_or(0);
     let place = |k: usize| {
         let share = 0.5 * (g[(axis + k) % 3] / g[axis] + 1.0);
-        ((share * CELLS as f64) as usize).min(CELLS - 1)
+        ((share * CELLS_PER_SIDE as f64) as usize).min(CELLS_PER_SIDE - 1)
     };
-    (axis * CELLS + place(1)) * CELLS + place(2)
+    (axis * CELLS_PER_SIDE + place(1)) * CELLS_PER_SIDE + place(2)
 }
 
-/// The sum of two generators, the second turned to point as the first does.
-fn sum(a: Triple, b: Triple) -> Triple {
+/// The sum of two generators; the second one is reversed if it points away from the first.
+fn aligned_sum(a: Vec3, b: Vec3) -> Vec3 {
     let sign = if dot(a, b) < 0.0 { -1.0 } else { 1.0 };
     [a[0] + sign * b[0], a[1] + sign * b[1], a[2] + sign * b[2]]
 }
 
-fn dot(a: Triple, b: Triple) -> f64 {
+fn dot(a: Vec3, b: Vec3) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-fn cross(a: Triple, b: Triple) -> Triple {
+fn cross(a: Vec3, b: Vec3) -> Vec3 {
     [
         a[1] * b[2] - a[2] * b[1],
         a[2] * b[0] - a[0] * b[2],
@@ -279,7 +307,7 @@ fn cross(a: Triple, b: Triple) -> Triple {
     ]
 }
 
-fn norm(a: Triple) -> f64 {
+fn norm(a: Vec3) -> f64 {
     dot(a, a).sqrt()
 }
 

@@ -2,15 +2,15 @@
 
 use super::*;
 
-const HALVES: [Half; 3] = [Half::Whole, Half::Up, Half::Down];
+const SHAPES: [CellShape; 3] = [CellShape::Square, CellShape::Up, CellShape::Down];
 
-fn cell(x: i64, y: i64, half: Half) -> Cell {
-    Cell { x, y, half }
+fn cell(x: i64, y: i64, shape: CellShape) -> Cell {
+    Cell { x, y, shape }
 }
 
-fn lattice(half: Half, side: f64) -> Lattice {
-    let kind = match half {
-        Half::Whole => LatticeKind::Square,
+fn lattice(shape: CellShape, side: f64) -> Lattice {
+    let kind = match shape {
+        CellShape::Square => LatticeKind::Square,
         _ => LatticeKind::Triangular,
     };
     Lattice { kind, side }
@@ -20,11 +20,11 @@ fn lattice(half: Half, side: f64) -> Lattice {
 fn squares(columns: i64, rows: i64, without: &[Node]) -> Vec<Cell> {
     let all = (0..columns).flat_map(|x| (0..rows).map(move |y| (x, y)));
     let kept = all.filter(|place| !without.contains(place));
-    kept.map(|(x, y)| cell(x, y, Half::Whole)).collect()
+    kept.map(|(x, y)| cell(x, y, CellShape::Square)).collect()
 }
 
 fn outline_of(cells: &[Cell], side: f64) -> Polygon {
-    let lattice = lattice(cells[0].half, side);
+    let lattice = lattice(cells[0].shape, side);
     lattice.polygon(cells).expect("joined by edges")
 }
 
@@ -38,10 +38,10 @@ fn nodes(ring: &[Node]) -> Vec<Node> {
 
 #[test]
 fn corners_run_anticlockwise_around_the_area_of_a_cell() {
-    assert_eq!(lattice(Half::Whole, 3.0).cell_area(), 9.0);
-    assert!((lattice(Half::Up, 2.0).cell_area() - 3f64.sqrt()).abs() < 1e-15);
-    for half in HALVES {
-        let (cell, lattice) = (cell(-4, 3, half), lattice(half, 0.7));
+    assert_eq!(lattice(CellShape::Square, 3.0).cell_area(), 9.0);
+    assert!((lattice(CellShape::Up, 2.0).cell_area() - 3f64.sqrt()).abs() < 1e-15);
+    for shape in SHAPES {
+        let (cell, lattice) = (cell(-4, 3, shape), lattice(shape, 0.7));
         let ring: Vec<Point> = cell.corners().iter().map(|c| lattice.node(*c)).collect();
         let polygon = Polygon::new(ring.clone(), vec![]).expect("sound");
         assert_eq!(
@@ -57,36 +57,36 @@ fn corners_run_anticlockwise_around_the_area_of_a_cell() {
         // What it is named by: the left end of its horizontal edge, with the cell above or below.
         let above = lattice.cell_centre(cell).y > lattice.node((-4, 3)).y;
         assert!(cell.corners().contains(&(-4, 3)) && cell.corners().contains(&(-3, 3)));
-        assert_eq!(above, half != Half::Down);
+        assert_eq!(above, shape != CellShape::Down);
     }
 }
 
 #[test]
 fn a_cell_lies_where_it_is_counted_to() {
-    // Triangles of 2 m: a row up is half a cell to the right and √3 m higher.
-    let triangles = lattice(Half::Up, 2.0);
+    // Triangles of 2 m: a row up is shape a cell to the right and √3 m higher.
+    let triangles = lattice(CellShape::Up, 2.0);
     let third = 3f64.sqrt() / 3.0;
     let near = |found: Point, x: f64, y: f64| (found - Point::new(x, y)).norm() < 1e-14;
     assert!(near(
-        triangles.cell_centre(cell(0, 0, Half::Up)),
+        triangles.cell_centre(cell(0, 0, CellShape::Up)),
         1.0,
         third
     ));
     assert!(near(
-        triangles.cell_centre(cell(0, 0, Half::Down)),
+        triangles.cell_centre(cell(0, 0, CellShape::Down)),
         1.0,
         -third
     ));
     assert!(near(
-        triangles.cell_centre(cell(2, 1, Half::Down)),
+        triangles.cell_centre(cell(2, 1, CellShape::Down)),
         6.0,
         2.0 * third
     ));
     assert!(near(triangles.node((1, -2)), 0.0, -6.0 * third));
     assert!(near(triangles.point(0.5, 1.0), 2.0, 3.0 * third));
-    let square = lattice(Half::Whole, 2.0);
+    let square = lattice(CellShape::Square, 2.0);
     assert!(near(
-        square.cell_centre(cell(3, -1, Half::Whole)),
+        square.cell_centre(cell(3, -1, CellShape::Square)),
         7.0,
         -1.0
     ));
@@ -94,23 +94,27 @@ fn a_cell_lies_where_it_is_counted_to() {
 
 #[test]
 fn a_moved_cell_keeps_its_half() {
-    for half in HALVES {
-        assert_eq!(cell(3, -2, half).moved((4, -5)), cell(7, -7, half));
+    for shape in SHAPES {
+        assert_eq!(cell(3, -2, shape).moved((4, -5)), cell(7, -7, shape));
     }
 }
 
 #[test]
 fn turns_on_the_lattice_are_turns_of_the_plane() {
-    for half in HALVES {
-        let lattice = lattice(half, 1.3);
-        let angle = if half == Half::Whole { 90.0 } else { 60.0 };
+    for shape in SHAPES {
+        let lattice = lattice(shape, 1.3);
+        let angle = if shape == CellShape::Square {
+            90.0
+        } else {
+            60.0
+        };
         for steps in -7..=7 {
             let (sin, cos) = libm::sincos((angle * steps as f64).to_radians());
             let in_plane = |p: Point| Point::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y);
             for (x, y) in [(0, 0), (2, -1), (-3, 5), (0, 4)] {
                 let node = lattice.node(turned(lattice.kind, (x, y), steps));
                 assert!((node - in_plane(lattice.node((x, y)))).norm() < 1e-13);
-                let own = cell(x, y, half);
+                let own = cell(x, y, shape);
                 let centre = lattice.cell_centre(own.turned(steps));
                 assert!((centre - in_plane(lattice.cell_centre(own))).norm() < 1e-13);
             }
@@ -120,13 +124,13 @@ fn turns_on_the_lattice_are_turns_of_the_plane() {
 
 #[test]
 fn a_boundary_is_what_one_cell_alone_has() {
-    let one = cell(1, 2, Half::Up);
+    let one = cell(1, 2, CellShape::Up);
     let own = [((1, 2), (2, 2)), ((2, 2), (1, 3)), ((1, 3), (1, 2))];
-    let sorted = |steps: &[Step]| {
+    let sorted = |steps: &[LatticeEdge]| {
         steps
             .iter()
             .copied()
-            .collect::<BTreeSet<Step>>()
+            .collect::<BTreeSet<LatticeEdge>>()
             .into_iter()
     };
     assert!(boundary(&[one]).into_iter().eq(sorted(&own)));
@@ -137,24 +141,24 @@ fn a_boundary_is_what_one_cell_alone_has() {
         ((2, 2), (1, 3)),
         ((1, 3), (1, 2)),
     ];
-    let both = boundary(&[one, cell(1, 2, Half::Down)]);
+    let both = boundary(&[one, cell(1, 2, CellShape::Down)]);
     assert!(both.into_iter().eq(sorted(&below)));
 }
 
 #[test]
 fn outlines_have_corners_only_where_they_turn() {
-    // An L of five squares of half a metre.
+    // An L of five squares of shape a metre.
     let mut cells = squares(3, 1, &[]);
-    cells.extend([cell(0, 1, Half::Whole), cell(0, 2, Half::Whole)]);
+    cells.extend([cell(0, 1, CellShape::Square), cell(0, 2, CellShape::Square)]);
     let corners = [(0, 0), (3, 0), (3, 1), (1, 1), (1, 3), (0, 3)];
     let traced = trace(&cells).expect("joined by edges");
     assert_eq!(traced.len(), 1);
     assert_eq!(nodes(&traced[0]), corners);
     assert_eq!(outline_of(&cells, 0.5).area(), 1.25);
     // A triangle of two rows: three up, one down.
-    let up = [(0, 0), (1, 0), (0, 1)].map(|(x, y)| cell(x, y, Half::Up));
+    let up = [(0, 0), (1, 0), (0, 1)].map(|(x, y)| cell(x, y, CellShape::Up));
     let mut cells = up.to_vec();
-    cells.push(cell(0, 1, Half::Down));
+    cells.push(cell(0, 1, CellShape::Down));
     let traced = trace(&cells).expect("joined by edges");
     assert_eq!(nodes(&traced[0]), [(0, 0), (2, 0), (0, 2)]);
     assert!((outline_of(&cells, 1.0).area() - 3f64.sqrt()).abs() < 1e-15);
@@ -228,15 +232,17 @@ fn rings_that_touch_in_a_node_stay_with_their_own_cells() {
 
 /// The six triangles around the origin, anticlockwise from the one between 0° and 60°.
 fn wheel() -> Vec<Cell> {
-    (0..6).map(|k| cell(0, 0, Half::Up).turned(k)).collect()
+    (0..6)
+        .map(|k| cell(0, 0, CellShape::Up).turned(k))
+        .collect()
 }
 
 /// The hexagon of two triangles to a side, without some of the six around its centre.
 fn hexagon(without: &[usize]) -> Vec<Cell> {
     let inner = wheel();
-    let place = |n: Node| lattice(Half::Up, 1.0).node(n).coords.norm();
+    let place = |n: Node| lattice(CellShape::Up, 1.0).node(n).coords.norm();
     let all = (-3..=3).flat_map(|x| (-3..=3).map(move |y| (x, y)));
-    let both = all.flat_map(|(x, y)| [cell(x, y, Half::Up), cell(x, y, Half::Down)]);
+    let both = all.flat_map(|(x, y)| [cell(x, y, CellShape::Up), cell(x, y, CellShape::Down)]);
     let within = both.filter(|c| c.corners().iter().all(|n| place(*n) < 2.01));
     let gone: Vec<Cell> = without.iter().map(|k| inner[*k]).collect();
     within.filter(|c| !gone.contains(c)).collect()
@@ -277,10 +283,10 @@ fn triangles_that_meet_in_a_node_only_keep_their_own_two_sides() {
 
 #[test]
 fn cells_that_meet_in_a_corner_only_are_not_one_body() {
-    let apart = [cell(0, 0, Half::Whole), cell(1, 1, Half::Whole)];
-    assert_eq!(lattice(Half::Whole, 1.0).polygon(&apart), None);
-    assert_eq!(lattice(Half::Whole, 1.0).polygon(&[]), None);
+    let apart = [cell(0, 0, CellShape::Square), cell(1, 1, CellShape::Square)];
+    assert_eq!(lattice(CellShape::Square, 1.0).polygon(&apart), None);
+    assert_eq!(lattice(CellShape::Square, 1.0).polygon(&[]), None);
     // One that is listed twice is there once.
-    let twice = [cell(0, 0, Half::Up), cell(0, 0, Half::Up)];
+    let twice = [cell(0, 0, CellShape::Up), cell(0, 0, CellShape::Up)];
     assert_eq!(outline_of(&twice, 2.0), outline_of(&twice[..1], 2.0));
 }

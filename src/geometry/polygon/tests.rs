@@ -103,7 +103,7 @@ fn boxes_meet_where_they_share_a_point() {
         (2.0, -1.0),
         (1.0, 0.5),
     ] {
-        assert!(own.meets(moved(x, y)), "{x} {y}");
+        assert!(own.intersects(moved(x, y)), "{x} {y}");
     }
     for (x, y) in [
         (2.1, 0.0),
@@ -113,7 +113,7 @@ fn boxes_meet_where_they_share_a_point() {
         (2.1, 1.1),
         (-2.1, 0.5),
     ] {
-        assert!(!own.meets(moved(x, y)), "{x} {y}");
+        assert!(!own.intersects(moved(x, y)), "{x} {y}");
     }
 }
 

@@ -200,7 +200,7 @@ fn beside<'s>(nodes: &Nodes, sides: &'s [Side], gaps: &[f64], kept: &[bool]) -> 
         let (from, to) = (nodes.all[side.ends[0]].at, nodes.all[side.ends[1]].at);
         let along = to - from;
         let length = along.norm();
-        let around = Edge { from, to }.around().grown(gaps[side.body]);
+        let around = Edge { from, to }.bounds().grown(gaps[side.body]);
         for number in nearby.intersecting(around).copied() {
             let node = &nodes.all[number];
             if nodes.bodies(node).contains(&side.body) {
@@ -321,7 +321,7 @@ fn spoilt(before: &[Rings], after: &[Rings], gaps: &[f64], noise: f64) -> BTreeS
     let entries = polygons
         .iter()
         .enumerate()
-        .filter_map(|(i, p)| p.as_ref().map(|p| (Aabb::leaning(p.outline()), i)));
+        .filter_map(|(i, p)| p.as_ref().map(|p| (Aabb::with_diagonals(p.outline()), i)));
     let nearby = BoxIndex::new(entries.collect(), |entry| entry.0);
     for (own, (_, a)) in nearby.all() {
         for (_, b) in nearby.intersecting(*own) {

@@ -2,8 +2,8 @@
 
 use super::*;
 
-fn merged(list: Vec<Triple>) -> Vec<Triple> {
-    super::merged(list.into_iter())
+fn reduced(list: Vec<Vec3>) -> Vec<Vec3> {
+    super::reduce(list.into_iter())
 }
 
 /// SplitMix64, from −1 to 1.
@@ -14,11 +14,11 @@ fn chance(seed: &mut u64) -> f64 {
     ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 52) as f64 - 1.0
 }
 
-fn triple(seed: &mut u64) -> Triple {
+fn triple(seed: &mut u64) -> Vec3 {
     [chance(seed), chance(seed), chance(seed)]
 }
 
-fn combined(generators: &[Triple], amounts: &[f64]) -> Triple {
+fn combined(generators: &[Vec3], amounts: &[f64]) -> Vec3 {
     let mut point = [0.0; 3];
     for (g, a) in generators.iter().zip(amounts) {
         for k in 0..3 {
@@ -33,7 +33,7 @@ fn combinations_lie_within_their_largest_amount_and_supports_reach_it() {
     let mut seed = 7;
     for count in [1, 2, 3, 4, 8, 20, 39] {
         for _ in 0..50 {
-            let g: Vec<Triple> = (0..count).map(|_| triple(&mut seed)).collect();
+            let g: Vec<Vec3> = (0..count).map(|_| triple(&mut seed)).collect();
             let amounts: Vec<f64> = g.iter().map(|_| 0.3 * chance(&mut seed)).collect();
             let scale = zonotope_gauge(&g, combined(&g, &amounts));
             assert!(scale <= 0.3 * (1.0 + 1e-9), "{count}: {scale}");
@@ -50,18 +50,18 @@ fn combinations_lie_within_their_largest_amount_and_supports_reach_it() {
 fn scale_rotation_and_mirror_change_nothing() {
     let mut seed = 11;
     for _ in 0..100 {
-        let g: Vec<Triple> = (0..7).map(|_| triple(&mut seed)).collect();
+        let g: Vec<Vec3> = (0..7).map(|_| triple(&mut seed)).collect();
         let point = triple(&mut seed);
         let scale = zonotope_gauge(&g, point);
         let angle = 3.0 * chance(&mut seed);
         let (sin, cos) = libm::sincos(angle);
-        let turned = |v: Triple| [cos * v[0] - sin * v[1], sin * v[0] + cos * v[1], v[2]];
-        let mirrored = |v: Triple| [-v[0], v[1], -v[2]];
-        let larger = |v: Triple| v.map(|x| 1e150 * x);
-        let smaller = |v: Triple| v.map(|x| 1e-120 * x);
-        let ways: [&dyn Fn(Triple) -> Triple; 4] = [&turned, &mirrored, &larger, &smaller];
+        let turned = |v: Vec3| [cos * v[0] - sin * v[1], sin * v[0] + cos * v[1], v[2]];
+        let mirrored = |v: Vec3| [-v[0], v[1], -v[2]];
+        let larger = |v: Vec3| v.map(|x| 1e150 * x);
+        let smaller = |v: Vec3| v.map(|x| 1e-120 * x);
+        let ways: [&dyn Fn(Vec3) -> Vec3; 4] = [&turned, &mirrored, &larger, &smaller];
         for way in ways {
-            let changed: Vec<Triple> = g.iter().map(|v| way(*v)).collect();
+            let changed: Vec<Vec3> = g.iter().map(|v| way(*v)).collect();
             let other = zonotope_gauge(&changed, way(point));
             assert!(
                 (other / scale - 1.0).abs() < 1e-9,
@@ -108,7 +108,7 @@ fn flat_and_straight_ones() {
 fn hundreds_of_generators_are_judged_more_strictly_never_less() {
     let mut seed = 5;
     for count in [60, 200, 900] {
-        let g: Vec<Triple> = (0..count).map(|_| triple(&mut seed)).collect();
+        let g: Vec<Vec3> = (0..count).map(|_| triple(&mut seed)).collect();
         let n = triple(&mut seed);
         let far: Vec<f64> = g.iter().map(|v| dot(n, *v).signum()).collect();
         let point = combined(&g, &far);
@@ -120,14 +120,14 @@ fn hundreds_of_generators_are_judged_more_strictly_never_less() {
 }
 
 /// The same turned in space: by 36.9° about z, and then by 67.4° about x.
-fn tilted(v: Triple) -> Triple {
+fn tilted(v: Vec3) -> Vec3 {
     let [x, y, z] = [0.8 * v[0] - 0.6 * v[1], 0.6 * v[0] + 0.8 * v[1], v[2]];
     let (sin, cos) = (12.0 / 13.0, 5.0 / 13.0);
     [x, cos * y - sin * z, sin * y + cos * z]
 }
 
 /// Both of them turned, and in parts of 10⁻⁴⁰.
-fn ways() -> [fn(Triple) -> Triple; 3] {
+fn ways() -> [fn(Vec3) -> Vec3; 3] {
     [|v| v, tilted, |v| tilted(v).map(|x| 1e-40 * x)]
 }
 
@@ -135,12 +135,12 @@ fn ways() -> [fn(Triple) -> Triple; 3] {
 fn three_generators_take_the_amounts_that_solve_for_the_point() {
     let mut seed = 3;
     for _ in 0..100 {
-        let g: Vec<Triple> = (0..3).map(|_| triple(&mut seed)).collect();
+        let g: Vec<Vec3> = (0..3).map(|_| triple(&mut seed)).collect();
         let amounts = triple(&mut seed);
         let most = amounts.iter().fold(0.0, |m: f64, a| m.max(a.abs()));
         let point = combined(&g, &amounts);
         for way in ways() {
-            let turned: Vec<Triple> = g.iter().map(|v| way(*v)).collect();
+            let turned: Vec<Vec3> = g.iter().map(|v| way(*v)).collect();
             let scale = zonotope_gauge(&turned, way(point));
             assert!((scale / most - 1.0).abs() < 1e-6, "{scale} for {most}");
         }
@@ -229,7 +229,7 @@ fn few_are_told_exactly_and_many_by_their_least_squares() {
     };
     let mut forces = [[along(0, 1.0); 5], [along(2, 1.0); 5]].concat();
     forces.extend([along(1, 2.0), along(1, -2.0)]);
-    assert_eq!(forces.len(), FEW);
+    assert_eq!(forces.len(), MAX_GENERATORS_TESTED_AT_ONCE);
     // One lies across the others, so that the two ways differ.
     forces[4] = [1.0, 1.0, 1.0];
     let point = [2.0, 1.0, 0.5];
@@ -240,7 +240,7 @@ fn few_are_told_exactly_and_many_by_their_least_squares() {
     forces[4] = along(0, 1.0);
     forces.extend([along(1, 2.0), along(1, 2.0)]);
     for way in ways() {
-        let turned: Vec<Triple> = forces.iter().map(|v| way(*v)).collect();
+        let turned: Vec<Vec3> = forces.iter().map(|v| way(*v)).collect();
         for (point, most) in [
             ([1.0, 0.0, 0.0], 0.2),
             ([0.0, -4.0, 0.0], 0.5),
@@ -257,13 +257,13 @@ fn few_are_told_exactly_and_many_by_their_least_squares() {
 #[test]
 fn least_squares_say_nothing_where_space_is_not_spanned_well() {
     let mut seed = 9;
-    let flat = |thick: f64, seed: &mut u64| -> Vec<Triple> {
+    let flat = |thick: f64, seed: &mut u64| -> Vec<Vec3> {
         let any = (0..20).map(|_| triple(seed));
         any.map(|[x, y, z]| [x, y, thick * z]).collect()
     };
     for way in ways() {
         let mut spans = |thick: f64| {
-            let forces: Vec<Triple> = flat(thick, &mut seed).into_iter().map(way).collect();
+            let forces: Vec<Vec3> = flat(thick, &mut seed).into_iter().map(way).collect();
             zonotope_gauge_bound(&forces, way([1.0, 0.0, 0.0])).is_some()
         };
         assert!(spans(1.0) && spans(1e-3));
@@ -299,7 +299,7 @@ fn least_squares_say_nothing_where_space_is_not_spanned_well() {
 fn least_squares_are_never_below_the_smallest_scale() {
     let mut seed = 21;
     for _ in 0..100 {
-        let g: Vec<Triple> = (0..20).map(|_| triple(&mut seed)).collect();
+        let g: Vec<Vec3> = (0..20).map(|_| triple(&mut seed)).collect();
         let amounts: Vec<f64> = g.iter().map(|_| chance(&mut seed)).collect();
         let point = combined(&g, &amounts);
         let (quick, least) = (
@@ -318,7 +318,7 @@ fn least_squares_are_never_below_the_smallest_scale() {
 
 #[test]
 fn parallel_ones_are_one_and_opposite_ones_add_up() {
-    let found = merged(vec![
+    let found = reduced(vec![
         [1.0, 2.0, 2.0],
         [0.0; 3],
         [3.0, 0.0, 0.0],
@@ -327,16 +327,18 @@ fn parallel_ones_are_one_and_opposite_ones_add_up() {
     ]);
     assert_eq!(found, [[3.0, 6.0, 6.0], [3.5, 0.0, 0.0]]);
     // A millionth of a degree apart is not parallel.
-    assert_eq!(merged(vec![[1.0, 0.0, 0.0], [1.0, 2e-8, 0.0]]).len(), 2);
-    assert_eq!(merged(vec![[1.0, 0.0, 0.0], [1e-3, 2e-11, 0.0]]).len(), 2);
+    assert_eq!(reduced(vec![[1.0, 0.0, 0.0], [1.0, 2e-8, 0.0]]).len(), 2);
+    assert_eq!(reduced(vec![[1.0, 0.0, 0.0], [1e-3, 2e-11, 0.0]]).len(), 2);
 }
 
 #[test]
 fn beyond_forty_the_ones_whose_sum_loses_least_are_added_up() {
     let mut seed = 13;
-    let unit = |v: Triple| v.map(|x| x / norm(v));
-    let apart: Vec<Triple> = (0..MOST).map(|_| unit(triple(&mut seed))).collect();
-    assert_eq!(merged(apart.clone()), apart, "forty stay as they are");
+    let unit = |v: Vec3| v.map(|x| x / norm(v));
+    let apart: Vec<Vec3> = (0..MAX_GENERATORS)
+        .map(|_| unit(triple(&mut seed)))
+        .collect();
+    assert_eq!(reduced(apart.clone()), apart, "forty stay as they are");
     // Small ones across them, and others next to them, are what is lost; what lies apart stays apart.
     let few = &apart[..15];
     let mut all = few.to_vec();
@@ -348,12 +350,12 @@ fn beyond_forty_the_ones_whose_sum_loses_least_are_added_up() {
         few.iter()
             .map(|g| [g[0], g[1] + 1e-7, g[2] - 1e-7].map(|x| -x)),
     );
-    let kept = merged(all);
-    assert_eq!(kept.len(), MOST);
+    let kept = reduced(all);
+    assert_eq!(kept.len(), MAX_GENERATORS);
     let whole = few.iter().map(|g| g.map(|x| 2.0 * x)).collect::<Vec<_>>();
     for _ in 0..50 {
         let n = unit(triple(&mut seed));
-        let width = |all: &[Triple]| all.iter().map(|g| dot(n, *g).abs()).sum::<f64>();
+        let width = |all: &[Vec3]| all.iter().map(|g| dot(n, *g).abs()).sum::<f64>();
         assert!((width(&kept) - width(&whole)).abs() < 1e-5);
     }
 }
@@ -366,25 +368,25 @@ fn the_part_of_the_smaller_across_the_larger_is_what_is_lost() {
         let v = triple(&mut seed);
         v.map(|x| size * x / norm(v))
     };
-    let mut all: Vec<Triple> = (0..MOST - 2).map(|_| any(10.0)).collect();
+    let mut all: Vec<Vec3> = (0..MAX_GENERATORS - 2).map(|_| any(10.0)).collect();
     let small = [any(0.03), any(0.03)];
     let across = cross(all[0], small[0]);
     let close = across.map(|x| 1e-3 * x / norm(across));
-    all.extend([sum(all[0], close), small[0], small[1]]);
-    let kept = merged(all.clone());
-    assert_eq!(kept.len(), MOST);
+    all.extend([aligned_sum(all[0], close), small[0], small[1]]);
+    let kept = reduced(all.clone());
+    assert_eq!(kept.len(), MAX_GENERATORS);
     assert!(small.iter().all(|g| kept.contains(g)));
-    assert!(kept.contains(&sum(all[0], all[MOST - 2])));
+    assert!(kept.contains(&aligned_sum(all[0], all[MAX_GENERATORS - 2])));
 }
 
 #[test]
 fn more_than_a_hundred_and_twenty_are_first_added_up_by_direction() {
-    let alike = |count: usize| -> Vec<Triple> {
+    let alike = |count: usize| -> Vec<Vec3> {
         let at = |k: usize| 0.1 + 1e-3 * k as f64;
         (0..count).map(|k| [1.0, at(k), 0.05]).collect()
     };
-    assert_eq!(merged(alike(MANY)).len(), MOST);
-    let found = merged(alike(MANY + 1));
+    assert_eq!(reduced(alike(MAX_PAIRED_GENERATORS)).len(), MAX_GENERATORS);
+    let found = reduced(alike(MAX_PAIRED_GENERATORS + 1));
     assert_eq!(found.len(), 1, "all of them are in one cell");
     assert!((found[0][0] - 121.0).abs() < 1e-9);
 }
@@ -392,11 +394,11 @@ fn more_than_a_hundred_and_twenty_are_first_added_up_by_direction() {
 #[test]
 fn a_cell_holds_directions_that_are_alike() {
     let mut seed = 17;
-    let mut first: Vec<Option<Triple>> = vec![None; 3 * CELLS * CELLS];
+    let mut first: Vec<Option<Vec3>> = vec![None; 3 * CELLS_PER_SIDE * CELLS_PER_SIDE];
     for _ in 0..5000 {
         let g = triple(&mut seed);
-        let own = cell(g);
-        assert_eq!(own, cell(g.map(|x| -3.0 * x)));
+        let own = direction_cell(g);
+        assert_eq!(own, direction_cell(g.map(|x| -3.0 * x)));
         let other = *first[own].get_or_insert(g);
         // A cell is a third of the half-width of a face wide and high.
         let sine = norm(cross(g, other)) / (norm(g) * norm(other));
@@ -408,7 +410,12 @@ fn a_cell_holds_directions_that_are_alike() {
     );
     // Those along the edges of a face belong to one of its outermost cells.
     assert_eq!(
-        [cell([1.0, 1.0, 1.0]), cell([-1.0, 1.0, 1.0])].iter().max(),
+        [
+            direction_cell([1.0, 1.0, 1.0]),
+            direction_cell([-1.0, 1.0, 1.0])
+        ]
+        .iter()
+        .max(),
         Some(&107)
     );
 }
@@ -421,8 +428,8 @@ fn a_bound_lies_above_the_answer_and_says_nothing_of_flat_ones() {
         let count = 3 + turn % 38;
         // As thin along one axis as friction that is granted for rounding alone.
         let thin = if turn % 2 == 0 { 3e-6 } else { 1.0 };
-        let squeezed = |[x, y, z]: Triple| [thin * x, y, z];
-        let g: Vec<Triple> = (0..count).map(|_| squeezed(triple(&mut seed))).collect();
+        let squeezed = |[x, y, z]: Vec3| [thin * x, y, z];
+        let g: Vec<Vec3> = (0..count).map(|_| squeezed(triple(&mut seed))).collect();
         let point = squeezed(triple(&mut seed));
         let scale = zonotope_gauge(&g, point);
         if let Some(bound) = quick_gauge_bound(&g, point) {

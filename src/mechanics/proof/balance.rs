@@ -13,7 +13,7 @@
 use super::Forces;
 use crate::assembly::{Assembly, AssemblyBody};
 use crate::geometry::{
-    CompensatedSum, Point, Triple, Vector, cross, quick_gauge_bound, zonotope_gauge,
+    CompensatedSum, Point, Vec3, Vector, cross, quick_gauge_bound, zonotope_gauge,
     zonotope_gauge_bound,
 };
 
@@ -29,7 +29,7 @@ const PLENTY: f64 = 1e-10;
 /// Friction that a contact could give beside what it gives.
 struct Cone {
     /// A unit of it, as a generator.
-    along: Triple,
+    along: Vec3,
     given: f64,
     most: f64,
 }
@@ -39,7 +39,7 @@ struct Acting {
     centroid: Point,
     radius: f64,
     left: [CompensatedSum; 3],
-    generators: Vec<Triple>,
+    generators: Vec<Vec3>,
     cones: Vec<Cone>,
     /// Σ |F|.
     total: f64,
@@ -91,7 +91,7 @@ impl Acting {
     }
 
     /// What is left unbalanced, N.
-    fn left(&self) -> Triple {
+    fn left(&self) -> Vec3 {
         let [x, y, moment] = self.left.map(CompensatedSum::value);
         [x, y, moment / self.radius]
     }

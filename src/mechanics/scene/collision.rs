@@ -219,7 +219,7 @@ fn on_lattice(bodies: &[Numbered<'_>], lattice: Lattice, presence: &Presence) ->
 fn off_lattice(bodies: &[Numbered<'_>], presence: &Presence) -> Vec<Found> {
     let boxes: Vec<Aabb<4>> = bodies
         .iter()
-        .map(|(_, body)| Aabb::leaning(body.polygon.outline()))
+        .map(|(_, body)| Aabb::with_diagonals(body.polygon.outline()))
         .collect();
     let pieces: Vec<ConvexPieces> = bodies
         .iter()

@@ -42,7 +42,7 @@ pub use starter::starter;
 
 #[doc(inline)]
 pub use crate::geometry::{
-    Bounds, Cell, Half, Lattice, LatticeKind, Point, Polygon, PolygonError, Tolerance, Vector,
+    Bounds, Cell, CellShape, Lattice, LatticeKind, Point, Polygon, PolygonError, Tolerance, Vector,
 };
 
 /// A structure to be examined, checked. It cannot be changed: [`Scene::builder`] and the readers of files are the ways in.

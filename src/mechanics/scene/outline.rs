@@ -5,7 +5,9 @@ use super::format::{CellEntry, CellHalf, Pair};
 use super::number::{SMALLEST_EXTENT, is_sane};
 use super::path::Trail;
 use super::problem;
-use crate::geometry::{Cell, Half, Lattice, LatticeKind, Point, Polygon, PolygonError, Vector};
+use crate::geometry::{
+    Cell, CellShape, Lattice, LatticeKind, Point, Polygon, PolygonError, Vector,
+};
 
 /// Largest lattice coordinate: sums and products of a few of them stay exact.
 pub(super) const REACH: f64 = 1e6;
@@ -143,11 +145,13 @@ pub(super) fn cells(
     for (i, entry) in entries.iter().enumerate() {
         let at = at.index(i);
         let (x, y, half) = match (*entry, lattice.kind) {
-            (CellEntry::Triangle(x, y, CellHalf::Up), LatticeKind::Triangular) => (x, y, Half::Up),
-            (CellEntry::Triangle(x, y, CellHalf::Down), LatticeKind::Triangular) => {
-                (x, y, Half::Down)
+            (CellEntry::Triangle(x, y, CellHalf::Up), LatticeKind::Triangular) => {
+                (x, y, CellShape::Up)
             }
-            (CellEntry::Square(x, y), LatticeKind::Square) => (x, y, Half::Whole),
+            (CellEntry::Triangle(x, y, CellHalf::Down), LatticeKind::Triangular) => {
+                (x, y, CellShape::Down)
+            }
+            (CellEntry::Square(x, y), LatticeKind::Square) => (x, y, CellShape::Square),
             (CellEntry::Square(..), LatticeKind::Triangular) => {
                 findings.add(&at, problem::outline::square_cell());
                 sound = false;
@@ -163,7 +167,7 @@ pub(super) fn cells(
             sound = false;
             continue;
         };
-        let cell = Cell { x, y, half };
+        let cell = Cell { x, y, shape: half };
         if let Some(first) = seen.insert(cell, i) {
             findings.add(&at, problem::outline::cell_twice(first));
             sound = false;

@@ -12,10 +12,10 @@
 //! | `linkr` | 6 | its lower waist corner, (−¼, −√3/4) from the centroid |
 //! | `linkl` | 6 | its lower waist corner, (¼, −√3/4) from the centroid; mirror image of `linkr` |
 
-use crate::geometry::{Cell, Half};
+use crate::geometry::{Cell, CellShape};
 
-const UP: Half = Half::Up;
-const DOWN: Half = Half::Down;
+const UP: CellShape = CellShape::Up;
+const DOWN: CellShape = CellShape::Down;
 
 /// The names of the built-in shapes.
 pub const BUILT_IN: [&str; 6] = ["up", "down", "hexagon", "linkh", "linkr", "linkl"];
@@ -30,7 +30,7 @@ pub const BUILT_IN: [&str; 6] = ["up", "down", "hexagon", "linkh", "linkr", "lin
 /// assert_eq!(shape::cells("octagon"), None);
 /// ```
 pub fn cells(name: &str) -> Option<Vec<Cell>> {
-    let cells: &[(i64, i64, Half)] = match name {
+    let cells: &[(i64, i64, CellShape)] = match name {
         "up" => &[(0, 0, UP)],
         "down" => &[(0, 0, DOWN)],
         "hexagon" => &[
@@ -70,7 +70,7 @@ pub fn cells(name: &str) -> Option<Vec<Cell>> {
     Some(
         cells
             .iter()
-            .map(|&(x, y, half)| Cell { x, y, half })
+            .map(|&(x, y, half)| Cell { x, y, shape: half })
             .collect(),
     )
 }

@@ -12,7 +12,7 @@ const UNEVEN: f64 = 3.0;
 /// Of a neighbourhood it is the typical size of what lies in it.
 pub(crate) fn unit(scene: &Scene, zoom: Option<BlockId>) -> f64 {
     let near = zoom.map(|block| view::around(scene, block));
-    let shown = |b: &&Block| near.is_none_or(|near| near.meets(b.body.polygon.bounds()));
+    let shown = |b: &&Block| near.is_none_or(|near| near.intersects(b.body.polygon.bounds()));
     let mut sizes: Vec<f64> = scene
         .blocks
         .iter()

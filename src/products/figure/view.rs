@@ -77,7 +77,7 @@ pub(crate) fn ground_shown(scene: &Scene, unit: f64) -> Option<Bounds> {
     let far = structure.grown(reach);
     let shown = |part: Bounds| {
         let small = part.width() <= PIECE * unit && part.height() <= PIECE * unit;
-        if small && far.meets(part) {
+        if small && far.intersects(part) {
             Some(part)
         } else {
             common(near, part)

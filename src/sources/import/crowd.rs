@@ -64,7 +64,7 @@ pub(super) fn is_tangle(rings: &[Vec<Corner>]) -> bool {
             if b.min.x > a.max.x {
                 break;
             }
-            if a.meets(*b) {
+            if a.intersects(*b) {
                 work = work.saturating_add(corners.saturating_mul(*others));
             }
             if work > MOST_WORK {

@@ -99,7 +99,7 @@ fn robots(
                 min: robot.at,
                 max: robot.at,
             };
-            bounds.meets(at) && p.contains(robot.at)
+            bounds.intersects(at) && p.contains(robot.at)
         });
         if held.is_none() {
             let message = format!(

@@ -49,7 +49,7 @@ fn holds(outer: Option<Bounds>, inner: Option<Bounds>) -> bool {
     let (Some(outer), Some(inner)) = (outer, inner) else {
         return false;
     };
-    outer.meets(inner) && outer.width() >= inner.width() && outer.height() >= inner.height()
+    outer.intersects(inner) && outer.width() >= inner.width() && outer.height() >= inner.height()
 }
 
 /// Whether most of a ring's corners lie inside another; one corner alone may lie on the other's edge.

@@ -2,7 +2,7 @@
 
 use super::Resolution;
 use super::body::BodyEntry;
-use crate::geometry::{Cell, Half, Point, Vector, sin_cos_degrees};
+use crate::geometry::{Cell, CellShape, Point, Vector, sin_cos_degrees};
 use crate::scene::finding::{Findings, UnreadParts};
 use crate::scene::format::{CellEntry, CellHalf, SceneFile};
 use crate::scene::number::LARGEST;
@@ -98,15 +98,15 @@ impl Resolution<'_> {
     fn cell(&self, cell: CellEntry) -> Option<Vec<Point>> {
         let lattice = self.lattice?;
         let (x, y, half) = match cell {
-            CellEntry::Triangle(x, y, CellHalf::Up) => (x, y, Half::Up),
-            CellEntry::Triangle(x, y, CellHalf::Down) => (x, y, Half::Down),
-            CellEntry::Square(x, y) => (x, y, Half::Whole),
+            CellEntry::Triangle(x, y, CellHalf::Up) => (x, y, CellShape::Up),
+            CellEntry::Triangle(x, y, CellHalf::Down) => (x, y, CellShape::Down),
+            CellEntry::Square(x, y) => (x, y, CellShape::Square),
         };
         if [x, y].iter().any(|c| c.fract() != 0.0 || c.abs() > 1e6) {
             return None;
         }
         let (x, y) = (x as i64, y as i64);
-        let corners = Cell { x, y, half }.corners();
+        let corners = Cell { x, y, shape: half }.corners();
         let point = |(x, y): (i64, i64)| lattice.point(x as f64, y as f64);
         Some(corners.into_iter().map(point).collect())
     }

@@ -42,7 +42,7 @@ impl Side {
         let angle = (2.0 * self.near / along.norm()).clamp(PARALLEL, Tolerance::MAX_ANGLE);
         // A sine is less than its angle by less than a thousandth, and directions differ by less than angles.
         let angle = 1.001 * angle;
-        let (flat, direction) = (self.edge.around(), direction(along));
+        let (flat, direction) = (self.edge.bounds(), direction(along));
         Aabb {
             min: [flat.min[0], flat.min[1], direction - angle],
             max: [flat.max[0], flat.max[1], direction + angle],

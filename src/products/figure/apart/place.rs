@@ -44,7 +44,7 @@ impl Places {
 
     /// Whether some box that meets this one is as asked.
     pub fn any(&self, near: Bounds, mut asked: impl FnMut(usize) -> bool) -> bool {
-        let mut asked = |number: &usize| near.meets(self.boxes[*number]) && asked(*number);
+        let mut asked = |number: &usize| near.intersects(self.boxes[*number]) && asked(*number);
         let Some((low, high)) = self.covered(near) else {
             return (0..self.boxes.len()).any(|number| asked(&number));
         };
@@ -105,7 +105,7 @@ mod tests {
         let mut places = Places::sized_for(boxes.iter().copied());
         for (count, asked) in boxes.iter().enumerate() {
             for near in [*asked, asked.grown(3.0), asked.grown(100.0)] {
-                let all = (0..count).filter(|n| near.meets(boxes[*n]));
+                let all = (0..count).filter(|n| near.intersects(boxes[*n]));
                 assert_eq!(places.meeting(Some(near)), all.collect::<Vec<_>>());
             }
             assert_eq!(places.meeting(None).len(), count);

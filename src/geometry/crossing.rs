@@ -1,0 +1,130 @@
+//! [`crossings`]: pairs of sides that cross or touch although a simple polygon does not allow it.
+//!
+//! Every pair of sides whose boxes intersect is tested with the exact predicate [`orientation`], so that the answer does
+//! not depend on rounding; only the reported place is rounded. Reference: de Berg et al., Computational Geometry, 2008,
+//! chapter 2, for the test of two segments.
+
+use super::edge::{Edge, orientation, ring_edges};
+use super::{Aabb, BoxIndex, Point};
+
+/// At most this many crossings are returned: more would only lengthen the message to the author of the scene.
+const MAX_CROSSINGS: usize = 20;
+
+/// Polygons of up to this many sides are tested pair by pair; for more a [`BoxIndex`] finds the candidates.
+const MAX_SIDES_WITHOUT_INDEX: usize = 12;
+
+/// Two sides with a common point that is not the common corner of neighbours.
+pub(super) struct Crossing {
+    /// The rings of the two sides.
+    pub rings: [usize; 2],
+    /// The corners at which the two sides begin, counted from 0 within their rings.
+    pub corners: [usize; 2],
+    /// A point that both sides contain.
+    pub at: Point,
+}
+
+/// A side with its place in the polygon.
+#[derive(Clone, Copy)]
+struct Side {
+    ring: usize,
+    /// The corner at which it begins.
+    corner: usize,
+    /// Number of corners of its ring.
+    ring_len: usize,
+    edge: Edge,
+}
+
+impl Side {
+    fn bounds(&self) -> Aabb {
+        self.edge.bounds()
+    }
+
+    /// A point in common with a later side of the polygon that a simple polygon does not allow.
+    fn forbidden_contact(&self, later: &Side) -> Option<Point> {
+        let (a, b) = (self, later);
+        // Neighbours share a corner. They cross only if the second one folds back onto the first.
+        if (a.ring, a.corner + 1) == (b.ring, b.corner) {
+            folds_back(a.edge.from, a.edge.to, b.edge.to)
+        } else if a.ring == b.ring && a.corner == 0 && b.corner + 1 == b.ring_len {
+            folds_back(b.edge.from, b.edge.to, a.edge.to)
+        } else {
+            intersection(a.edge, b.edge)
+        }
+    }
+}
+
+/// The crossings of a polygon's sides, in the order of the sides, at most [`MAX_CROSSINGS`].
+pub(super) fn crossings(rings: &[Vec<Point>]) -> Vec<Crossing> {
+    let mut sides: Vec<Side> = Vec::with_capacity(rings.iter().map(Vec::len).sum());
+    for (ring, corners) in rings.iter().enumerate() {
+        sides.extend(ring_edges(corners).enumerate().map(|(corner, edge)| Side {
+            ring,
+            corner,
+            ring_len: corners.len(),
+            edge,
+        }));
+    }
+    let index =
+        (sides.len() > MAX_SIDES_WITHOUT_INDEX).then(|| BoxIndex::new(sides.clone(), Side::bounds));
+    let mut found: Vec<Crossing> = Vec::new();
+    for (number, a) in sides.iter().enumerate() {
+        let before = found.len();
+        let mut test = |b: &Side| {
+            if let Some(at) = a.forbidden_contact(b) {
+                found.push(Crossing {
+                    rings: [a.ring, b.ring],
+                    corners: [a.corner, b.corner],
+                    at,
+                });
+            }
+        };
+        let bounds = a.bounds();
+        match &index {
+            None => (sides[number + 1..].iter())
+                .filter(|b| bounds.intersects(&b.bounds()))
+                .for_each(test),
+            Some(index) => (index.intersecting(bounds))
+                .filter(|b| (a.ring, a.corner) < (b.ring, b.corner))
+                .for_each(&mut test),
+        }
+        // The index returns candidates in no particular order; the answer must not depend on it.
+        found[before..].sort_by_key(|crossing| (crossing.rings[1], crossing.corners[1]));
+        if found.len() >= MAX_CROSSINGS {
+            found.truncate(MAX_CROSSINGS);
+            break;
+        }
+    }
+    found
+}
+
+/// The corner `b` if the path a → b → c reverses its direction there.
+fn folds_back(a: Point, b: Point, c: Point) -> Option<Point> {
+    (orientation(a, b, c) == 0.0 && (a - b).dot(&(c - b)) > 0.0).then_some(b)
+}
+
+/// A common point of two segments, if they have one.
+fn intersection(a: Edge, b: Edge) -> Option<Point> {
+    let a_from = orientation(b.from, b.to, a.from);
+    let a_to = orientation(b.from, b.to, a.to);
+    let b_from = orientation(a.from, a.to, b.from);
+    let b_to = orientation(a.from, a.to, b.to);
+    // An end of one segment on the other: it is on the line, and between the two ends.
+    let is_between = |e: Edge, p: Point| (p - e.from).dot(&(p - e.to)) <= 0.0;
+    for (turn, edge, point) in [
+        (a_from, b, a.from),
+        (a_to, b, a.to),
+        (b_from, a, b.from),
+        (b_to, a, b.to),
+    ] {
+        if turn == 0.0 && is_between(edge, point) {
+            return Some(point);
+        }
+    }
+    // A proper crossing: each segment has its ends on different sides of the other's line. A turn of 0 needs no case of
+    // its own: that end was not on the other segment, so both ends of the other lie to one side of this segment's line.
+    if (a_from > 0.0) != (a_to > 0.0) && (b_from > 0.0) != (b_to > 0.0) {
+        let share = a_from / (a_from - a_to);
+        return Some(a.from + a.vector() * share);
+    }
+    None
+}

@@ -1,0 +1,58 @@
+//! [`Edge`]: a side of a polygon, and the predicate that tells on which side of a line a point lies.
+
+use super::{Aabb, Point, Vector};
+
+/// A directed side of a polygon; the polygon's material lies on its left.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Edge {
+    /// Start point, metres.
+    pub from: Point,
+    /// End point, metres.
+    pub to: Point,
+}
+
+impl Edge {
+    /// The vector from the start to the end, metres.
+    pub fn vector(&self) -> Vector {
+        self.to - self.from
+    }
+
+    /// Length in metres.
+    pub fn length(&self) -> f64 {
+        self.vector().norm()
+    }
+
+    /// The unit normal that points out of the material.
+    pub fn outward(&self) -> Vector {
+        let d = self.vector().normalize();
+        Vector::new(d.y, -d.x)
+    }
+
+    /// The smallest axis-parallel box around the edge.
+    pub(crate) fn bounds(&self) -> Aabb {
+        let (a, b) = (self.from, self.to);
+        Aabb {
+            min: [a.x.min(b.x), a.y.min(b.y)],
+            max: [a.x.max(b.x), a.y.max(b.y)],
+        }
+    }
+}
+
+/// The sides of a closed ring of corners, in their order; the last side leads back to the first corner.
+pub(super) fn ring_edges(ring: &[Point]) -> impl Iterator<Item = Edge> + '_ {
+    // A comparison instead of a remainder: this loop is among the most frequent when scenes are read.
+    let next = |i: usize| if i + 1 == ring.len() { 0 } else { i + 1 };
+    (0..ring.len()).map(move |i| Edge {
+        from: ring[i],
+        to: ring[next(i)],
+    })
+}
+
+/// Positive if the path a → b → c turns left, negative if it turns right, 0 if the three points are collinear.
+///
+/// The sign is exact for any finite coordinates. Reference: Shewchuk, Adaptive Precision Floating-Point Arithmetic and
+/// Fast Robust Geometric Predicates, 1997.
+pub(super) fn orientation(a: Point, b: Point, c: Point) -> f64 {
+    let coord = |p: Point| robust::Coord { x: p.x, y: p.y };
+    robust::orient2d(coord(a), coord(b), coord(c))
+}
