@@ -3,9 +3,9 @@
 
 use std::process::Command;
 
-use drystone::analysis::Options;
+use drystone::analysis::{MarginKinds, Options};
 use drystone::figure;
-use drystone::result::{Layout, Timing, to_json};
+use drystone::result::{Layout, Timing, margins_json, to_json};
 use drystone::scene::format::SceneFile;
 use drystone::session::Session;
 use drystone::snapshot::fact::{DIGITS, Facts};
@@ -83,6 +83,10 @@ fn every_way_in_says_the_same() {
         let told = to_json(&margins, Timing::LeftOut, Layout::OneLine);
         let told: Value = serde_json::from_str(&told).expect("JSON");
         assert_eq!(told["frames"], check["frames"], "scene {number}");
+        let margins = session.margins(MarginKinds::ALL).expect("one frame");
+        let margins: Value =
+            serde_json::from_str(&margins_json(session.scene(), &margins)).expect("JSON");
+        assert_eq!(margins, check["frames"][0]["margins"], "scene {number}");
         assert_eq!(
             session.verdict().word(),
             check["frames"][0]["verdict"],

@@ -89,12 +89,13 @@ fn a_margin_of_loads_is_drawn_where_the_verdict_changes() {
         1,
         "the load is shown"
     );
-    // What falls as it is has no margin and no ghost.
+    // What falls as it is has no ghost; the words say at which loads it would stand: up to 3 of its 4 N.
     let falls = block(1.0, 4.0);
     let analysis = Analysis::with(&falls, &asked);
     let drawing = figure::draw(&analysis, Kind::Margin, &options);
     let (words, _) = said(&drawing);
-    assert!(words.contains("there is no margin"), "{words}");
+    let would_stand = "falls as it is; stands with its loads at most 0.75 times as large";
+    assert!(words.contains(would_stand), "{words}");
     assert!(classes(&drawing.items, &["ghosts"]).is_empty());
     assert!(!words.contains("how it would begin to fall"), "{words}");
 }

@@ -4,6 +4,10 @@
 //! across it, a dashed line shows where it points now, an arrow where it would point, or the push beside it; where loads
 //! grow, they are shown as they are. Nothing falls here; the blocks stand in their places.
 
+mod reason;
+
+use reason::percent_of;
+
 use super::arrow::Marks;
 use super::content::PanelContent;
 use super::context::FigureContext;
@@ -15,8 +19,8 @@ use super::option::Options;
 use super::panel::composed;
 use super::pen::Pen;
 use super::thrust;
-use super::words::{degrees, percent};
-use crate::analysis::{Analysis, Margin, Motion, Toward, Verdict};
+use super::words::degrees;
+use crate::analysis::{Analysis, Motion, Toward, Verdict};
 use crate::drawing::arrow::straight;
 use crate::drawing::{Camera, Group, Outline, PagePoint, PageRect, Path, Stroke, Theme};
 use crate::geometry::{Bounds, Point, Vector, quarter_turn, sin_cos_degrees};
@@ -165,58 +169,7 @@ impl PanelContent for CollapseMargin {
     }
 
     fn reason(&self, context: &FigureContext<'_>, frame: usize) -> String {
-        let (analysis, toward) = (context.analysis, context.options.toward);
-        let found = &analysis.frames[frame];
-        if found.verdict != Verdict::Stable {
-            return "there is no margin: it does not stand as it is".to_owned();
-        }
-        let Some(margins) = &found.margins else {
-            return "its margins were not asked for".to_owned();
-        };
-        let side = |edge: f64| if edge > 0.0 { "right" } else { "left" };
-        if let Some((edge, _)) = beyond(analysis, frame, toward) {
-            return match toward {
-                Toward::Tilt => format!(
-                    "falls once gravity is turned by {} to the {}",
-                    degrees(edge.abs()),
-                    side(edge)
-                ),
-                Toward::HorizontalLoad => format!(
-                    "falls once {} of each weight pushes to the {} as well",
-                    percent_of(edge),
-                    side(edge)
-                ),
-                Toward::LoadFactor => {
-                    format!("falls once its loads are {} times as large", times(edge))
-                }
-            };
-        }
-        let sides = match toward {
-            Toward::Tilt => Some(&margins.tilt),
-            Toward::HorizontalLoad => Some(&margins.horizontal_load),
-            Toward::LoadFactor => None,
-        };
-        let confirmed = |margin: &Margin| !matches!(margin, Margin::Unconfirmed { .. });
-        if sides.is_some_and(|s| !confirmed(&s.left) || !confirmed(&s.right)) {
-            return "how far it is from falling was not confirmed by a verdict on either side"
-                .to_owned();
-        }
-        let placed = &analysis.scene.frames[frame].placed;
-        let loaded = analysis
-            .scene
-            .loads
-            .iter()
-            .any(|l| placed.contains(&l.block));
-        match toward {
-            Toward::Tilt => "no turn of gravity makes it fall",
-            Toward::HorizontalLoad => "no horizontal push makes it fall",
-            Toward::LoadFactor if !loaded => "it has no loads that could grow",
-            Toward::LoadFactor if margins.load_factor == Margin::Unbounded => {
-                "its loads may grow without end"
-            }
-            Toward::LoadFactor => "how far its loads may grow was not found",
-        }
-        .to_owned()
+        reason::sentence(context.analysis, frame, context.options.toward)
     }
 }
 
@@ -292,32 +245,6 @@ fn ghost_path(outline: Outline, line: f64, theme: &Theme) -> Path {
     let edge = theme.motion.mixed(theme.ink, 0.25);
     let stroke = Stroke::new(edge, line.max(0.9)).dashed([5.0, 3.5]);
     Path::stroked(outline, stroke)
-}
-
-/// A share of gravity in percent, also beyond all of it.
-fn percent_of(share: f64) -> String {
-    if share.abs() < 1.0 {
-        percent(share.abs())
-    } else {
-        format!("{:.0}\u{a0}%", 100.0 * share.abs())
-    }
-}
-
-/// A factor with three digits: `2.4`, `1.02`, `350`.
-fn times(factor: f64) -> String {
-    let decimals = match factor {
-        f if f < 10.0 => 2,
-        f if f < 100.0 => 1,
-        _ => 0,
-    };
-    let described = format!("{factor:.decimals$}");
-    if decimals == 0 {
-        return described;
-    }
-    described
-        .trim_end_matches('0')
-        .trim_end_matches('.')
-        .to_owned()
 }
 
 fn ghost_sign(at: PagePoint, theme: &Theme) -> Vec<crate::drawing::Item> {

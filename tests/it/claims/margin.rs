@@ -1,10 +1,13 @@
 //! What is told of how far a structure is from the edge.
 
 use drystone::Analysis;
-use drystone::analysis::{Options, Verdict};
+use drystone::analysis::{MarginKind, MarginKinds, Options, Toward, Verdict};
+use drystone::figure::{self, Kind};
+use drystone::output::svg;
 use serde_json::{Value, json};
 
 use super::{list, number, told_with};
+use crate::oracle::random;
 use crate::structure::{arch, harmonic, on_slope, scene, wall};
 
 /// Every margin of some scenes of ours, asked of changed files through the front door.
@@ -96,4 +99,96 @@ fn margins_are_borne_out_by_verdicts_on_either_side() {
         }
     }
     assert!(asked >= 20, "{asked}");
+}
+
+/// The words of `--kind margin` are those of the result's interval, whether the frame stands today or not.
+#[test]
+fn the_figure_of_a_margin_tells_the_interval_of_the_result() {
+    let options = Options::default()
+        .margins(true)
+        .margin_kinds(MarginKinds::new(&[MarginKind::LoadFactor]));
+    // A plank overhangs its support; the load is a counterweight that has to be at least a third of what it is.
+    let plank = json!({ "drystone": 1, "friction": 0.7,
+        "ground": [{ "polygon": [[0, -1], [4, -1], [4, 0], [0, 0]] }],
+        "blocks": [{ "id": "plank", "polygon": [[1, 0], [9, 0], [9, 1], [1, 1]], "weight": 6 }],
+        "loads": [{ "block": "plank", "force": [0, -12], "at": [2.5, 1] }] });
+    let random = (0..400).map(|number| random::scene(number).1);
+    let loaded = |file: &Value| !list(&file["loads"]).is_empty();
+    let sound = |file: &Value| drystone::Scene::from_json(&file.to_string()).is_ok();
+    let files = random.filter(loaded).filter(sound).take(40);
+    let (mut standing, mut falling, mut never) = (0, 0, 0);
+    for (number_of, file) in [plank].into_iter().chain(files).enumerate() {
+        let told = told_with(&file, &options);
+        let frame = &told.json["frames"][0];
+        let interval = &frame["margins"]["intervals"]["load_factor"];
+        let analysis = Analysis::with(scene(&file), &options);
+        let look = figure::Options::default().toward(Toward::LoadFactor);
+        let svg = svg::write(&figure::draw(&analysis, Kind::Margin, &look));
+        let document = roxmltree::Document::parse(&svg).expect("XML");
+        let parts = document.descendants().filter(|n| n.has_tag_name("text"));
+        let words: Vec<&str> = parts.filter_map(|n| n.text()).collect();
+        let words = words.join(" ");
+        let ends = [&interval[0], &interval[1]].map(Value::as_f64);
+        // Four digits are written.
+        let near = |exact: f64| {
+            let told = words
+                .split([' ', ','])
+                .filter_map(|word| word.parse::<f64>().ok());
+            told.into_iter()
+                .any(|value| (value - exact).abs() <= 6e-4 * exact)
+        };
+        if number_of == 0 {
+            // Its weight acts 1 m outside the ground's edge at 4 m, the load 1.5 m inside: 6·1 = 12·1.5·f.
+            assert!(
+                ends[0].is_some_and(|low| (low - 1.0 / 3.0).abs() < 1e-6),
+                "{interval}"
+            );
+            assert!(
+                words.contains("without end; falls once they are 0.3333 times"),
+                "{words}"
+            );
+        }
+        if interval == "withheld" {
+            assert!(words.contains("not confirmed"), "{words}: {file}");
+            continue;
+        }
+        match (
+            frame["verdict"].as_str().expect("a word"),
+            interval.is_null(),
+        ) {
+            (verdict, true) => {
+                assert_ne!(verdict, "stable", "{file}");
+                assert!(
+                    words.contains("falls at every factor on its loads"),
+                    "{words}"
+                );
+                never += 1;
+            }
+            ("stable", false) => {
+                let low = ends[0].filter(|low| *low > 0.0);
+                for end in [low, ends[1]].into_iter().flatten() {
+                    assert!(near(end), "{end}: {words}: {file}");
+                }
+                standing += 1;
+            }
+            (_, false) => {
+                let low = ends[0].filter(|low| *low > 0.0);
+                assert!(
+                    words.contains("as it is; stands with its loads"),
+                    "{words}: {file}"
+                );
+                for end in [low, ends[1].filter(|high| *high > 0.0)]
+                    .into_iter()
+                    .flatten()
+                {
+                    assert!(near(end), "{end}: {words}: {file}");
+                }
+                falling += 1;
+            }
+        }
+    }
+    assert!(
+        standing > 5 && falling > 3 && never > 3,
+        "{standing} {falling} {never}"
+    );
 }

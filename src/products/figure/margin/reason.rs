@@ -1,0 +1,154 @@
+//! The sentence below the verdict: at which values of the parameter the frame stands.
+
+use crate::analysis::{Analysis, End, Interval, Toward, Verdict};
+use crate::wording::number::digits;
+
+use super::super::words::{degrees, percent};
+
+/// At which turns of gravity, pushes across it, or factors on its loads a frame stands.
+pub(super) fn sentence(analysis: &Analysis, frame: usize, toward: Toward) -> String {
+    let found = &analysis.frames[frame];
+    let Some(margins) = &found.margins else {
+        return "its margins were not computed".to_owned();
+    };
+    let intervals = &margins.intervals;
+    let interval = match toward {
+        Toward::Tilt => &intervals.tilt,
+        Toward::HorizontalLoad => &intervals.horizontal_load,
+        Toward::LoadFactor => &intervals.load_factor,
+    };
+    let Some(interval) = interval else {
+        return match toward {
+            Toward::LoadFactor => "it has no loads that could grow",
+            Toward::Tilt | Toward::HorizontalLoad => "its margin was not computed",
+        }
+        .to_owned();
+    };
+    match (found.verdict, interval) {
+        (Verdict::Stable, _) => standing(analysis, frame, toward, interval),
+        (verdict, Interval::Between { low, high }) => {
+            let now = match verdict {
+                Verdict::Undecided => "undecided",
+                Verdict::Stable | Verdict::Unstable => "falls",
+            };
+            format!("{now} as it is; stands {}", range(low, high, toward))
+        }
+        (_, Interval::Empty) => format!("falls at every {}", parameter(toward)),
+        (_, Interval::Undecided) => {
+            format!("at which {} it stands was not confirmed", parameter(toward))
+        }
+    }
+}
+
+fn parameter(toward: Toward) -> &'static str {
+    match toward {
+        Toward::Tilt => "turn of gravity",
+        Toward::HorizontalLoad => "push across gravity",
+        Toward::LoadFactor => "factor on its loads",
+    }
+}
+
+/// What is said of a frame that stands: the nearest end, and the other one where the parameter has two.
+fn standing(analysis: &Analysis, frame: usize, toward: Toward, interval: &Interval) -> String {
+    let side = |edge: f64| if edge > 0.0 { "right" } else { "left" };
+    if let Some((edge, _)) = analysis.edge(frame, toward) {
+        return match toward {
+            Toward::Tilt => format!(
+                "falls once gravity is turned by {} to the {}",
+                degrees(edge.abs()),
+                side(edge)
+            ),
+            Toward::HorizontalLoad => format!(
+                "falls once {} of each weight pushes to the {} as well",
+                percent_of(edge),
+                side(edge)
+            ),
+            Toward::LoadFactor => {
+                let below = least_factor(interval);
+                let below = below.map_or_else(String::new, |low| {
+                    format!(", or less than {} times", digits(low))
+                });
+                format!(
+                    "falls once its loads are {} times as large{below}",
+                    digits(edge)
+                )
+            }
+        };
+    }
+    match (interval, toward) {
+        (Interval::Between { low, high }, _) if is_open(low) || is_open(high) => {
+            "how far it is from falling was not confirmed by a verdict on either side".to_owned()
+        }
+        (Interval::Between { .. }, Toward::Tilt) => "no turn of gravity makes it fall".to_owned(),
+        (Interval::Between { .. }, Toward::HorizontalLoad) => {
+            "no horizontal push makes it fall".to_owned()
+        }
+        (Interval::Between { .. }, Toward::LoadFactor) => match least_factor(interval) {
+            None => "its loads may grow without end".to_owned(),
+            Some(low) => format!(
+                "its loads may grow without end; falls once they are {} times as large",
+                digits(low)
+            ),
+        },
+        _ => "how far it is from falling was not found".to_owned(),
+    }
+}
+
+fn is_open(end: &End) -> bool {
+    matches!(end, End::Unconfirmed { .. })
+}
+
+/// The least factor on the loads, where it is above 0.
+fn least_factor(interval: &Interval) -> Option<f64> {
+    let low = interval.low().and_then(End::value);
+    low.filter(|low| *low > 0.0)
+}
+
+/// An interval in words, for behind `stands`.
+fn range(low: &End, high: &End, toward: Toward) -> String {
+    let least = known(low).filter(|low| toward != Toward::LoadFactor || *low > 0.0);
+    let most = known(high);
+    let value = |value: f64| {
+        let side = match value {
+            0.0 => "",
+            v if v > 0.0 => " right",
+            _ => " left",
+        };
+        match toward {
+            Toward::Tilt => format!("{}{side}", degrees(value.abs())),
+            Toward::HorizontalLoad => format!("{}{side}", percent_of(value)),
+            Toward::LoadFactor => digits(value),
+        }
+    };
+    let (what, unit) = match toward {
+        Toward::Tilt => ("with gravity turned", ""),
+        Toward::HorizontalLoad => ("with a push across gravity", " of each weight"),
+        Toward::LoadFactor => ("with its loads", " times as large"),
+    };
+    let range = match (least, most) {
+        (None, None) => return "at other values, which were not confirmed".to_owned(),
+        (Some(low), None) => format!("at least {}", value(low)),
+        (None, Some(high)) => format!("at most {}", value(high)),
+        (Some(low), Some(high)) if low == high => value(low),
+        (Some(low), Some(high)) => format!("from {} to {}", value(low), value(high)),
+    };
+    format!("{what} {range}{unit}")
+}
+
+/// The farthest value at which it is known to stand.
+fn known(end: &End) -> Option<f64> {
+    match end {
+        End::At { value, .. } => Some(*value),
+        End::Unconfirmed { stands, .. } => Some(*stands),
+        _ => None,
+    }
+}
+
+/// A share of gravity in percent, also beyond all of it.
+pub(super) fn percent_of(share: f64) -> String {
+    if share.abs() < 1.0 {
+        percent(share.abs())
+    } else {
+        format!("{:.0}\u{a0}%", 100.0 * share.abs())
+    }
+}
