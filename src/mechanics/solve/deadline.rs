@@ -32,6 +32,11 @@ impl Drop for DeadlineGuard {
 }
 
 /// The deadline of this thread.
-pub(super) fn deadline() -> Option<Instant> {
+pub(crate) fn deadline() -> Option<Instant> {
     DEADLINE.get()
+}
+
+/// Whether the deadline of this thread has passed.
+pub(crate) fn is_late() -> bool {
+    deadline().is_some_and(|end| Instant::now() >= end)
 }

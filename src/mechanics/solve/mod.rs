@@ -8,6 +8,7 @@
 //! | `solver`, `clarabel`, `normal`, `settings`, `answer`, `deadline` | solve one quadratic program |
 //! | `dual`, `face`, `amounts` | a linear program in terms of columns, and the face of its optima |
 //! | `balance`, `residual`, `stick`, `limit`, `tangent` | the programs of limit analysis |
+//! | `level`, `stick_levels` | their optima where loads span many sizes |
 //! | `determinate`, `exact`, `bounded_nnls`, `incremental_cholesky` | what needs no interior-point method |
 //! | `correction`, `refine`, `polish`, `extreme_ray` | improve forces and motions that a solver found |
 //! | `wedge` | whether forces build up from rest |
@@ -25,6 +26,7 @@ mod exact;
 pub(crate) mod extreme_ray;
 mod face;
 mod incremental_cholesky;
+mod level;
 mod limit;
 mod normal;
 #[cfg(test)]
@@ -37,6 +39,7 @@ mod settings;
 mod slanted;
 mod solver;
 mod stick;
+mod stick_levels;
 mod tangent;
 mod wedge;
 
@@ -45,7 +48,7 @@ pub use answer::{Answer, Status};
 pub use balance::{Balance, balance, balance_at_first_look, balance_in};
 pub use bounded_nnls::{BoundedNnls, generators};
 pub use clarabel::by_clarabel;
-pub(crate) use deadline::DeadlineGuard;
+pub(crate) use deadline::{DeadlineGuard, deadline, is_late};
 pub use determinate::{collapse, determinate};
 pub use dual::{Dual, dual};
 pub use limit::{Extreme, Limit, least, most, nearest_factor};

@@ -6,7 +6,7 @@
 
 use super::answer::{Answer, is_finite};
 use super::clarabel::by_clarabel;
-use super::deadline::deadline;
+use super::deadline::{deadline, is_late};
 use super::normal;
 use super::settings::{Conditioning, MAX_ITERATIONS, SolverSettings, StoppingCriteria};
 use crate::program::QuadraticProgram;
@@ -32,6 +32,10 @@ pub fn solve_within(
     settings: SolverSettings,
     iterations: usize,
 ) -> Answer {
+    // To order and factorise a large program takes as long as many iterations: after the deadline none is begun.
+    if is_late() {
+        return Answer::none(problem);
+    }
     assert!(all_finite(problem), "a program is made of finite numbers");
     if settings.conditioning == Conditioning::Plain || normal::is_least_squares(problem) {
         let criteria = StoppingCriteria {

@@ -9,11 +9,13 @@
 //! the order of the file; a tie between mirror images stays a tie, and the figure of a mirrored scene is the mirrored
 //! figure.
 
+use super::level::refined_optimum;
 use super::limit::columns_in;
 use super::slanted::Slanted;
 use super::{
     Amounts, Conditioning, CrossoverTolerance, Dual, Effort, Face, SolverSettings, Status,
     determinate, dual, in_forces, largest, least_squares_amounts, of_velocities, once, refined,
+    stick_levels,
 };
 use crate::program::{Column, Program, kinematic_dual, sticking_columns};
 
@@ -140,8 +142,22 @@ pub(super) fn by_programs(program: &Program, settings: SolverSettings) -> Stuck 
             effort,
         };
     }
-    let mut face = chosen(&whole, &first, size, settings, &mut effort);
-    if settings.conditioning == Conditioning::Full {
+    let least = sticking_sum(&whole, &first.amounts);
+    let precise = stick_levels::wanted(&whole.loads, least).and_then(|wanted| {
+        let (loads, columns) = (&whole.loads, &whole.columns);
+        let cost = |c: &Column| f64::from(u8::from(c.force.sticks()));
+        let found = refined_optimum(loads, columns, cost, &first, wanted, &mut effort)?;
+        Some((found, wanted))
+    });
+    let mut motion = motion;
+    let mut face = match &precise {
+        Some((first, wanted)) => {
+            motion = Some(first.y.iter().map(|v| -v).collect());
+            stick_levels::chosen(&whole, first, *wanted, settings, &mut effort)
+        }
+        None => chosen(&whole, &first, size, settings, &mut effort),
+    };
+    if settings.conditioning == Conditioning::Full && precise.is_none() {
         face.amounts = refined(&face.loads, &face.columns, face.amounts, &mut effort);
     }
     let (mut forces, mut sticking) = face.gathered(program);

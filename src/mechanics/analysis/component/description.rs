@@ -7,7 +7,7 @@ use super::local::Outcome;
 use super::rung::MANY_BLOCKS;
 use crate::analysis::Verdict;
 use crate::program::Program;
-use crate::solve::{Choice, balance_in, stick_in};
+use crate::solve::{Choice, balance_in, is_late, stick_in};
 
 impl Case<'_> {
     /// A decision with its description, where that is asked for.
@@ -18,6 +18,10 @@ impl Case<'_> {
         match decision.verdict {
             Verdict::Stable if !decision.least_force => self.with_least_force(program, decision),
             Verdict::Unstable if !decision.in_part => self.with_failures(program, decision),
+            // What bodies lack that fall while all others rest may be more in the whole, where the others give way.
+            Verdict::Unstable if program.blocks < MANY_BLOCKS => {
+                self.with_failures_of_the_whole(program, decision)
+            }
             _ => decision,
         }
     }
@@ -32,6 +36,9 @@ impl Case<'_> {
         let sought =
             usize::from(program.blocks < MANY_BLOCKS || decision.method != Method::LeastResidual);
         for settings in self.settings.iter().skip(sought) {
+            if is_late() {
+                break;
+            }
             let solved = balance_in(program, *settings);
             decision.effort = decision.effort.and(solved.effort);
             if sought == 0 && solved.forces.is_none() {
@@ -56,6 +63,25 @@ impl Case<'_> {
                         };
                     }
                 }
+            }
+        }
+        decision
+    }
+
+    /// What would have to stick in the whole, in place of what the falling bodies lack, where it balances every body.
+    fn with_failures_of_the_whole(&self, program: &Program, mut decision: Decision) -> Decision {
+        for settings in &self.settings {
+            if is_late() {
+                break;
+            }
+            let stuck = stick_in(program, *settings);
+            decision.effort = decision.effort.and(stuck.effort);
+            if stuck.balanced == Some(true)
+                && self.carried_with_sticking(&stuck.forces, &stuck.sticking).1
+            {
+                decision.amounts = stuck.forces;
+                decision.sticking = Some(stuck.sticking);
+                break;
             }
         }
         decision
@@ -89,10 +115,16 @@ impl Case<'_> {
             if let (Some((mechanism, proof)), false) = (own, stuck.priced) {
                 (decision.mechanism, decision.proof) = (mechanism, proof);
             }
-            decision.beyond_sticking = stuck.balanced == Some(false);
-            decision.amounts = stuck.forces;
-            decision.sticking = (stuck.balanced == Some(true)).then_some(stuck.sticking);
-            if stuck.balanced.is_some() {
+            // A later setting replaces what an earlier one found only where that does not balance every body.
+            let found = stuck.balanced == Some(true);
+            let holds = found && self.carried_with_sticking(&stuck.forces, &stuck.sticking).1;
+            if holds || decision.sticking.is_none() {
+                decision.beyond_sticking = stuck.balanced == Some(false);
+                decision.amounts = stuck.forces;
+                decision.sticking = found.then_some(stuck.sticking);
+            }
+            let many = program.blocks >= MANY_BLOCKS;
+            if holds || stuck.balanced == Some(false) || (found && many) {
                 break;
             }
         }

@@ -11,7 +11,7 @@ use super::{Case, Method};
 use crate::analysis::{UndecidedReason, Verdict};
 use crate::program::Program;
 use crate::proof::{Motion, Proof};
-use crate::solve::{Amounts, Effort, Stuck};
+use crate::solve::{Amounts, Effort, Stuck, is_late};
 
 /// A verdict with its proof, in the pure numbers of its program.
 pub(super) struct Decision {
@@ -48,6 +48,10 @@ impl Case<'_> {
         let mut weak: Option<(Vec<Motion>, Proof)> = None;
         let (mut last, mut stuck) = (None, None);
         for rung in Strategy::ladder(program, &self.settings, self.place, self.described) {
+            // After the deadline only the last attempt is reported; even to pose the next program takes time.
+            if last.is_some() && is_late() {
+                break;
+            }
             let attempt = rung.attempt(program);
             effort = effort.and(attempt.effort);
             no_status |= rung.is_least() && attempt.forces.is_none() && attempt.motion.is_none();

@@ -20,7 +20,7 @@ use crate::assembly::Substructure;
 use crate::geometry::Vector;
 use crate::program::{Program, Scale};
 use crate::proof::{self, Motion, Proof};
-use crate::solve::{Amounts, Effort, corrected, relative};
+use crate::solve::{Amounts, Effort, corrected, is_late, relative};
 
 /// Rounds of making forces good.
 const ROUNDS: usize = 8;
@@ -70,6 +70,9 @@ impl Case<'_> {
             let carried = self.carried(&amounts);
             if self.believes(&carried.proof) {
                 return Outcome::Stands(amounts, carried.proof);
+            }
+            if is_late() {
+                break;
             }
             let fails = failing(&carried);
             if let Some(better) = relative(program, &amounts, effort)

@@ -151,7 +151,7 @@ impl<'a> Case<'a> {
         let (mut failures, mut total_sticking) = (Vec::new(), 0.0);
         if let (Some(sticking), Verdict::Unstable) = (&decision.sticking, decision.verdict) {
             failures = self.failures(sticking);
-            total_sticking = sticking.total() * self.scale.force;
+            total_sticking = failure::total(&failures, self.assembly.length);
         }
         let mut mechanism = decision.mechanism;
         if decision.verdict != Verdict::Unstable {
@@ -166,8 +166,11 @@ impl<'a> Case<'a> {
             motion.spin = plain(motion.spin * self.assembly.length) / self.assembly.length;
         }
         // Forces beside a fall mean something together with what sticks.
-        let forces = match decision.verdict {
-            Verdict::Unstable if !self.described => Forces::none(self.assembly),
+        let forces = match (decision.verdict, &decision.sticking) {
+            (Verdict::Unstable, _) if !self.described => Forces::none(self.assembly),
+            (Verdict::Unstable, Some(sticking)) => {
+                self.carried_with_sticking(&decision.amounts, sticking).0
+            }
             _ => self.carried(&decision.amounts).forces,
         };
         Findings {

@@ -8,7 +8,7 @@ use crate::effect::wedging::Wedging;
 use crate::program::Program;
 use crate::proof::{Forces, Motion};
 use crate::scene::Scene;
-use crate::solve::{Amounts, Effort, SelfStress, SelfStressCheck, reach};
+use crate::solve::{Amounts, Effort, SelfStress, SelfStressCheck, is_late, reach};
 
 /// Whether a component stands, and how it begins to move where it falls: the verdict of [`solved`](super::solved) without
 /// the rest. What is found is remembered among the guesses; where one of them is a proof already, no program is solved.
@@ -18,7 +18,7 @@ pub(in crate::mechanics::analysis) fn judged(
     guesses: &mut ProofCache,
 ) -> (Verdict, Vec<Motion>) {
     let guess = guessed(assembly, guesses);
-    if guess.0 != Verdict::Undecided {
+    if guess.0 != Verdict::Undecided || is_late() {
         return guess;
     }
     let case = Case {
@@ -43,6 +43,9 @@ pub(in crate::mechanics::analysis) fn guessed(
     assembly: &Assembly,
     guesses: &ProofCache,
 ) -> (Verdict, Vec<Motion>) {
+    if is_late() {
+        return (Verdict::Undecided, Vec::new());
+    }
     let case = Case::new(assembly, ALONE);
     if guesses.balances(&case) {
         return (Verdict::Stable, Vec::new());

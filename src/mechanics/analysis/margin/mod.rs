@@ -29,6 +29,7 @@ use rayon::prelude::*;
 use super::component::Findings;
 use super::{Key, Verdict};
 use crate::assembly::Assembly;
+use crate::solve::{DeadlineGuard, deadline};
 pub use interval::{End, Interval, Intervals, RobotIntervals};
 pub use kind::{MarginKind, MarginKinds};
 pub use margins::{Margin, Margins, RobotMargins, Sides};
@@ -85,8 +86,11 @@ pub(super) fn of(
     let each = fresh.par_iter();
     #[cfg(not(feature = "parallel"))]
     let each = fresh.iter();
+    // A deadline belongs to a thread: the workers get that of this one.
+    let deadline = deadline();
     let found: Vec<(Key, ComponentIntervals, usize)> = each
         .map(|part| {
+            let _guard = DeadlineGuard::new(deadline);
             let mut trial = part.trial();
             let intervals = parameter::intervals(&mut trial, part.stands(), kinds);
             (part.key.clone(), intervals, trial.judged)
