@@ -1,5 +1,6 @@
 //! The hard program: admissible forces of least sum that balance every block, or a motion that none can stop.
 
+use super::level::{WIDE, lightest, refined_optimum, with_least_squares};
 use super::{
     Amounts, Choice, Conditioning, Dual, Effort, Face, SolverSettings, Status, largest,
     least_squares_amounts, of_velocities, once_within, refined, remainder, settled,
@@ -78,6 +79,31 @@ fn vagueness(solved: &Dual) -> f64 {
     }
 }
 
+/// The least force of few blocks whose loads span many sizes, each with its own digits; `None` of others.
+fn of_every_body(
+    program: &Program,
+    whole: &Face,
+    solved: &Dual,
+    settings: SolverSettings,
+    effort: &mut Effort,
+) -> Option<Balance> {
+    let light = lightest(&whole.loads);
+    let wide = light < WIDE * largest(&whole.loads);
+    if !wide || program.blocks >= MANY_BLOCKS || settings.choice == Choice::Any {
+        return None;
+    }
+    let (loads, columns) = (&whole.loads, &whole.columns);
+    let optimum = refined_optimum(loads, columns, |c| c.cost, solved, light, effort)?;
+    let face = whole.narrowed(&optimum, 1.0);
+    let (forces, _) = with_least_squares(face, settings, effort).gathered(program);
+    Some(Balance {
+        forces: Some(forces),
+        motion: None,
+        witness: Some(optimum.y.iter().map(|v| -v).collect()),
+        effort: *effort,
+    })
+}
+
 /// Solves the hard program of [Vallat23](crate::doc::references) §2.0.7 through its kinematic dual.
 pub fn balance(program: &Program, conditioning: Conditioning) -> Balance {
     balance_in(program, conditioning.into())
@@ -117,6 +143,9 @@ fn balance_within(program: &Program, settings: SolverSettings, short: usize) -> 
     }
     match solved.status {
         Status::Solved => {
+            if let Some(found) = of_every_body(program, &whole, &solved, settings, &mut effort) {
+                return found;
+            }
             let size = largest(&program.loads);
             let mut found: Option<(f64, Face)> = None;
             let margins = match settings.choice {

@@ -14,9 +14,15 @@
 //!
 //! The velocities of a light body mean nothing until a level has the size of its load. Each level gains about six digits.
 
-use super::{Conditioning, Dual, Effort, Status, largest, solved_with_retry};
+use super::{
+    Conditioning, Dual, Effort, Face, SolverSettings, Status, largest, least_squares_amounts,
+    refined, solved_with_retry,
+};
 use crate::geometry::Sum;
 use crate::program::{Column, Conic};
+
+/// Loads differ by more than a solver's digits where the lightest is below this part of the heaviest.
+pub(super) const WIDE: f64 = 1e-3;
 
 /// Levels at most: twelve decades of loads, and the digits of the lightest, take four.
 const MAX_LEVELS: usize = 8;
@@ -102,6 +108,25 @@ pub(super) fn refined_optimum(
         }
     }
     None
+}
+
+/// A face with the amounts of least Σ force² on it, where these balance every body; else as it is.
+pub(super) fn with_least_squares(
+    face: Face,
+    settings: SolverSettings,
+    effort: &mut Effort,
+) -> Face {
+    let (loads, columns) = (&face.loads, &face.columns);
+    let balances = |amounts: &Vec<f64>| balances_every_body(loads, columns, amounts);
+    let found = least_squares_amounts(loads, columns, settings, effort);
+    let found = found.map(|amounts| match balances(&amounts) {
+        true => amounts,
+        false => refined(loads, columns, amounts, effort),
+    });
+    match found.filter(balances) {
+        Some(amounts) => face.with(amounts),
+        None => face,
+    }
 }
 
 /// Where a column stands on a level.

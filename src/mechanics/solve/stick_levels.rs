@@ -4,16 +4,11 @@
 //! hundred tons sticks by its own digits. Columns leave the face of optima by an amount of exactly 0, and no threshold in
 //! parts of the largest force decides.
 
-use super::level::{balances_every_body, lightest, own_loads, refined_optimum};
-use super::{
-    Dual, Effort, Face, SolverSettings, Status, dual, largest, least_squares_amounts, refined,
-};
+use super::level::{WIDE, lightest, own_loads, refined_optimum, with_least_squares};
+use super::{Dual, Effort, Face, SolverSettings, Status, dual, largest};
 use crate::program::Column;
 
-/// A lightest load below this part of the largest is more than a solver's digits away from it.
-const LIGHT: f64 = 1e-3;
-
-/// So is a sum of sticking below this part of the largest load.
+/// A sum of sticking below this part of the largest load is more than a solver's digits away from it.
 const SLIGHT: f64 = 1e-3;
 
 /// A sum of sticking below this part of the largest load is none.
@@ -28,7 +23,7 @@ pub(super) fn wanted(loads: &[f64], least: f64) -> Option<f64> {
     let light = lightest(loads);
     let slight = NONE * most < least && least < SLIGHT * most;
     let wanted = if slight { light.min(least) } else { light };
-    (wanted < LIGHT * most && wanted > 0.0).then_some(wanted)
+    (wanted < WIDE * most && wanted > 0.0).then_some(wanted)
 }
 
 /// Among all balances of least sticking the one that is shown: of least force, then with fewest points that stick.
@@ -46,10 +41,7 @@ pub(super) fn chosen(
         face = face.narrowed(&second, 1.0);
     }
     let face = concentrated(face, wanted, settings, effort);
-    match least_squares(&face, settings, effort) {
-        Some(amounts) => face.with(amounts),
-        None => face,
-    }
+    with_least_squares(face, settings, effort)
 }
 
 /// The optimum of a face for given costs, every body with its own digits.
@@ -110,15 +102,4 @@ fn concentrated(
         }
     }
     face
-}
-
-/// The amounts of least Σ force² on a face, where they balance every body.
-fn least_squares(face: &Face, settings: SolverSettings, effort: &mut Effort) -> Option<Vec<f64>> {
-    let (loads, columns) = (&face.loads, &face.columns);
-    let amounts = least_squares_amounts(loads, columns, settings, effort)?;
-    let amounts = match balances_every_body(loads, columns, &amounts) {
-        true => amounts,
-        false => refined(loads, columns, amounts, effort),
-    };
-    balances_every_body(loads, columns, &amounts).then_some(amounts)
 }

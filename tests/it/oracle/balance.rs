@@ -23,6 +23,13 @@ pub struct Balance<'a> {
     centroids: Vec<Pair>,
 }
 
+/// Which sum is least.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sum {
+    Forces,
+    Sticking,
+}
+
 /// Number of the row of a block's force x; force y and moment follow.
 type First = usize;
 
@@ -90,6 +97,49 @@ impl<'a> Balance<'a> {
     /// Least such sum of forces that no contact and no robot may give, newtons; `None` where none helps.
     pub fn least_sticking(&self) -> Option<f64> {
         self.soft().least().map(|v| v.to_f64_fast())
+    }
+
+    /// A least sum as a fraction: of admissible forces, or of what sticks.
+    pub fn least_exactly(&self, sum: Sum) -> Option<RBig> {
+        self.program(sum).least()
+    }
+
+    fn program(&self, sum: Sum) -> LinearProgram {
+        match sum {
+            Sum::Forces => self.admissible(),
+            Sum::Sticking => self.soft(),
+        }
+    }
+
+    /// The least and the most of a sum that acts on a block where the whole sum is no more than `least`.
+    ///
+    /// The costs are lengths, rounded square roots: what ties is within their rounding.
+    pub fn sum_on(&self, sum: Sum, block: usize, least: &RBig) -> [f64; 2] {
+        let most = least * exact(1.0 + 4.0 * f64::EPSILON);
+        let bounded = |counts: &dyn Fn(bool) -> bool| {
+            let mut program = self.program(sum);
+            program.rows.push(Row {
+                entries: program.costs.iter().cloned().enumerate().collect(),
+                bound: most.clone(),
+                equality: false,
+            });
+            let own = |unknown: usize| {
+                let first = self.first_row(block);
+                let rows = &program.rows[first..first + 3];
+                rows.iter()
+                    .any(|row| row.entries.iter().any(|e| e.0 == unknown))
+            };
+            let owned: Vec<bool> = (0..program.costs.len()).map(own).collect();
+            for (cost, own) in program.costs.iter_mut().zip(owned) {
+                if !counts(own) {
+                    *cost = RBig::ZERO;
+                }
+            }
+            program.least().expect("the optimum fits")
+        };
+        let low = bounded(&|own| own);
+        let rest = bounded(&|own| !own);
+        [low.to_f64_fast(), (&most - rest).to_f64_fast()]
     }
 
     /// Whether no sticking helps, not even one that may leave the balance off by the band.

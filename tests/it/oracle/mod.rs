@@ -10,6 +10,7 @@ pub mod random;
 mod shape;
 mod simplex;
 mod small;
+mod sums;
 mod touch;
 mod wedge;
 

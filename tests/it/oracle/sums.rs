@@ -1,0 +1,262 @@
+//! What sticks, in scenes whose weights span twelve decades: the sums of every component and of every block against exact ones.
+//!
+//! A scene has one to three piles that do not touch each other. Each stone weighs 10⁻⁶ to 10⁶ N, whatever lies below it.
+
+use drystone::Analysis;
+use drystone::analysis::{Failure, FrameAnalysis, Verdict};
+use drystone::scene::{BodyId, Scene};
+use rayon::prelude::*;
+use serde_json::{Value, json};
+
+use super::balance::{Balance, Sum};
+use super::random::Chance;
+use super::{number_of, random, touch};
+
+/// What is allowed between a sum and the exact one, in parts of the exact one.
+const SUM: f64 = 1e-6;
+
+/// What is allowed between the sum on a block and the exact ones, in parts of its weight.
+const BLOCK: f64 = 1e-6;
+
+/// Axes of whole length over 8: level, and a slope of 3 in 4.
+const AXES: [[f64; 2]; 3] = [[1.0, 0.0], [1.0, 0.0], [0.5, 0.375]];
+
+/// A scene file, and whether a floating-point number holds its corners to the last bit.
+fn scene(number: u64) -> (Value, bool) {
+    if number % 2 == 0 {
+        return (piles(number), true);
+    }
+    // Every other scene is one of the everyday kinds with other weights.
+    let (kind, mut file) = random::scene(number / 2);
+    let mut chance = Chance::new(number ^ 0x00c0_ffee);
+    for block in file["blocks"].as_array_mut().into_iter().flatten() {
+        block["weight"] = json!(weight(chance.whole(-6, 6), &mut chance));
+    }
+    (file, random::KINDS[kind].1)
+}
+
+fn weight(exponent: i64, chance: &mut Chance) -> f64 {
+    chance.whole(10, 99) as f64 / 10.0 * libm::exp10(exponent as f64)
+}
+
+fn piles(number: u64) -> Value {
+    let mut chance = Chance::new(number ^ 0x005a_d5e7);
+    let [c, s] = chance.one_of(&AXES);
+    let outline = |x: f64, y: f64, width: f64, height: f64| {
+        let place = |x: f64, y: f64| json!([x * c - y * s, x * s + y * c]);
+        json!([
+            place(x, y),
+            place(x + width, y),
+            place(x + width, y + height),
+            place(x, y + height)
+        ])
+    };
+    let mut blocks: Vec<Value> = Vec::new();
+    let mut ground = vec![json!({ "polygon": outline(-16.0, -1.0, 112.0, 1.0) })];
+    for pile in 0..chance.whole(1, 3) {
+        let mut x = 32.0 * pile as f64;
+        // Some piles are of one size, some of all sizes.
+        let own = chance.whole(-6, 6);
+        let mixed = chance.percent(70);
+        let mut add = |x: f64, y: f64, width: f64, height: f64, chance: &mut Chance| {
+            let exponent = if mixed { chance.whole(-6, 6) } else { own };
+            let weight = weight(exponent, chance);
+            let id = format!("{}", blocks.len());
+            blocks.push(
+                json!({ "id": id, "polygon": outline(x, y, width, height), "weight": weight }),
+            );
+        };
+        let foot = x;
+        let courses = chance.whole(1, 4);
+        for course in 0..courses {
+            if course > 0 {
+                x += chance.whole(-10, 10) as f64 / 8.0;
+            }
+            add(x, course as f64, 2.0, 1.0, &mut chance);
+            // A second brick in the course, with a joint between the two.
+            if chance.percent(25) {
+                add(x + 2.0, course as f64, 1.5, 1.0, &mut chance);
+            }
+        }
+        match chance.whole(0, 3) {
+            // A post of the ground beside the lowest brick, with a stone in between.
+            0 => {
+                ground.push(json!({ "polygon": outline(foot - 2.0, 0.0, 1.0, 2.0) }));
+                add(foot - 1.0, 0.25, 1.0, 0.5, &mut chance);
+            }
+            // A stone on the edge of the top.
+            1 => add(x + 1.75, courses as f64, 0.5, 0.5, &mut chance),
+            _ => {}
+        }
+    }
+    let friction = chance.one_of(&[0.25, 0.5, 0.7499, 0.7501, 1.0, 3.0]);
+    json!({ "drystone": 1, "friction": friction, "ground": ground, "blocks": blocks })
+}
+
+fn blocks_of(bodies: &[BodyId]) -> Vec<usize> {
+    let blocks = bodies.iter().filter_map(|body| match body {
+        BodyId::Block(id) => Some(id.0),
+        BodyId::Ground(_) => None,
+    });
+    blocks.collect()
+}
+
+/// The size of a failure, and the blocks it acts on.
+fn size(failure: &Failure, length: f64) -> (f64, Vec<usize>) {
+    match failure {
+        Failure::Tension { bodies, force, .. } | Failure::Friction { bodies, force, .. } => {
+            (force.norm(), blocks_of(bodies))
+        }
+        Failure::RobotForce { block, force, .. } => (force.x.abs() + force.y.abs(), vec![block.0]),
+        Failure::RobotTorque { block, torque, .. } => (torque.abs() / length, vec![block.0]),
+        other => panic!("unknown failure {other:?}"),
+    }
+}
+
+/// What is wrong with the sums of a scene, and the worst relative error of a component's sum.
+fn compared(scene: &Scene, exact: bool, closely: bool) -> (Vec<String>, f64) {
+    let touches = match exact {
+        true => touch::touches(scene),
+        false => touch::as_found(scene),
+    };
+    let analysis = Analysis::new(scene);
+    let frame = &analysis.frames[0];
+    if touches.len() != frame.contacts.len() {
+        return (vec!["it touches elsewhere".into()], 0.0);
+    }
+    let groups = Balance::groups(scene, &touches);
+    let (mut wrong, mut worst) = (Vec::new(), 0.0_f64);
+    let listed: f64 = frame.failures.iter().map(|f| size(f, frame.length).0).sum();
+    if (listed - frame.total_sticking).abs() > 1e-9 * frame.total_sticking {
+        wrong.push(format!("{listed} listed of {}", frame.total_sticking));
+    }
+    let falls = groups.iter().any(|group| !group.stands());
+    let falling = frame.verdict == Verdict::Unstable;
+    if frame.verdict == Verdict::Undecided
+        || (falls != falling && !groups.iter().any(Balance::is_borderline))
+    {
+        wrong.push(format!("{:?} {}", frame.verdict, frame.doubt()));
+        return (wrong, worst);
+    }
+    for group in &groups {
+        compare_group(scene, frame, group, closely, &mut wrong, &mut worst);
+    }
+    (wrong, worst)
+}
+
+/// The forces of contacts and robots in a frame, and the blocks on which each acts.
+fn forces(frame: &FrameAnalysis) -> Vec<(f64, Vec<usize>)> {
+    let contacts = frame.contacts.iter().map(|contact| {
+        let [first, second] = contact.normal_forces;
+        let bodies = contact.interface.bodies;
+        (
+            first + second + contact.friction_force.abs(),
+            blocks_of(&bodies),
+        )
+    });
+    let robots = frame.robots.iter().map(|robot| {
+        let force = robot.force.x.abs() + robot.force.y.abs();
+        (
+            force + robot.torque.abs() / frame.length,
+            vec![robot.block.0],
+        )
+    });
+    contacts.chain(robots).collect()
+}
+
+fn compare_group(
+    scene: &Scene,
+    frame: &FrameAnalysis,
+    group: &Balance,
+    closely: bool,
+    wrong: &mut Vec<String>,
+    worst: &mut f64,
+) {
+    let failures = frame.failures.iter().map(|f| size(f, frame.length));
+    let failures: Vec<(f64, Vec<usize>)> = failures.collect();
+    let of = |sizes: &[(f64, Vec<usize>)], blocks: &[usize]| -> f64 {
+        let own = sizes
+            .iter()
+            .filter(|(_, on)| on.iter().any(|block| blocks.contains(block)));
+        own.map(|(size, _)| size).sum()
+    };
+    let (stands, stuck) = (group.stands(), of(&failures, &group.blocks));
+    let (sum, sizes) = match stands {
+        true => (Sum::Forces, forces(frame)),
+        false => (Sum::Sticking, failures),
+    };
+    // Within the band of the proofs it may stand and be said to fall, or fall and be said to stand.
+    if stands != (stuck == 0.0) && group.is_borderline() {
+        return;
+    }
+    let Some(exact) = group.least_exactly(sum) else {
+        let lost = group
+            .blocks
+            .iter()
+            .all(|block| frame.unsupported.iter().any(|b| b.0 == *block));
+        if !lost && group.is_past_help() {
+            wrong.push(format!("{:?} are past help", group.blocks));
+        }
+        return;
+    };
+    if stands && stuck > 0.0 {
+        wrong.push(format!("{:?} stand, and {stuck} sticks", group.blocks));
+    }
+    let (least, told) = (exact.to_f64_fast(), of(&sizes, &group.blocks));
+    let off = (told - least).abs() / if least > 0.0 { least } else { 1.0 };
+    *worst = worst.max(off);
+    if off > SUM {
+        wrong.push(format!(
+            "{sum:?} {:?}: {told} in place of {least}, off by {off:.1e}",
+            group.blocks
+        ));
+    } else if closely {
+        for block in &group.blocks {
+            let [low, high] = group.sum_on(sum, *block, &exact);
+            let allowed = BLOCK * scene.blocks()[*block].weight;
+            let told = of(&sizes, &[*block]);
+            if told < low - allowed - SUM * low || told > high + allowed + SUM * high {
+                wrong.push(format!(
+                    "{sum:?} on block {block}: {told} is not from {low} to {high}"
+                ));
+            }
+        }
+    }
+}
+
+/// `DRYSTONE_ORACLE_SUMS=3000` looks at more of them, `DRYSTONE_ORACLE_FIRST` is the number of the first.
+#[test]
+#[expect(
+    clippy::print_stdout,
+    reason = "the counts are the result of a long run"
+)]
+fn what_sticks_is_exact_for_every_component_and_block_whatever_the_others_weigh() {
+    let wanted = number_of("DRYSTONE_ORACLE_SUMS", 100);
+    let first = number_of("DRYSTONE_ORACLE_FIRST", 0);
+    let found: Vec<Option<(u64, Value, Vec<String>, f64)>> = (first..first + wanted)
+        .into_par_iter()
+        .map(|number| {
+            let (file, exact) = scene(number);
+            let scene = Scene::from_json(&file.to_string()).ok()?;
+            if !scene.penetrations().is_empty() {
+                return None;
+            }
+            let (wrong, worst) = compared(&scene, exact, number % 16 < 2);
+            Some((number, file, wrong, worst))
+        })
+        .collect();
+    let sound: Vec<_> = found.iter().flatten().collect();
+    let worst = sound.iter().fold(0.0, |m: f64, f| m.max(f.3));
+    let bad: Vec<String> = sound
+        .iter()
+        .filter(|f| !f.2.is_empty())
+        .map(|(number, file, wrong, _)| format!("{number} {}\n{file}", wrong.join("; ")))
+        .collect();
+    println!(
+        "{} scenes, {} of them refused; {} wrong, the worst sum off by {worst:.1e}",
+        found.len(),
+        found.len() - sound.len(),
+        bad.len()
+    );
+    assert!(bad.is_empty(), "{} scenes:\n{}", bad.len(), bad.join("\n"));
+}
