@@ -18,8 +18,8 @@ use super::{
     Conditioning, Dual, Effort, Face, SolverSettings, Status, largest, least_squares_amounts,
     refined, solved_with_retry,
 };
-use crate::geometry::Sum;
-use crate::program::{Column, Conic};
+use crate::geometry::CompensatedSum;
+use crate::program::{Column, QuadraticProgram};
 
 /// Loads differ by more than a solver's digits where the lightest is below this part of the heaviest.
 pub(super) const WIDE: f64 = 1e-3;
@@ -74,7 +74,7 @@ pub(super) fn balances_every_body(loads: &[f64], columns: &[Column], amounts: &[
 
 /// loads − Σ amount·column, summed with twice the digits.
 fn residual(loads: &[f64], columns: &[Column], amounts: &[f64]) -> Vec<f64> {
-    let mut sums = vec![Sum::default(); loads.len()];
+    let mut sums = vec![CompensatedSum::default(); loads.len()];
     for (sum, load) in sums.iter_mut().zip(loads) {
         sum.add(*load);
     }
@@ -83,7 +83,7 @@ fn residual(loads: &[f64], columns: &[Column], amounts: &[f64]) -> Vec<f64> {
             sums[row].add_product(-amount, value);
         }
     }
-    sums.into_iter().map(Sum::value).collect()
+    sums.into_iter().map(CompensatedSum::value).collect()
 }
 
 /// The optimum near a given one, accurate to forces of size `wanted`; `None` where the solver does not get there.
@@ -185,9 +185,9 @@ impl Level {
     }
 
     /// The linear program min Σ reduced cost·change  s.t.  the changes balance the loads of the level.
-    fn conic(&self, columns: &[Column], costs: &[f64], y: &[f64]) -> Conic {
+    fn program_of_changes(&self, columns: &[Column], costs: &[f64], y: &[f64]) -> QuadraticProgram {
         let n = columns.len();
-        let mut conic = Conic {
+        let mut program = QuadraticProgram {
             unknowns: n,
             quadratic: Vec::new(),
             linear: vec![0.0; n],
@@ -200,24 +200,24 @@ impl Level {
             let reduced = costs[k] - column.dot(y);
             if *place != Place::Fixed {
                 let entries = column.entries().map(|(row, v)| (row, k, sign * v));
-                conic.matrix.extend(entries);
+                program.matrix.extend(entries);
             }
             if *place == Place::Basic {
                 continue;
             }
-            conic.linear[k] = (sign * reduced).max(0.0);
-            conic.matrix.push((conic.bound.len(), k, -1.0));
-            conic.bound.push(0.0);
+            program.linear[k] = (sign * reduced).max(0.0);
+            program.matrix.push((program.bound.len(), k, -1.0));
+            program.bound.push(0.0);
             if *place == Place::Fixed || column.limit < LOOSE_LIMIT * self.size {
                 let most = match place {
                     Place::Fixed => 1.0,
                     _ => column.limit / self.size,
                 };
-                conic.matrix.push((conic.bound.len(), k, 1.0));
-                conic.bound.push(most);
+                program.matrix.push((program.bound.len(), k, 1.0));
+                program.bound.push(most);
             }
         }
-        conic
+        program
     }
 
     /// The optimum with the changes of this level, cleaned.
@@ -228,8 +228,8 @@ impl Level {
         mut at: Dual,
         effort: &mut Effort,
     ) -> Option<Dual> {
-        let conic = self.conic(columns, costs, &at.y);
-        let answer = solved_with_retry(&conic, Conditioning::Full, effort);
+        let program = self.program_of_changes(columns, costs, &at.y);
+        let answer = solved_with_retry(&program, Conditioning::Full, effort);
         if answer.status != Status::Solved {
             return None;
         }

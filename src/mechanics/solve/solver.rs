@@ -34,7 +34,7 @@ pub fn solve_within(
 ) -> Answer {
     // To order and factorise a large program takes as long as many iterations: after the deadline none is begun.
     if is_late() {
-        return Answer::none(problem);
+        return Answer::without_status(problem);
     }
     assert!(all_finite(problem), "a program is made of finite numbers");
     if settings.conditioning == Conditioning::Plain || normal::is_least_squares(problem) {

@@ -145,7 +145,7 @@ pub(super) fn by_programs(program: &Program, settings: SolverSettings) -> Stuck 
     let least = sticking_sum(&whole, &first.amounts);
     let precise = stick_levels::wanted(&whole.loads, least).and_then(|wanted| {
         let (loads, columns) = (&whole.loads, &whole.columns);
-        let cost = |c: &Column| f64::from(u8::from(c.force.sticks()));
+        let cost = |c: &Column| f64::from(u8::from(c.force.is_sticking()));
         let found = refined_optimum(loads, columns, cost, &first, wanted, &mut effort)?;
         Some((found, wanted))
     });

@@ -73,30 +73,30 @@ fn concentrated(
         if light.is_finite() { light } else { 1.0 }
     };
     for _ in 0..ROUNDS {
-        let sticks = |column: &&Column| column.force.sticks();
+        let sticks = |column: &&Column| column.force.is_sticking();
         let before = face.columns.iter().filter(sticks).count();
         if before < 2 {
             break;
         }
         let columns = face.columns.iter().zip(&face.amounts);
         let shares: Vec<f64> = columns
-            .map(|(column, amount)| match column.force.sticks() {
+            .map(|(column, amount)| match column.force.is_sticking() {
                 true => amount / lightest_of(column),
                 false => 0.0,
             })
             .collect();
         let most = largest(&shares);
         for (column, share) in face.columns.iter_mut().zip(&shares) {
-            if column.force.sticks() {
+            if column.force.is_sticking() {
                 column.cost = 1e-2 * most / (share + 1e-3 * most);
             }
         }
-        let cost = |c: &Column| if c.force.sticks() { c.cost } else { 0.0 };
+        let cost = |c: &Column| if c.force.is_sticking() { c.cost } else { 0.0 };
         let Some(solved) = optimum(&face, wanted, settings, effort, cost) else {
             break;
         };
         face.amounts = solved.amounts;
-        face = face.only(|column, amount| !column.force.sticks() || amount > 0.0);
+        face = face.only(|column, amount| !column.force.is_sticking() || amount > 0.0);
         if face.columns.iter().filter(sticks).count() == before {
             break;
         }

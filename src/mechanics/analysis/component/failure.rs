@@ -112,7 +112,7 @@ impl Case<'_> {
             let force = Vector::new(*x, *y) * unit;
             act(grip.body, grip.at, force, m * unit * self.scale.length);
         }
-        held.settled()
+        held.with_summed_loads()
     }
 
     /// Forces next to what sticks, in newtons, and whether both together balance every body.
