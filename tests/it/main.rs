@@ -30,6 +30,7 @@ mod layers;
 mod leaders;
 mod lines;
 mod notes;
+mod pebbles;
 mod oracle;
 mod pages;
 mod peers;

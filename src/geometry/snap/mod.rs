@@ -52,6 +52,25 @@ const ROUNDS: usize = 12;
 /// What is nearer than this part of the gap is there already: a thousandth of what counts as having moved.
 const EXACT: f64 = 1e-9;
 
+/// How far corners may move.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Gaps<'g> {
+    /// Each body's gap in metres, 0 for one that takes no part.
+    pub(crate) of_body: &'g [f64],
+    /// A corner moves by at most this part of its shorter edge; infinite where only the gap counts.
+    pub(crate) share_of_edge: f64,
+}
+
+impl<'g> Gaps<'g> {
+    /// Gaps that count whatever the length of an edge.
+    pub(crate) fn new(of_body: &'g [f64]) -> Gaps<'g> {
+        Gaps {
+            of_body,
+            share_of_edge: f64::INFINITY,
+        }
+    }
+}
+
 /// What became of some bodies.
 pub(crate) struct Outcome<'b> {
     /// Their outlines; as they were given where none of them changed.
@@ -77,12 +96,12 @@ pub(crate) struct Moved {
 
 /// The bodies with what lies within their gaps of each other brought together. The earlier body stays where two meet.
 ///
-/// `gaps` holds each body's gap in metres, 0 for one that takes no part in it. A body of `fixed` stays as it is, and
+/// A body of `fixed` stays as it is, and
 /// corners of others come to it; their sides do not. An overlap of up to `noise`, in parts of the gap between two bodies, is
 /// none.
 pub(crate) fn snapped<'b>(
     bodies: &'b [Rings],
-    gaps: &[f64],
+    gaps: Gaps<'_>,
     fixed: &[bool],
     noise: f64,
 ) -> Outcome<'b> {
@@ -96,7 +115,7 @@ pub(crate) fn snapped<'b>(
         let fresh: Vec<usize> = match &outcome.bodies {
             Cow::Borrowed(_) => Vec::new(),
             Cow::Owned(new) => {
-                let wrong = spoilt(bodies, new, gaps, noise);
+                let wrong = spoilt(bodies, new, gaps.of_body, noise);
                 wrong.into_iter().filter(|b| !kept[*b]).collect()
             }
         };
@@ -141,8 +160,9 @@ struct Beside<'s> {
     off: f64,
 }
 
-fn attempt<'b>(bodies: &'b [Rings], gaps: &[f64], kept: &[bool]) -> Outcome<'b> {
+fn attempt<'b>(bodies: &'b [Rings], gaps: Gaps<'_>, kept: &[bool]) -> Outcome<'b> {
     let mut nodes = Nodes::new(bodies, gaps, kept);
+    let gaps = gaps.of_body;
     let sides = sides(bodies, &nodes);
     let found = beside(&nodes, &sides, gaps, kept);
     // Where everything fits already there is nothing to draw together.

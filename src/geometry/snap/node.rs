@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::Rings;
+use super::{Corner, Gaps, Rings};
 use crate::geometry::{Aabb, BoxIndex, Point};
 
 /// A place and the corners there.
@@ -10,7 +10,7 @@ pub(super) struct Node {
     pub(super) at: Point,
     /// Where its bodies stand in the list of all nodes' bodies.
     bodies: Range<usize>,
-    /// The smallest gap of these bodies, metres.
+    /// The smallest gap of the corners here, metres.
     pub(super) gap: f64,
     /// Whether it may not move, because a body has to stay as it was drawn.
     pub(super) fixed: bool,
@@ -29,15 +29,29 @@ pub(super) struct Nodes {
     pub(super) exact: bool,
 }
 
+/// A corner before it has a node.
 struct Loose {
     at: Point,
     body: usize,
+    /// How far it may move, metres.
+    gap: f64,
+}
+
+/// How far the corners of a ring may move, metres, in a body of some gap: no farther than `share` of the shorter edge.
+fn gaps_of_corners(ring: &[Corner], gap: f64, share: f64) -> impl Iterator<Item = f64> + '_ {
+    let length = |a: &Corner, b: &Corner| (b.at - a.at).norm();
+    ring.iter().enumerate().map(move |(i, corner)| {
+        let before = &ring[(i + ring.len() - 1) % ring.len()];
+        let after = &ring[(i + 1) % ring.len()];
+        let shorter = length(before, corner).min(length(corner, after));
+        gap.min(share * shorter)
+    })
 }
 
 impl Nodes {
     /// Corners of different bodies, no farther than their gaps from each other, become one node, the nearest first. It lies
     /// at the corner of the earliest body, or of one that has to stay.
-    pub(super) fn new(bodies: &[Rings], gaps: &[f64], kept: &[bool]) -> Nodes {
+    pub(super) fn new(bodies: &[Rings], gaps: Gaps<'_>, kept: &[bool]) -> Nodes {
         let rings = bodies.iter().flatten();
         let mut corners: Vec<Loose> = Vec::with_capacity(rings.clone().map(Vec::len).sum());
         let mut first_ring = Vec::with_capacity(bodies.len());
@@ -46,10 +60,16 @@ impl Nodes {
             first_ring.push(first_corner.len());
             for ring in rings {
                 first_corner.push(corners.len());
-                corners.extend(ring.iter().map(|c| Loose { at: c.at, body }));
+                let gaps = gaps_of_corners(ring, gaps.of_body[body], gaps.share_of_edge);
+                let loose = |(c, gap): (&Corner, f64)| Loose {
+                    at: c.at,
+                    body,
+                    gap,
+                };
+                corners.extend(ring.iter().zip(gaps).map(loose));
             }
         }
-        let joined = joined(&corners, gaps, kept);
+        let joined = joined(&corners, kept);
         let mut members = Vec::new();
         let mut number = vec![0; corners.len()];
         let mut all: Vec<Node> = Vec::with_capacity(corners.len());
@@ -66,11 +86,15 @@ impl Nodes {
             let mut gap = f64::INFINITY;
             let mut fixed = false;
             for k in &members {
-                let Loose { at: own, body } = corners[*k];
+                let Loose {
+                    at: own,
+                    body,
+                    gap: own_gap,
+                } = corners[*k];
                 if kept[body] && !fixed {
                     (at, fixed) = (own, true);
                 }
-                gap = gap.min(gaps[body]);
+                gap = gap.min(own_gap);
                 bodies.push(body);
             }
             number[first] = all.len();
@@ -132,12 +156,12 @@ impl Clusters {
 }
 
 /// Joins corners of different bodies that lie within their gaps of each other, the nearest first.
-fn joined(corners: &[Loose], gaps: &[f64], kept: &[bool]) -> Clusters {
+fn joined(corners: &[Loose], kept: &[bool]) -> Clusters {
     let mut clusters = Clusters {
         first: (0..corners.len()).collect(),
         next: (0..corners.len()).collect(),
     };
-    for (_, i, j) in near(corners, gaps) {
+    for (_, i, j) in near(corners) {
         let (i, j) = (clusters.first[i], clusters.first[j]);
         let (a, b) = (i.min(j), i.max(j));
         if a == b {
@@ -147,7 +171,7 @@ fn joined(corners: &[Loose], gaps: &[f64], kept: &[bool]) -> Clusters {
             clusters.members(b).all(|l| {
                 let (k, l) = (&corners[k], &corners[l]);
                 k.body != l.body
-                    && (k.at - l.at).norm() <= gaps[k.body].min(gaps[l.body])
+                    && (k.at - l.at).norm() <= k.gap.min(l.gap)
                     && !(kept[k.body] && kept[l.body] && k.at != l.at)
             })
         });
@@ -159,7 +183,7 @@ fn joined(corners: &[Loose], gaps: &[f64], kept: &[bool]) -> Clusters {
 }
 
 /// Pairs of corners of different bodies within their gaps of each other, the nearest first.
-fn near(corners: &[Loose], gaps: &[f64]) -> Vec<(f64, usize, usize)> {
+fn near(corners: &[Loose]) -> Vec<(f64, usize, usize)> {
     let nearby = BoxIndex::new((0..corners.len()).collect(), |i: &usize| {
         let at = corners[*i].at.into();
         Aabb { min: at, max: at }
@@ -167,14 +191,14 @@ fn near(corners: &[Loose], gaps: &[f64]) -> Vec<(f64, usize, usize)> {
     let mut pairs = Vec::new();
     for (i, corner) in corners.iter().enumerate() {
         let (x, y) = (corner.at.x, corner.at.y);
-        let gap = gaps[corner.body];
+        let gap = corner.gap;
         let around = Aabb {
             min: [x - gap, y - gap],
             max: [x + gap, y + gap],
         };
         for j in nearby.intersecting(around).copied() {
             let distance = (corners[j].at - corner.at).norm();
-            let gap = gap.min(gaps[corners[j].body]);
+            let gap = gap.min(corners[j].gap);
             if j < i && corners[j].body != corner.body && distance <= gap {
                 pairs.push((distance, i, j));
             }

@@ -15,7 +15,12 @@ fn ring(corners: &[(f64, f64)]) -> Rings {
 /// All bodies with one gap, in metres; an overlap of 10⁻⁶ m is none.
 fn brought(bodies: &[Rings], gap: f64) -> Outcome<'static> {
     let count = bodies.len();
-    let outcome = snapped(bodies, &vec![gap; count], &vec![false; count], 1e-6 / gap);
+    let outcome = snapped(
+        bodies,
+        Gaps::new(&vec![gap; count]),
+        &vec![false; count],
+        1e-6 / gap,
+    );
     Outcome {
         bodies: Cow::Owned(outcome.bodies.into_owned()),
         moved: outcome.moved,
@@ -291,7 +296,7 @@ fn a_body_without_a_gap_takes_no_part() {
         rectangle(0.003, 1.003, 1.0, 1.0),
         rectangle(2.0, 1.003, 1.0, 1.0),
     ];
-    let outcome = snapped(&drawn, &[0.01, 0.0, 0.01], &[false; 3], 1e-4);
+    let outcome = snapped(&drawn, Gaps::new(&[0.01, 0.0, 0.01]), &[false; 3], 1e-4);
     assert_eq!(outcome.moved.len(), 1);
     assert_eq!(outcome.moved[0].body, 2);
     assert_eq!(outcome.bodies[..2], drawn[..2]);
@@ -304,7 +309,7 @@ fn what_is_fixed_stays_and_is_not_said_to_be_kept() {
         rectangle(-1.0, -1.0, 9.0, 1.0),
     ];
     // The later one is fixed: the earlier one comes to it.
-    let outcome = snapped(&drawn, &[0.01; 2], &[false, true], 1e-4);
+    let outcome = snapped(&drawn, Gaps::new(&[0.01; 2]), &[false, true], 1e-4);
     assert_eq!((outcome.moved.len(), outcome.kept.len()), (1, 0));
     assert_eq!(outcome.moved[0].body, 0);
     assert_eq!(outcome.bodies[1], drawn[1]);
@@ -317,7 +322,7 @@ fn what_is_fixed_stays_and_is_not_said_to_be_kept() {
         (4.003, 0.9),
         (4.001, 0.9),
     ]));
-    let outcome = snapped(&sliver, &[0.01; 3], &[false, true, false], 1e-4);
+    let outcome = snapped(&sliver, Gaps::new(&[0.01; 3]), &[false, true, false], 1e-4);
     assert_eq!(outcome.kept, [2]);
     assert_eq!(outcome.bodies[2], sliver[2]);
     assert_eq!(outcome.bodies[1], sliver[1]);

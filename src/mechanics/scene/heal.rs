@@ -9,7 +9,7 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use super::{Block, Body, BodyId, Ground, Scene};
-use crate::geometry::snap::{Corner, Rings, polygon, snapped};
+use crate::geometry::snap::{Corner, Gaps, Rings, polygon, snapped};
 use crate::geometry::{Point, Polygon, Tolerance};
 
 /// A block rounded more coarsely than this part of its size is taken as it is written.
@@ -18,6 +18,12 @@ pub(super) const FINE: f64 = 1.0 / 200.0;
 const SLIGHT: f64 = 1e-3;
 /// A body comes to another within this part of its size at most, whatever tolerance is asked for.
 const MOST: f64 = 1.0 / 20.0;
+/// Within a given tolerance a corner moves by at most this part of its shorter edge.
+///
+/// A tolerance speaks of gaps between bodies. Where it is wider than an edge is long it says nothing about that edge: the
+/// outline of a round stone stays round. The two ends of an edge together change its length by half at most and turn it by
+/// 30° at most. A tenth of this would leave joints next to short edges open; at twice this an edge can lose its whole length.
+const OF_EDGE: f64 = 0.25;
 /// An overlap that healing makes deeper by less than this part of the gap is none.
 const NOISE: f64 = 0.25;
 /// Where this part of all corners, and at least so many, lie within a millionth of the scene's reach of what they touch and
@@ -98,6 +104,15 @@ impl HealingReach {
         self.healing.min(part * size)
     }
 
+    /// How far a corner may move, in parts of its shorter edge.
+    fn share_of_edge(self) -> f64 {
+        match self.source {
+            ToleranceSource::Given => OF_EDGE,
+            // Rounding is smaller than the edges it leaves.
+            _ => f64::INFINITY,
+        }
+    }
+
     /// How far the coordinates of a body of some size, up to `farthest`, may be off; metres all.
     fn rounding_of(self, size: f64, farthest: f64) -> f64 {
         self.healing_of(size).max(LAST * f64::EPSILON * farthest)
@@ -141,10 +156,14 @@ pub(super) fn heal(
     }
     let gaps =
         |reach: HealingReach| -> Vec<f64> { sizes.iter().map(|s| reach.healing_of(*s)).collect() };
+    let limits = |of_body| Gaps {
+        of_body,
+        share_of_edge: reach.share_of_edge(),
+    };
     let mut kept = 0;
     let mut outlines = Cow::Borrowed(&drawn[..]);
     if reach.healing > 0.0 {
-        let outcome = snapped(&drawn, &gaps(reach), &fixed, NOISE);
+        let outcome = snapped(&drawn, limits(&gaps(reach)), &fixed, NOISE);
         (outlines, kept) = (outcome.bodies, outcome.kept.len());
     }
     if reach.usual > reach.healing {
@@ -153,7 +172,7 @@ pub(super) fn heal(
             usual: reach.usual,
             healing: reach.usual,
         };
-        let outcome = snapped(&outlines, &gaps(noisy), &fixed, NOISE);
+        let outcome = snapped(&outlines, Gaps::new(&gaps(noisy)), &fixed, NOISE);
         let all: usize = drawn.iter().flatten().map(Vec::len).sum();
         let moved: usize = outcome.moved.iter().map(|m| m.corners).sum();
         let (share, least) = NOISY;

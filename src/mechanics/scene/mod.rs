@@ -64,6 +64,9 @@ pub struct Scene {
     pub(crate) tolerance: Tolerance,
     /// Where the tolerance comes from, and what was moved within it before anything was judged.
     pub(crate) healed: Healed,
+    /// How far corners may lie off what they touch by the rounding of the coordinates as they are written, metres; 0 where
+    /// they are written in full.
+    pub(crate) misfit: f64,
     /// Bodies that lie in each other by so little that they may have been meant to touch; empty where the tolerance is given.
     pub(crate) penetrations: Vec<Penetration>,
     /// The ground's parts.

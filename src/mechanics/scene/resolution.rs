@@ -41,6 +41,12 @@ pub(super) fn resolve(file: &SceneFile, doubt: UnreadParts) -> Result<Scene, Vec
     }
 }
 
+/// How far a corner may lie off the edge that it touches, metres: the two ends of the edge and the corner are each off by the
+/// error of a coordinate.
+fn misfit(rounding: &Rounding) -> f64 {
+    3.0 * rounding.error
+}
+
 /// What the whole file says, for its bodies to use.
 struct Resolution<'f> {
     file: &'f SceneFile,
@@ -150,10 +156,15 @@ impl<'f> Resolution<'f> {
             "contact_tolerance",
             self.file.contact_tolerance,
         );
+        // A lattice and a given tolerance need not be guessed from the digits.
+        let rounding = match exact || given.is_some() {
+            true => None,
+            false => rounding::of(self.file),
+        };
         let reach = if exact {
             HealingReach::EXACT
         } else {
-            self.reach(given, &blocks)
+            self.reach(given, rounding, &blocks)
         };
         let healed = if exact {
             Healed {
@@ -258,6 +269,7 @@ impl<'f> Resolution<'f> {
                 Tolerance::from_gap(reach.gap())
             },
             healed,
+            misfit: rounding.map_or(0.0, |r| misfit(&r)),
             penetrations,
             ground: ground.into_iter().collect::<Option<_>>()?,
             blocks: blocks.into_iter().collect::<Option<_>>()?,
@@ -280,7 +292,12 @@ impl<'f> Resolution<'f> {
     }
 
     /// How close is close: as given, else from how the coordinates are written and how large the scene is.
-    fn reach(&self, given: Option<f64>, blocks: &[Option<Block>]) -> HealingReach {
+    fn reach(
+        &self,
+        given: Option<f64>,
+        rounding: Option<Rounding>,
+        blocks: &[Option<Block>],
+    ) -> HealingReach {
         if let Some(gap) = given {
             return HealingReach {
                 source: ToleranceSource::Given,
@@ -297,9 +314,7 @@ impl<'f> Resolution<'f> {
         let typical = median(polygons().map(|p| p.bounds().diagonal()).collect());
         let usual = Tolerance::new(around.map_or(0.0, Bounds::diagonal), typical).gap;
         let small = median(polygons().map(heal::size).collect());
-        // Both ends of an edge and a corner beside it, each off in both coordinates.
-        let misfit = |r: &Rounding| 3.0 * r.error;
-        match rounding::of(self.file).filter(|r| misfit(r) <= heal::FINE * small) {
+        match rounding.filter(|r| misfit(r) <= heal::FINE * small) {
             Some(rounding) => HealingReach {
                 source: rounding.source,
                 usual,

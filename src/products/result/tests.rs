@@ -37,6 +37,7 @@ fn scene() -> Scene {
         exact: false,
         tolerance: Closeness::new(3.0, 3.0),
         healed: Healed::default(),
+        misfit: 0.0,
         penetrations: Vec::new(),
         ground: vec![],
         blocks: vec![block("a"), block("b")],

@@ -150,7 +150,12 @@ impl Outlines {
         }
         let rings: Vec<Rings> = self.bodies.iter().map(|b| b.rings.clone()).collect();
         let (gaps, fixed) = (vec![gap; rings.len()], vec![false; rings.len()]);
-        let outcome = snap::snapped(&rings, &gaps, &fixed, 0.5 * self.tolerance() / gap);
+        let outcome = snap::snapped(
+            &rings,
+            snap::Gaps::new(&gaps),
+            &fixed,
+            0.5 * self.tolerance() / gap,
+        );
         if outcome.kept.len() > MANY {
             let message = format!(
                 "{} bodies would lose their shape, or lie deeper in their neighbours, if they were snapped; left as they are drawn",

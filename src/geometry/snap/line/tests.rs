@@ -1,7 +1,7 @@
 //! Lines through few places, and where corners on them come to lie.
 
 use super::*;
-use crate::geometry::snap::Corner;
+use crate::geometry::snap::{Corner, Gaps};
 
 /// The corners of one body, which stay apart however near they are.
 fn nodes(places: &[[f64; 2]], gap: f64) -> Nodes {
@@ -10,7 +10,7 @@ fn nodes(places: &[[f64; 2]], gap: f64) -> Nodes {
         curved: false,
     };
     let ring = places.iter().map(corner).collect();
-    Nodes::new(&[vec![ring]], &[gap], &[false])
+    Nodes::new(&[vec![ring]], Gaps::new(&[gap]), &[false])
 }
 
 fn transposed(places: &[[f64; 2]]) -> Vec<[f64; 2]> {

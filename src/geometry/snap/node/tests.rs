@@ -17,7 +17,7 @@ fn bodies(all: &[&[[f64; 2]]]) -> Vec<Rings> {
 fn along(places: &[f64], gaps: &[f64], kept: &[bool]) -> (Nodes, Vec<usize>) {
     let corners: Vec<[[f64; 2]; 1]> = places.iter().map(|x| [[*x, 7.0]]).collect();
     let all: Vec<&[[f64; 2]]> = corners.iter().map(|c| &c[..]).collect();
-    let nodes = Nodes::new(&bodies(&all), gaps, kept);
+    let nodes = Nodes::new(&bodies(&all), Gaps::new(gaps), kept);
     let numbers = (0..places.len()).map(|b| nodes.number(b, 0, 0)).collect();
     (nodes, numbers)
 }
@@ -52,7 +52,11 @@ fn the_smaller_gap_counts_and_reaches_to_its_end() {
         [-0.15, -0.2],
     ] {
         let both = bodies(&[&[[3.0, 5.0]], &[[3.0 + x, 5.0 + y]]]);
-        let count = |gap: f64| Nodes::new(&both, &[gap; 2], &[false; 2]).all.len();
+        let count = |gap: f64| {
+            Nodes::new(&both, Gaps::new(&[gap; 2]), &[false; 2])
+                .all
+                .len()
+        };
         assert_eq!((count(0.251), count(0.249)), (1, 2));
     }
 }
@@ -84,7 +88,7 @@ fn all_corners_of_a_node_lie_within_the_gap_of_each_other() {
 fn of_pairs_that_are_as_near_the_earlier_bodies_come_together() {
     // 5 from the third to the first, and from either to one more; those two are 11 apart and all others 8.9.
     let all = bodies(&[&[[5.0, 0.0]], &[[-3.0, 4.0]], &[[0.0, 0.0]], &[[8.0, 4.0]]]);
-    let nodes = Nodes::new(&all, &[9.0; 4], &[false; 4]);
+    let nodes = Nodes::new(&all, Gaps::new(&[9.0; 4]), &[false; 4]);
     assert_eq!(nodes.bodies(&nodes.all[0]), [0, 1, 2]);
     assert_eq!(nodes.bodies(&nodes.all[1]), [3]);
 }
@@ -95,7 +99,7 @@ fn corners_of_one_body_stay_apart() {
         &[[0.0, 0.0], [0.5, 0.0], [9.0, 9.0]],
         &[[0.25, 0.0], [0.25, 0.125], [-9.0, 9.0]],
     ]);
-    let nodes = Nodes::new(&both, &[1.0; 2], &[false; 2]);
+    let nodes = Nodes::new(&both, Gaps::new(&[1.0; 2]), &[false; 2]);
     let numbers = [0, 1].map(|body| [0, 1, 2].map(|corner| nodes.number(body, 0, corner)));
     // Each of the first corners has one of the other body, and none of its own.
     assert_eq!(numbers, [[0, 1, 2], [0, 1, 3]]);
@@ -124,7 +128,7 @@ fn corners_are_counted_through_all_rings_of_all_bodies() {
         bodies(&[&all]).remove(0).remove(0)
     };
     let both = [vec![ring(0.0), ring(10.0)], vec![ring(20.0), ring(30.0)]];
-    let nodes = Nodes::new(&both, &[0.1; 2], &[false; 2]);
+    let nodes = Nodes::new(&both, Gaps::new(&[0.1; 2]), &[false; 2]);
     assert_eq!(nodes.all.len(), 12);
     for (body, rings) in both.iter().enumerate() {
         for (k, ring) in rings.iter().enumerate() {

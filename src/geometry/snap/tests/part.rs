@@ -23,7 +23,7 @@ fn areas_are_positive_anticlockwise() {
 
 /// What lies beside the sides of the first body: of a body, how far along and off which side.
 fn beside_first(bodies: &[Rings], gaps: &[f64], kept: &[bool]) -> Vec<(usize, usize, f64, f64)> {
-    let nodes = Nodes::new(bodies, gaps, kept);
+    let nodes = Nodes::new(bodies, Gaps::new(gaps), kept);
     let sides = sides(bodies, &nodes);
     let found = beside(&nodes, &sides, gaps, kept);
     let of_first = found.iter().filter(|b| b.side.body == 0);
@@ -174,7 +174,7 @@ fn sides_go_round_every_ring() {
     let mut rings = ring(&[(0.0, 0.0), (8.0, 0.0), (0.0, 8.0)]);
     rings.extend(ring(&[(1.0, 1.0), (1.0, 2.0), (3.0, 1.0)]));
     let bodies = [rectangle(-9.0, -9.0, 1.0, 1.0), rings];
-    let nodes = Nodes::new(&bodies, &[0.1; 2], &[false; 2]);
+    let nodes = Nodes::new(&bodies, Gaps::new(&[0.1; 2]), &[false; 2]);
     let all = sides(&bodies, &nodes);
     let named: Vec<_> = all[4..]
         .iter()

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::pinned::{FLAT, pinned_gaps};
 use super::{ContactKind, Interface, Interfaces, NearMiss, bodies, ordered};
 use crate::geometry::{Aabb, BoxIndex, Edge, Point, Tolerance, Vector, cross, quarter_turn};
-use crate::scene::{BodyId, Scene, size};
+use crate::scene::{BodyId, Scene, ToleranceSource, size};
 
 /// Edges farther apart than this many gaps are not worth a notice.
 const NEAR: f64 = 30.0;
@@ -25,6 +25,29 @@ const BESIDE: f64 = 0.01;
 /// one rounded joint apart; ten times this would join the two feet of a body across the hollow between them, which changes
 /// no verdict but the interfaces that are drawn.
 const JOIN_REACH: f64 = 4.0;
+
+/// An outline that leaves a contact and comes to lie along the other body again does so within this many times the distance
+/// it has gained.
+///
+/// Edges that rise by less than one in a hundred face the other body themselves. A tenth would miss shallow steps of round
+/// stones; ten times this would pass over the hollow between two supports of one body.
+const ALONG_OUTLINE: f64 = 50.0;
+
+/// An edge longer than this part of a block's size (four times its area over its boundary) is a side on which it may have been
+/// meant to lie; a shorter one is part of a rounded outline.
+///
+/// The shortest side of a slender column is just over half its size, an edge of a round stone of 20 corners a sixth.
+const LONG_SIDE: f64 = 0.5;
+
+/// Where a tolerance is given, a stretch that covers this part of the shorter edge is a contact, however short the edge.
+///
+/// Ten times this is more than an edge has. A tenth would count two bricks that touch at their chamfers by a hair.
+const MOST_OF_EDGE: f64 = 0.5;
+
+/// Edges shorter than this part of a given tolerance are what healing leaves of two corners in one place, not edges.
+///
+/// Ten times this would drop the edges of a circle of 100 000 corners; a tenth comes near the rounding of numbers.
+const SHORTEST_EDGE: f64 = 1e-6;
 
 struct Side {
     body: BodyId,
@@ -86,8 +109,35 @@ enum Meeting {
     Stretch(Interface, f64),
     /// They share a stretch too short to count.
     Short(Interface),
-    /// They face each other along a stretch around here, but this far apart.
-    Apart(f64, Point),
+    /// They face each other along a stretch, but this far apart at its two ends, metres.
+    Apart(Apart),
+}
+
+/// A stretch along which two edges face each other and do not touch.
+struct Apart {
+    /// The end where they are nearer to each other, and how far apart they are there, metres.
+    narrow: (Point, f64),
+    /// The other end.
+    wide: (Point, f64),
+    /// Around where on the first edge.
+    at: Point,
+}
+
+impl Apart {
+    fn new(ends: [(Point, f64); 2], at: Point) -> Apart {
+        let [a, b] = ends;
+        let (narrow, wide) = if a.1 <= b.1 { (a, b) } else { (b, a) };
+        Apart { narrow, wide, at }
+    }
+
+    /// The widest distance along the stretch, metres.
+    fn distance(&self) -> f64 {
+        self.wide.1
+    }
+
+    fn length(&self) -> f64 {
+        (self.wide.0 - self.narrow.0).norm()
+    }
 }
 
 /// All edge interfaces, and what nearly is one.
@@ -140,6 +190,7 @@ pub(super) fn find(scene: &Scene) -> Interfaces {
     while let Some(pair) = met.peek().map(|m| m.0) {
         let tolerance = scene.tolerance_between(pair[0], pair[1]);
         let first = all.len();
+        let mut apart = Vec::new();
         while let Some((_, _, meeting)) = met.next_if(|m| m.0 == pair) {
             match meeting {
                 Meeting::Stretch(interface, distance) => {
@@ -158,21 +209,34 @@ pub(super) fn find(scene: &Scene) -> Interfaces {
                         slivers.push(interface);
                     }
                 }
-                Meeting::Apart(distance, at) => {
-                    if distance <= NEAR * tolerance.gap {
-                        notices.apart(scene, pair, distance);
-                    }
-                    near.push(NearMiss {
-                        bodies: pair,
-                        at,
-                        distance,
-                    });
-                }
+                Meeting::Apart(ends) => apart.push(ends),
             }
         }
         if all.len() > first + 1 {
             let stretches = all.split_off(first);
             all.extend(joined(stretches, tolerance));
+        }
+        if apart.is_empty() {
+            continue;
+        }
+        let of_size = |body: &BodyId| match body {
+            BodyId::Block(_) => LONG_SIDE * size(&scene.body(*body).polygon),
+            BodyId::Ground(_) => f64::INFINITY,
+        };
+        let longest = pair.iter().map(of_size).fold(f64::INFINITY, f64::min);
+        let mut touching: Vec<Point> = all[first..].iter().flat_map(|i| i.ends).collect();
+        if touching.is_empty() {
+            touching.extend(only_tip(scene, pair, tolerance, &nearby));
+        }
+        for gap in gaps_between(apart, touching, tolerance, scene.misfit, longest) {
+            if gap.distance() <= NEAR * tolerance.gap {
+                notices.apart(scene, pair, gap.distance());
+            }
+            near.push(NearMiss {
+                bodies: pair,
+                at: gap.at,
+                distance: gap.distance(),
+            });
         }
     }
     let pinned_gaps = pinned_gaps(scene, &all, &narrow);
@@ -183,6 +247,72 @@ pub(super) fn find(scene: &Scene) -> Interfaces {
         pinned_gaps,
         notices: notices.words(scene.tolerance),
     }
+}
+
+/// The one corner of the first body that touches the second, which it touches nowhere else.
+fn only_tip(
+    scene: &Scene,
+    pair: [BodyId; 2],
+    tolerance: Tolerance,
+    sides: &BoxIndex<Side, 3>,
+) -> Option<Point> {
+    let touches = |at: &Point| {
+        let around = Aabb {
+            min: [at.x - tolerance.gap, at.y - tolerance.gap, -TURN],
+            max: [at.x + tolerance.gap, at.y + tolerance.gap, 2.0 * TURN],
+        };
+        let mut near = sides.intersecting(around).filter(|side| side.body == pair[1]);
+        near.any(|side| {
+            let along = side.edge.vector();
+            let share = along.dot(&(at - side.edge.from)) / along.norm_squared();
+            let foot = side.edge.from + along * share.clamp(0.0, 1.0);
+            (at - foot).norm() <= tolerance.gap
+        })
+    };
+    let corners = scene.body(pair[0]).polygon.rings().iter().flatten();
+    let mut tips = corners.filter(|at| touches(at));
+    let first = *tips.next()?;
+    let reach = JOIN_REACH * tolerance.gap;
+    tips.all(|tip| (tip - first).norm() <= reach)
+        .then_some(first)
+}
+
+/// The stretches along which two bodies are apart, without those that are the shape of an outline.
+///
+/// Two bodies that touch cannot be moved towards each other. A round stone that touches the ground is near it on both sides,
+/// because its outline turns there: no tolerance closes that without bending the outline. So these steps follow the outline:
+///
+/// 1. Begin where the bodies touch: at the ends of their contacts, or at the one tip on which a body stands. A body on two
+///    tips with a hollow between them may have been meant to lie flat.
+/// 2. Leave out every stretch that is narrowest there, and go on from its wide end.
+///
+/// Three things stay: a stretch as wide as coordinates may be off by rounding (`misfit`, metres), since a straight edge may
+/// look bent by that; a stretch longer than `longest`, since a body that is drawn askew on its whole side may have been meant
+/// to lie flat; and whatever lies away from where the bodies touch.
+fn gaps_between(
+    mut apart: Vec<Apart>,
+    touching: Vec<Point>,
+    tolerance: Tolerance,
+    misfit: f64,
+    longest: f64,
+) -> Vec<Apart> {
+    let reach = JOIN_REACH * tolerance.gap;
+    let mut reached = touching;
+    let mut next = 0;
+    while let Some(from) = reached.get(next).copied() {
+        next += 1;
+        apart.retain(|stretch| {
+            let near = reach + ALONG_OUTLINE * stretch.distance();
+            let is_outline = stretch.distance() > misfit
+                && stretch.length() <= longest
+                && (stretch.narrow.0 - from).norm() <= near;
+            if is_outline {
+                reached.push(stretch.wide.0);
+            }
+            !is_outline
+        });
+    }
+    apart
 }
 
 /// What edge `a` of the first body and edge `b` of the second have in common.
@@ -221,21 +351,22 @@ fn meeting(scene: &Scene, bodies: [BodyId; 2], a: &Side, b: &Side) -> Option<Mee
         h0 + (h1 - h0) * ((s - t0) / (t1 - t0)).clamp(0.0, 1.0)
     };
     let (gap0, gap1) = (height(b, s0) - height(a, s0), height(b, s1) - height(a, s1));
+    let middle = |s: f64| a.from + along * s + outward * ((height(a, s) + height(b, s)) / 2.0);
     let distance = gap0.abs().max(gap1.abs());
     if distance > tolerance.gap {
         let facing = gap0.min(gap1) >= -tolerance.gap && distance <= near && length > distance;
+        let ends = [(s0, gap0), (s1, gap1)].map(|(s, gap)| (middle(s), gap.abs()));
         let at = a.from + along * ((s0 + s1) / 2.0);
-        return facing.then_some(Meeting::Apart(distance, at));
+        return facing.then_some(Meeting::Apart(Apart::new(ends, at)));
     }
     if !within(tolerance.gap) {
         return None;
     }
-    let is_short = length <= tolerance.min_contact_length(la.min(lb));
+    let is_short = length <= shortest_contact(scene, tolerance, la.min(lb));
     // Less than a thousandth of the limit is the rounding of a corner that touches, not a contact.
     if is_short && length <= 1e-3 * tolerance.min_length {
         return None;
     }
-    let middle = |s: f64| a.from + along * s + outward * ((height(a, s) + height(b, s)) / 2.0);
     // The first body lies to the left of `along`, hence (−n_y, n_x) runs against it.
     let ends = [middle(s1), middle(s0)];
     let interface = Interface {
@@ -249,6 +380,17 @@ fn meeting(scene: &Scene, bodies: [BodyId; 2], a: &Side, b: &Side) -> Option<Mee
         true => Meeting::Short(interface),
         false => Meeting::Stretch(interface, distance),
     })
+}
+
+/// The shortest common stretch of two edges that is an interface, metres, the shorter one `edge` long.
+fn shortest_contact(scene: &Scene, tolerance: Tolerance, edge: f64) -> f64 {
+    let shortest = tolerance.min_contact_length(edge);
+    let is_given = scene.healed.source == ToleranceSource::Given;
+    if is_given && edge > SHORTEST_EDGE * tolerance.gap {
+        // A given tolerance may be larger than the edges of a round stone. What covers most of an edge is a contact.
+        return shortest.min(MOST_OF_EDGE * edge);
+    }
+    shortest
 }
 
 /// The unit normal exactly square to a stretch whose ends run along (−n_y, n_x).
