@@ -261,7 +261,9 @@ fn only_tip(
             min: [at.x - tolerance.gap, at.y - tolerance.gap, -TURN],
             max: [at.x + tolerance.gap, at.y + tolerance.gap, 2.0 * TURN],
         };
-        let mut near = sides.intersecting(around).filter(|side| side.body == pair[1]);
+        let mut near = sides
+            .intersecting(around)
+            .filter(|side| side.body == pair[1]);
         near.any(|side| {
             let along = side.edge.vector();
             let share = along.dot(&(at - side.edge.from)) / along.norm_squared();
