@@ -39,13 +39,15 @@ impl Destination {
         let ending = path
             .extension()
             .map(|e| e.to_string_lossy().to_ascii_lowercase());
-        let by_name = Format::ALL
-            .into_iter()
-            .find(|format| ending.as_deref() == Some(format.ending()));
+        let by_name = ending.as_deref().and_then(Format::from_ending);
         let Some(by_name) = by_name else {
-            let shown = path.display();
+            let (shown, endings) = (
+                path.display(),
+                Format::ALL.map(|f| format!(".{}", f.ending())),
+            );
             return Err(CliError::CommandLine(format!(
-                "{shown}: a picture is .svg, .png or .pdf; for a folder end its name with a slash"
+                "{shown}: a picture is one of {}; for a folder end its name with a slash",
+                endings.join(", ")
             )));
         };
         match asked {

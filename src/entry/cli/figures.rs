@@ -13,8 +13,10 @@ use crate::cli::picture::Format;
 use crate::cli::terminal::Terminal;
 use crate::figure::{self, Plate};
 use crate::output::file::Existing;
-use crate::output::png::{self, Size};
-use crate::output::{pdf, svg, tikz};
+use crate::output::fonts::Fonts;
+use crate::output::format::Settings;
+use crate::output::png::{Compression, Size};
+use crate::output::svg::Words;
 
 /// Draw the gallery: figures 1 to 9 of the work this is built on, each as SVG, PNG and PDF, with captions
 #[derive(Debug, Args)]
@@ -73,18 +75,19 @@ impl Figures {
 }
 
 fn files(plate: &Plate, formats: &[Format], folder: &Path) -> Result<Files, CliError> {
-    let failed = |error: &dyn std::error::Error| CliError::NotWritten {
-        what: plate.name.to_owned(),
-        why: error.to_string(),
+    let settings = Settings {
+        size: Size::Scale(2.0),
+        width_mm: None,
+        words: Words::default(),
+        compression: Compression::default(),
+        fonts: &Fonts::default(),
     };
-    let text = svg::write(&plate.drawing);
     let file = |format: &Format| {
-        let bytes = match format {
-            Format::Svg => text.clone().into_bytes(),
-            Format::Png => png::render(&text, Size::Scale(2.0)).map_err(|e| failed(&e))?,
-            Format::Pdf => pdf::write(&plate.drawing, None).map_err(|e| failed(&e))?,
-            Format::Tikz => tikz::write(&plate.drawing, None).into_bytes(),
-        };
+        let bytes = format.write(&plate.drawing, &settings);
+        let bytes = bytes.map_err(|error| CliError::NotWritten {
+            what: plate.name.to_owned(),
+            why: error.to_string(),
+        })?;
         let path = folder.join(format!("{}.{}", plate.name, format.ending()));
         Ok((path, bytes))
     };

@@ -3,15 +3,17 @@
 use std::fs;
 use std::path::PathBuf;
 
+use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 
 use crate::cli::complaint::CliError;
 use crate::drawing::{Colour, Drawing};
 use crate::output::fonts::Fonts;
-use crate::output::pdf::{self, PdfError};
+pub(crate) use crate::output::format::Format;
+use crate::output::format::{FormatError, Settings};
+use crate::output::pdf;
 use crate::output::png::{self, Compression, PngError, Size};
 use crate::output::svg::{self, Words};
-use crate::output::tikz;
 
 /// Format, size, page and words of a picture.
 #[derive(Clone, Debug, Args)]
@@ -50,17 +52,14 @@ pub(crate) struct Picture {
 /// By how much a figure laid out for print is made smaller: letters of 12.5 pixels, 9.4 points, become 7.5 points high.
 const IN_PRINT: f64 = 0.8;
 
-/// What a picture is written as.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Format {
-    /// Drawn in lines, with titles that tell the numbers
-    Svg,
-    /// Drawn in pixels, from that SVG
-    Png,
-    /// Drawn in lines, for print, from that SVG
-    Pdf,
-    /// Drawn in TikZ, to be set by LaTeX in the fonts of its document
-    Tikz,
+impl ValueEnum for Format {
+    fn value_variants<'a>() -> &'a [Format] {
+        &Format::ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        Some(PossibleValue::new(self.ending()).help(self.help()))
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -79,33 +78,6 @@ enum Background {
     Plain(Colour),
 }
 
-impl Format {
-    /// All formats, in the order in which they are reported.
-    pub(crate) const ALL: [Format; 4] = [Format::Svg, Format::Png, Format::Pdf, Format::Tikz];
-
-    /// The file ending, without its dot.
-    pub(crate) fn ending(self) -> &'static str {
-        match self {
-            Format::Svg => "svg",
-            Format::Png => "png",
-            Format::Pdf => "pdf",
-            Format::Tikz => "tikz",
-        }
-    }
-
-    /// Why a terminal is no place for it, if it is none.
-    pub(crate) fn unreadable(self) -> Option<String> {
-        let name = match self {
-            Format::Svg | Format::Tikz => return None,
-            Format::Png => "PNG",
-            Format::Pdf => "PDF",
-        };
-        Some(format!(
-            "a {name} is not for reading on a terminal; send it to a file with -o"
-        ))
-    }
-}
-
 impl Picture {
     /// The format asked for.
     pub(crate) fn asked(&self) -> Option<Format> {
@@ -115,7 +87,7 @@ impl Picture {
     /// With a width in pixels where a PNG is asked for no size.
     pub(crate) fn or_width(mut self, pixels: u32, format: Format) -> Picture {
         let sized = self.width.is_some() || self.scale.is_some() || self.width_mm.is_some();
-        if format == Format::Png && !sized {
+        if format.has_pixels() && !sized {
             self.width = Some(pixels);
         }
         self
@@ -132,12 +104,12 @@ impl Picture {
     /// Refuses what a format does not have.
     pub(crate) fn check(&self, format: Format) -> Result<(), CliError> {
         let mut wrong = Vec::new();
-        if format != Format::Png && (self.width.is_some() || self.scale.is_some()) {
+        if !format.has_pixels() && (self.width.is_some() || self.scale.is_some()) {
             wrong.push(
                 "--width and --scale count pixels, and only a PNG has any; give --width-mm, write a PNG, or leave them out",
             );
         }
-        if self.dpi.is_some() && (format != Format::Png || self.width_mm.is_none()) {
+        if self.dpi.is_some() && (!format.has_pixels() || self.width_mm.is_none()) {
             wrong.push("--dpi is for a PNG of a width in print; write a PNG and give --width-mm, or leave it out");
         }
         if self.text.is_some() && format != Format::Svg {
@@ -172,20 +144,14 @@ impl Picture {
         fonts: &Fonts,
     ) -> Result<Vec<u8>, CliError> {
         let drawing = self.on_page(drawing);
-        match format {
-            Format::Svg => svg::write_with(&drawing, &self.svg_options(fonts))
-                .map(String::into_bytes)
-                .map_err(|error| unwritten(&error)),
-            Format::Png => png::of_drawing(&drawing, self.size(), fonts, self.compression)
-                .map_err(|error| not_drawn(&error)),
-            Format::Tikz => Ok(tikz::write(&drawing, self.width_mm).into_bytes()),
-            Format::Pdf => {
-                pdf::write_in(&drawing, self.width_mm, fonts).map_err(|error| match error {
-                    PdfError::Size { .. } => CliError::CommandLine(error.to_string()),
-                    PdfError::ReportError(_) => unwritten(&error),
-                })
-            }
-        }
+        let settings = Settings {
+            size: self.size(),
+            width_mm: self.width_mm,
+            words: self.words(),
+            compression: self.compression,
+            fonts,
+        };
+        format.write(&drawing, &settings).map_err(format_error)
     }
 
     /// The bytes of drawings of one size that follow one another, as an animated PNG.
@@ -196,12 +162,13 @@ impl Picture {
         fonts: &Fonts,
     ) -> Result<Vec<u8>, CliError> {
         if let Some(drawing) = drawings.first() {
-            png::check(drawing.width, drawing.height, self.size())
-                .map_err(|error| not_drawn(&error))?;
+            self.check_png((drawing.width, drawing.height))?;
         }
-        let drawings: Vec<Drawing> = drawings.into_iter().map(|d| self.on_page(d)).collect();
-        png::animate_drawings(&drawings, self.size(), seconds, fonts)
-            .map_err(|error| not_drawn(&error))
+        let svgs: Vec<String> = drawings
+            .into_iter()
+            .map(|drawing| svg::for_pixels(&self.on_page(drawing)))
+            .collect();
+        png::animate(&svgs, self.size(), seconds, fonts).map_err(png_error)
     }
 
     /// The width, in pixels, for which a figure is laid out; `None` for its own. On a page of so many millimetres its
@@ -219,7 +186,7 @@ impl Picture {
 
     /// Refuses a PNG of at least this width and height of its drawing.
     pub(crate) fn check_png(&self, (width, height): (f64, f64)) -> Result<(), CliError> {
-        png::check(width, height, self.size()).map_err(|error| not_drawn(&error))
+        png::check(width, height, self.size()).map_err(png_error)
     }
 
     /// Our fonts and those asked for.
@@ -241,23 +208,14 @@ impl Picture {
 
     /// Whether the words of a picture of this format are drawn here, and not by whoever opens it.
     pub(crate) fn draws_words(&self, format: Format) -> bool {
-        match format {
-            Format::Png | Format::Pdf => true,
-            Format::Svg => self.text == Some(TextForm::Paths),
-            Format::Tikz => false,
-        }
+        format.lays_out_words(self.words())
     }
 
-    fn svg_options(&self, fonts: &Fonts) -> svg::Options {
-        svg::Options {
-            width_mm: self.width_mm,
-            words: match self.text {
-                None | Some(TextForm::Names) => Words::Names,
-                Some(TextForm::Embed) => Words::Embedded,
-                Some(TextForm::Paths) => Words::Outlines,
-            },
-            fonts: fonts.clone(),
-            mark: None,
+    fn words(&self) -> Words {
+        match self.text {
+            None | Some(TextForm::Names) => Words::Names,
+            Some(TextForm::Embed) => Words::Embedded,
+            Some(TextForm::Paths) => Words::Outlines,
         }
     }
 
@@ -285,18 +243,19 @@ pub(super) fn or_split(complaint: CliError, steps: usize) -> CliError {
     }
 }
 
-fn not_drawn(error: &PngError) -> CliError {
+/// A size out of range is a mistake on the command line; anything else is a failure to write.
+fn format_error(error: FormatError) -> CliError {
     match error {
-        PngError::Size { .. } => CliError::CommandLine(error.to_string()),
-        _ => unwritten(error),
+        FormatError::Size(why) => CliError::CommandLine(why),
+        FormatError::Write(why) => CliError::NotWritten {
+            what: "the picture".into(),
+            why,
+        },
     }
 }
 
-fn unwritten(error: &dyn std::error::Error) -> CliError {
-    CliError::NotWritten {
-        what: "the picture".into(),
-        why: error.to_string(),
-    }
+fn png_error(error: PngError) -> CliError {
+    format_error(FormatError::from(error))
 }
 
 fn millimetres(typed: &str) -> Result<f64, String> {

@@ -6,12 +6,8 @@
 
 use std::sync::OnceLock;
 
-#[cfg(feature = "cli")]
-use skrifa::GlyphId;
 use skrifa::MetadataProvider;
 use skrifa::instance::{LocationRef, Size};
-#[cfg(feature = "cli")]
-use skrifa::outline::{DrawSettings, OutlinePen};
 use skrifa::raw::{FileRef, FontRef};
 
 use super::{Colour, PagePoint};
@@ -89,50 +85,6 @@ impl Face {
 
     fn font(self) -> FontRef<'static> {
         FontRef::new(self.data()).expect("our font files are sound, a test opens each")
-    }
-}
-
-/// One pull of the pen that draws a letter, in units of its font, y up.
-#[cfg(feature = "cli")]
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Pull {
-    /// Begin a new part here.
-    Move([f32; 2]),
-    /// A straight line to here.
-    Line([f32; 2]),
-    /// A curve with one control point.
-    Quad([f32; 2], [f32; 2]),
-    /// A curve with two.
-    Cubic([f32; 2], [f32; 2], [f32; 2]),
-    /// Straight back to the beginning of the part.
-    Close,
-}
-
-/// Draws a glyph of a face; one without ink, a space, takes no pull.
-#[cfg(feature = "cli")]
-pub(crate) fn outline(face: Face, glyph: u16, pen: impl FnMut(Pull)) {
-    struct Pen<P>(P);
-    impl<P: FnMut(Pull)> OutlinePen for Pen<P> {
-        fn move_to(&mut self, x: f32, y: f32) {
-            (self.0)(Pull::Move([x, y]));
-        }
-        fn line_to(&mut self, x: f32, y: f32) {
-            (self.0)(Pull::Line([x, y]));
-        }
-        fn quad_to(&mut self, a: f32, b: f32, x: f32, y: f32) {
-            (self.0)(Pull::Quad([a, b], [x, y]));
-        }
-        fn curve_to(&mut self, a: f32, b: f32, c: f32, d: f32, x: f32, y: f32) {
-            (self.0)(Pull::Cubic([a, b], [c, d], [x, y]));
-        }
-        fn close(&mut self) {
-            (self.0)(Pull::Close);
-        }
-    }
-    if let Some(outline) = face.font().outline_glyphs().get(GlyphId::from(glyph)) {
-        let plain = DrawSettings::unhinted(Size::unscaled(), LocationRef::default());
-        // Our fonts are sound: a test opens each.
-        let _ = outline.draw(plain, &mut Pen(pen));
     }
 }
 

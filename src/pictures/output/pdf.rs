@@ -39,7 +39,7 @@ pub enum PdfError {
     },
     /// The drawing cannot be written so.
     #[error("the drawing cannot be written as PDF: {0}")]
-    ReportError(String),
+    Write(String),
 }
 
 /// Shortest side of a page, mm.
@@ -189,7 +189,7 @@ fn document(
                 }
                 Content::Svg(text, shows) => (Cow::Borrowed(text), line(shows)),
             };
-            let tree = tree::read(&text, fonts).map_err(PdfError::ReportError)?;
+            let tree = tree::read(&text, fonts).map_err(PdfError::Write)?;
             let figure = surface.start_tagged(ContentTag::Other);
             let (x, y) = (scale * part.at.x as f32, scale * part.at.y as f32);
             let own = scale * part.scale as f32;
@@ -213,7 +213,7 @@ fn document(
     document.set_tag_tree(tags);
     document
         .finish()
-        .map_err(|e| PdfError::ReportError(e.to_string()))
+        .map_err(|e| PdfError::Write(e.to_string()))
 }
 
 struct PdfPainter<'s, 'd> {

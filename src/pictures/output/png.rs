@@ -1,19 +1,14 @@
-//! [`render`]: an SVG of ours as PNG bytes.
+//! [`render`]: an SVG as PNG bytes, by way of resvg.
 
-#[cfg(feature = "cli")]
-mod letter;
 mod pack;
-#[cfg(feature = "cli")]
-mod paint;
 #[cfg(test)]
 mod tests;
 
-use resvg::tiny_skia::{Color, IntSize, Pixmap, Transform};
+use resvg::tiny_skia::{Pixmap, Transform};
 
 use self::pack::{encode, straight};
 use super::fonts::Fonts;
-use super::{MM_PER_INCH, svg, tree};
-use crate::drawing::{Colour, Drawing};
+use super::{MM_PER_INCH, tree};
 
 /// How large a picture is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,11 +16,11 @@ use crate::drawing::{Colour, Drawing};
 pub enum Size {
     /// One pixel per unit of the drawing.
     Natural,
-    /// So many pixels wide, as high as the drawing then is.
+    /// Width in pixels; the height follows from the drawing.
     Width(u32),
-    /// So many pixels per unit of the drawing.
+    /// Pixels per unit of the drawing.
     Scale(f64),
-    /// For print: so wide, at so many pixels per inch, and the file says so.
+    /// For print: a width and a resolution, which the file records.
     Print {
         /// Width in mm.
         width_mm: f64,
@@ -34,18 +29,18 @@ pub enum Size {
     },
 }
 
-/// How hard a PNG is packed. The picture is the same, pixel for pixel.
+/// How hard a PNG is compressed. The pixels are the same.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Compression {
     /// Small files.
     #[default]
     Small,
-    /// A fourth of the time, for files a third larger: for thousands of pictures.
+    /// A fourth of the time, for files a third larger. Meant for thousands of pictures.
     Quick,
 }
 
 impl Compression {
-    /// Of deflate.
+    /// The level of deflate.
     fn level(self) -> u8 {
         match self {
             Compression::Small => 6,
@@ -54,22 +49,22 @@ impl Compression {
     }
 }
 
-/// Why there is no picture.
+/// Why a picture could not be made.
 #[derive(Debug, thiserror::Error)]
 pub enum PngError {
-    /// The text is no SVG that can be drawn.
+    /// The text is not an SVG that resvg can draw.
     #[error("the drawing cannot be read as SVG: {0}")]
     Svg(String),
     /// The picture would be too large or too small.
     #[error(
-        "a picture of {width:.0} × {height:.0} pixels is out of range; each side must have 1 to {MOST_ACROSS} pixels \
+        "a picture of {width:.0} × {height:.0} pixels is out of range; each side must have 1 to {MAX_SIDE} pixels \
          and both together at most {} million. Choose another width or scale",
-        MOST_PIXELS / 1_000_000
+        MAX_PIXELS / 1_000_000
     )]
     Size {
-        /// Width asked for, pixels.
+        /// Requested width, pixels.
         width: f64,
-        /// Height asked for, pixels.
+        /// Requested height, pixels.
         height: f64,
     },
     /// The encoder failed.
@@ -78,15 +73,15 @@ pub enum PngError {
 }
 
 /// Most pixels in a picture.
-pub const MOST_PIXELS: u64 = 100_000_000;
+pub const MAX_PIXELS: u64 = 100_000_000;
 /// Most pixels along a side.
-pub const MOST_ACROSS: u32 = 32_000;
+pub const MAX_SIDE: u32 = 32_000;
 
 /// An SVG drawing as PNG, transparent where the drawing leaves the page clear.
 ///
 /// # Errors
-/// [`PngError::Size`] where the picture would have more than [`MOST_PIXELS`] pixels, a side above [`MOST_ACROSS`] or no
-/// pixel at all; [`PngError::Svg`] for text that is no SVG.
+/// [`PngError::Size`] if the picture would have more than [`MAX_PIXELS`] pixels, a side above [`MAX_SIDE`] or no pixel at
+/// all; [`PngError::Svg`] for text that is not SVG.
 ///
 /// # Example
 /// ```
@@ -100,10 +95,10 @@ pub fn render(svg: &str, size: Size) -> Result<Vec<u8>, PngError> {
     render_in(svg, size, &Fonts::default(), Compression::default())
 }
 
-/// As [`render`], with more fonts than ours, packed as told.
+/// Like [`render`], with additional fonts and a compression level.
 ///
 /// # Errors
-/// As [`render`].
+/// See [`render`].
 pub fn render_in(
     svg: &str,
     size: Size,
@@ -113,18 +108,7 @@ pub fn render_in(
     encode(raster(svg, size, fonts)?, per_metre(size), compression)
 }
 
-/// As [`render_in`], of a drawing that is not written out as SVG first: the same picture, sooner.
-#[cfg(feature = "cli")]
-pub(crate) fn of_drawing(
-    drawing: &Drawing,
-    size: Size,
-    fonts: &Fonts,
-    compression: Compression,
-) -> Result<Vec<u8>, PngError> {
-    encode(painted(drawing, size, fonts)?, per_metre(size), compression)
-}
-
-/// Pixels in a metre, where the picture is for print.
+/// Pixels per metre of a picture for print.
 fn per_metre(size: Size) -> Option<u32> {
     match size {
         Size::Print { dpi, .. } => Some((dpi * 1000.0 / MM_PER_INCH).round() as u32),
@@ -132,7 +116,7 @@ fn per_metre(size: Size) -> Option<u32> {
     }
 }
 
-/// The pixels of a picture, before they are packed.
+/// The pixels of a picture, not compressed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Raster {
     /// Pixels across.
@@ -143,10 +127,10 @@ pub struct Raster {
     pub rgba: Vec<[u8; 4]>,
 }
 
-/// As [`render`], without packing the pixels into a PNG.
+/// Like [`render`], but returns the pixels and not a PNG.
 ///
 /// # Errors
-/// As [`render`].
+/// See [`render`].
 pub fn rgba(svg: &str, size: Size) -> Result<Raster, PngError> {
     let pixels = raster(svg, size, &Fonts::default())?;
     Ok(Raster {
@@ -156,41 +140,23 @@ pub fn rgba(svg: &str, size: Size) -> Result<Raster, PngError> {
     })
 }
 
-/// Drawings of one size as an animated PNG, each shown for `seconds`, over and over. Where animation is unknown the first
-/// is shown.
+/// SVGs of one size as an animated PNG that repeats without end; each is shown for `seconds`. A program that knows no
+/// animated PNG shows the first.
 ///
 /// # Errors
-/// As [`render`]; and [`PngError::Encode`] for no drawings, drawings of several sizes, and a time that is not between a
-/// hundredth of a second and ten minutes.
+/// See [`render`]; also [`PngError::Encode`] for an empty list, for several sizes, and for a time outside 0.01 to 600
+/// seconds.
 pub fn animate(
     svgs: &[String],
     size: Size,
     seconds: f64,
     fonts: &Fonts,
 ) -> Result<Vec<u8>, PngError> {
-    animated(svgs.iter().map(|svg| raster(svg, size, fonts)), seconds)
-}
-
-/// As [`animate`], of drawings that are not written out as SVG first.
-#[cfg(feature = "cli")]
-pub(crate) fn animate_drawings(
-    drawings: &[Drawing],
-    size: Size,
-    seconds: f64,
-    fonts: &Fonts,
-) -> Result<Vec<u8>, PngError> {
-    let each = drawings.iter();
-    animated(each.map(|drawing| painted(drawing, size, fonts)), seconds)
-}
-
-fn animated(
-    each: impl Iterator<Item = Result<Pixmap, PngError>>,
-    seconds: f64,
-) -> Result<Vec<u8>, PngError> {
     let wrong = |why: &str| Err(PngError::Encode(why.to_owned()));
     if !(0.01..=600.0).contains(&seconds) {
         return wrong("each picture is shown for 0.01 to 600 seconds");
     }
+    let each = svgs.iter().map(|svg| raster(svg, size, fonts));
     let pictures = each.collect::<Result<Vec<Pixmap>, PngError>>()?;
     let Some(first) = pictures.first() else {
         return wrong("there is nothing to show");
@@ -221,15 +187,15 @@ fn animated(
     Ok(bytes)
 }
 
-/// Whether a drawing of a width and height in its own units becomes a PNG of a size that can be made, before any of it is.
+/// Checks, before anything is drawn, that a drawing of this width and height becomes a PNG of a possible size.
 ///
 /// # Errors
-/// [`PngError::Size`] where it does not.
+/// [`PngError::Size`] if the size is out of range.
 pub fn check(width: f64, height: f64, size: Size) -> Result<(), PngError> {
     pixels(width, height, size).map(drop)
 }
 
-/// Width and height in whole pixels.
+/// Width and height of a picture in whole pixels, from those of its drawing.
 fn pixels(natural_width: f64, natural_height: f64, size: Size) -> Result<(f64, f64), PngError> {
     let scale = match size {
         Size::Natural => 1.0,
@@ -241,8 +207,8 @@ fn pixels(natural_width: f64, natural_height: f64, size: Size) -> Result<(f64, f
         (natural_width * scale).round(),
         (natural_height * scale).round(),
     );
-    let fits = |side: f64| (1.0..=f64::from(MOST_ACROSS)).contains(&side);
-    if fits(width) && fits(height) && width * height <= MOST_PIXELS as f64 {
+    let fits = |side: f64| (1.0..=f64::from(MAX_SIDE)).contains(&side);
+    if fits(width) && fits(height) && width * height <= MAX_PIXELS as f64 {
         Ok((width, height))
     } else {
         Err(PngError::Size {
@@ -252,53 +218,18 @@ fn pixels(natural_width: f64, natural_height: f64, size: Size) -> Result<(f64, f
     }
 }
 
+/// The pixels of an SVG.
 fn raster(svg: &str, size: Size, fonts: &Fonts) -> Result<Pixmap, PngError> {
     let tree = tree::read(svg, fonts).map_err(PngError::Svg)?;
-    let natural = (tree.size().width(), tree.size().height());
-    let (mut pixels, scale) = page(natural, size, None)?;
+    let natural = (
+        f64::from(tree.size().width()),
+        f64::from(tree.size().height()),
+    );
+    let (width, height) = pixels(natural.0, natural.1, size)?;
+    let mut pixels =
+        Pixmap::new(width as u32, height as u32).ok_or(PngError::Size { width, height })?;
+    // Stretched to whole pixels, by less than one pixel in all, so that no edge of the page is half covered.
+    let scale = Transform::from_scale((width / natural.0) as f32, (height / natural.1) as f32);
     resvg::render(&tree, scale, &mut pixels.as_mut());
     Ok(pixels)
-}
-
-#[cfg(feature = "cli")]
-fn painted(drawing: &Drawing, size: Size, fonts: &Fonts) -> Result<Pixmap, PngError> {
-    if !fonts.more().is_empty() {
-        // A page that is too large is refused before it is written out, which takes far more memory than the drawing.
-        check(drawing.width, drawing.height, size)?;
-        // Letters of other fonts may be pictures themselves, in many colours.
-        return raster(&svg::for_pixels(drawing), size, fonts);
-    }
-    let natural = [drawing.width, drawing.height].map(|side| svg::rounded(side) as f32);
-    let (mut pixels, scale) = page(natural.into(), size, drawing.background)?;
-    paint::paint(drawing, scale, &mut pixels).map_err(PngError::Svg)?;
-    Ok(pixels)
-}
-
-/// The pixels of a picture, all of one colour or clear, and how a drawing is scaled to them.
-fn page(
-    (width, height): (f32, f32),
-    size: Size,
-    background: Option<Colour>,
-) -> Result<(Pixmap, Transform), PngError> {
-    let natural = (f64::from(width), f64::from(height));
-    let (width, height) = pixels(natural.0, natural.1, size)?;
-    // Stretched to whole pixels, by less than one in all, so that no edge of the page is half covered.
-    let scale = Transform::from_scale((width / natural.0) as f32, (height / natural.1) as f32);
-    let pixels = match (background, IntSize::from_wh(width as u32, height as u32)) {
-        // All bytes of a white page are alike: they are set once, and not cleared before.
-        (Some(Colour::WHITE), Some(size)) => {
-            let bytes = vec![u8::MAX; 4 * size.width() as usize * size.height() as usize];
-            Pixmap::from_vec(bytes, size)
-        }
-        (background, Some(size)) => {
-            let mut pixels = Pixmap::new(size.width(), size.height());
-            if let (Some(pixels), Some(Colour([r, g, b]))) = (&mut pixels, background) {
-                pixels.fill(Color::from_rgba8(r, g, b, u8::MAX));
-            }
-            pixels
-        }
-        (_, None) => None,
-    };
-    let pixels = pixels.ok_or(PngError::Size { width, height })?;
-    Ok((pixels, scale))
 }

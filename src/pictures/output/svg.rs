@@ -16,8 +16,6 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 pub use option::{Options, Words};
-#[cfg(all(feature = "cli", feature = "png"))]
-pub(super) use outline::{Pen, rounded, trace};
 use outline::{number, steps};
 
 #[cfg(feature = "png")]

@@ -10,7 +10,7 @@ use super::fact::DIGITS;
 use super::picture::PixelTolerance;
 use crate::drawing::Theme;
 use crate::figure::Kind;
-use crate::output::png::MOST_ACROSS;
+use crate::output::png::MAX_SIDE;
 
 /// What the file is called.
 pub const FILE: &str = "drystone-snapshots.toml";
@@ -155,7 +155,7 @@ impl Reading<'_> {
                 let widths = self.list("widths", value);
                 let widths: Vec<u64> = widths
                     .iter()
-                    .filter_map(|w| self.whole("widths", w, 16, u64::from(MOST_ACROSS)))
+                    .filter_map(|w| self.whole("widths", w, 16, u64::from(MAX_SIDE)))
                     .collect();
                 self.settings.widths = widths.into_iter().map(|w| w as u32).collect();
                 self.twice("widths", value, self.settings.widths.clone());

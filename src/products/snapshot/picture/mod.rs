@@ -18,7 +18,7 @@ use png::{BitDepth, ColorType, DecodingError, Transformations};
 pub use difference::{Difference, PixelTolerance};
 use palette::Palette;
 
-use crate::output::png::{MOST_ACROSS, MOST_PIXELS};
+use crate::output::png::{MAX_PIXELS, MAX_SIDE};
 
 /// The keyword under which a reference says what it shows: a scene or a figure.
 const SUBJECT: &str = "drystone-snapshot";
@@ -67,8 +67,8 @@ pub enum PictureError {
     Damaged(String),
     /// More than is compared.
     #[error(
-        "{width} × {height} pixels are too many: at most {MOST_ACROSS} along a side and {} million in all",
-        MOST_PIXELS / 1_000_000
+        "{width} × {height} pixels are too many: at most {MAX_SIDE} along a side and {} million in all",
+        MAX_PIXELS / 1_000_000
     )]
     Large {
         /// Pixels across.
@@ -147,8 +147,8 @@ impl Picture {
         let mut reader = decoder.read_info().map_err(wrong)?;
         let info = reader.info();
         let (width, height) = (info.width, info.height);
-        let most = width > MOST_ACROSS || height > MOST_ACROSS;
-        if most || u64::from(width) * u64::from(height) > MOST_PIXELS {
+        let most = width > MAX_SIDE || height > MAX_SIDE;
+        if most || u64::from(width) * u64::from(height) > MAX_PIXELS {
             return Err(PictureError::Large { width, height });
         }
         if let Some(animation) = info.animation_control.filter(|a| a.num_frames > 1) {
