@@ -8,12 +8,12 @@ pub mod arrow;
 mod camera;
 mod colour;
 pub mod difference;
-pub mod hatch;
+pub(crate) mod hatch;
 mod outline;
-pub mod placement;
-pub mod ramp;
+pub(crate) mod placement;
+pub(crate) mod ramp;
 pub mod style;
-pub mod symbol;
+pub(crate) mod symbol;
 pub mod text;
 
 pub use camera::Camera;

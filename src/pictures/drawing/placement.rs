@@ -1,8 +1,14 @@
-//! [`place`]: where labels have room. None lies on ink, on another label, or off its page.
+//! [`place`]: point-feature label placement. No label lies on ink, on another label, or off its page.
 //!
-//! Each label wants to be near its anchor. Places that its maker prefers are tried first, then rings about the anchor,
-//! wider and wider; a label that ends up apart from what it names gets a leader line. Labels are placed in the order
-//! given, the most important first; one for which no place is clear is left out.
+//! The method is greedy, as in Christensen, Marks and Shieber, *An empirical study of algorithms for point-feature label
+//! placement* (ACM Transactions on Graphics 14, 1995), with one round of exchanges at the end:
+//!
+//! 1. Labels are placed in the order given, the most important first.
+//! 2. Each takes the first of its preferred positions that is clear of ink.
+//! 3. If none is, positions on concentric rings about its anchor are tried, and the one of least cost is taken. The cost is
+//!    the distance plus penalties. A label apart from what it names gets a leader line.
+//! 4. A label without a clear position is left out.
+//! 5. Labels whose leaders cross exchange their positions where that leaves fewer crossings ([`untangle`](untangle::untangle)).
 
 mod ink;
 mod untangle;
@@ -13,146 +19,157 @@ use super::{PagePoint, PageRect};
 
 pub use self::ink::Ink;
 
-/// Rings tried about an anchor.
-const RINGS: usize = 60;
-/// Places tried on each ring.
-const AROUND: usize = 24;
-/// Clear room kept around a label, pixels.
-const ROOM: f64 = 1.5;
-/// A label whose nearest point is farther than this beyond the first ring gets a leader line, pixels.
-const NEAR: f64 = 6.0;
-/// A leader that crosses ink counts as so many pixels of distance.
-const CROSSING: f64 = 14.0;
+/// Rings tried about an anchor, at most. They are half a label's height apart, so 60 reach across any page.
+const MAX_RINGS: usize = 60;
+/// Positions tried on each ring: every 15°.
+const POSITIONS_PER_RING: usize = 24;
+/// Clear space kept around a label, pixels. With less, letters seem to touch a line; with much more, crowded figures lose
+/// labels.
+const CLEARANCE: f64 = 1.5;
+/// A label gets a leader line if its nearest point lies farther than this beyond the first ring, pixels.
+const LEADER_DISTANCE: f64 = 6.0;
+/// Cost of a leader that crosses ink, pixels of distance: a label goes about one line height farther to avoid it.
+const INK_CROSSING_COST: f64 = 14.0;
+/// Cost of a leader that crosses another label, pixels of distance: more than any distance on a page, as it would strike
+/// the label out.
+const LABEL_CROSSING_COST: f64 = 1000.0;
+/// Cost of a position that the caller avoids, pixels of distance.
+const AVOIDED_COST: f64 = 110.0;
+/// Positions whose costs differ by less than this, pixels, are equally good, and the first one tried is taken: rounding
+/// must not decide.
+const COST_TIE: f64 = 1e-3;
 
-/// A leader that crosses a label, for want of another place, counts as so many pixels of distance: more than any way.
-const STRUCK: f64 = 1000.0;
-
-/// Places whose costs differ by less than so many pixels are equally good.
-const TIE: f64 = 1e-3;
-
-/// A place that is not liked counts as so many pixels of distance.
-const DISLIKED: f64 = 110.0;
-
-/// A label that wants a place.
+/// A label that needs a position.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LabelRequest {
-    /// What it names: where its leader would begin.
+    /// The point it names: the end of its leader line.
     pub anchor: PagePoint,
-    /// How far from the anchor the nearest ring begins, pixels.
-    pub from: f64,
+    /// Radius of the first ring about the anchor, pixels.
+    pub first_ring: f64,
     /// Width and height of the label, pixels.
     pub size: (f64, f64),
-    /// Middles tried first; a label at one of these needs no leader.
+    /// Centres tried first; a label at one of these needs no leader.
     pub preferred: Vec<PagePoint>,
-    /// More room, pixels, that a preferred place should have; places that have it come first.
-    pub ease: f64,
-    /// Whether it may stand elsewhere than at a preferred place: how far from the first ring at most, pixels.
-    pub roams: Option<f64>,
+    /// Additional clear space that a preferred position should have, pixels; positions that have it come first.
+    pub padding: f64,
+    /// How far beyond the first ring the label may stand, pixels; `None` for preferred positions only.
+    pub max_distance: Option<f64>,
 }
 
-/// Where a label stands.
+/// The position of a label.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placed {
-    /// Whether it stands where it was not liked, for want of another place.
-    pub disliked: bool,
-    /// The label.
+    /// Whether the position is one that the caller avoids, for lack of another.
+    pub avoided: bool,
+    /// The label's rectangle.
     pub rect: PageRect,
-    /// The line from the label to what it names, where it stands apart from it.
+    /// The line from the label to its anchor, if the label stands apart from it.
     pub leader: Option<[PagePoint; 2]>,
 }
 
-/// A place for each request on the page, in the order of the requests; `None` where there is none. Placed labels become ink.
-pub fn place(ink: &mut Ink, page: PageRect, requests: &[LabelRequest]) -> Vec<Option<Placed>> {
-    place_where(ink, page, requests, &|_, _| false)
+impl Placed {
+    /// A label in this rectangle with a leader to its anchor.
+    fn with_leader(rect: PageRect, anchor: PagePoint) -> Placed {
+        Placed {
+            avoided: false,
+            rect,
+            leader: Some([nearest(rect, anchor), anchor]),
+        }
+    }
 }
 
-/// As [`place`]; where a label by the number of its request is not liked, it stands only for want of another place nearby,
-/// and with a leader. Places that are preferred are always liked.
-pub fn place_where(
+/// A position for each request on the page, in the order of the requests; `None` for a label that is left out. Placed
+/// labels are added to the ink.
+pub fn place(ink: &mut Ink, page: PageRect, requests: &[LabelRequest]) -> Vec<Option<Placed>> {
+    place_avoiding(ink, page, requests, &|_, _| false)
+}
+
+/// Like [`place`]. A position for which `avoid` is true, given the request's number and the label's rectangle, is taken only
+/// for lack of another one nearby, and with a leader. Preferred positions are never avoided.
+pub fn place_avoiding(
     ink: &mut Ink,
     page: PageRect,
     requests: &[LabelRequest],
-    disliked: &dyn Fn(usize, PageRect) -> bool,
+    avoid: &dyn Fn(usize, PageRect) -> bool,
 ) -> Vec<Option<Placed>> {
     ink.index();
-    let bare = ink.clone();
-    let each = requests.iter().enumerate().map(|(number, request)| {
-        let placed = one(ink, page, request, &|rect| disliked(number, rect));
-        ink.placed(placed.as_ref());
-        placed
-    });
-    let mut placed: Vec<Option<Placed>> = each.collect();
-    if untangle::untangle(&bare, page, requests, &mut placed, disliked) {
-        *ink = bare;
+    let ink_without_labels = ink.clone();
+    let mut placed = Vec::with_capacity(requests.len());
+    for (number, request) in requests.iter().enumerate() {
+        let position = preferred_position(ink, page, request)
+            .or_else(|| ring_position(ink, page, request, &|rect| avoid(number, rect)));
+        ink.add_label(position.as_ref());
+        placed.push(position);
+    }
+    if untangle::untangle(&ink_without_labels, page, requests, &mut placed, avoid) {
+        *ink = ink_without_labels;
         for placed in &placed {
-            ink.placed(placed.as_ref());
+            ink.add_label(placed.as_ref());
         }
     }
     placed
 }
 
-fn one(
+/// The label's rectangle about a centre, if it lies on the page and clear of ink with this clearance.
+fn fitting(
     ink: &Ink,
     page: PageRect,
     request: &LabelRequest,
-    disliked: &dyn Fn(PageRect) -> bool,
+    centre: PagePoint,
+    clearance: f64,
+) -> Option<PageRect> {
+    let (width, height) = request.size;
+    let kept = centred(centre, (width + 2.0 * clearance, height + 2.0 * clearance));
+    (within(page, kept) && ink.clear(kept)).then(|| centred(centre, request.size))
+}
+
+/// The first preferred position that is clear: with all of its padding, with less, or with the least clearance.
+fn preferred_position(ink: &Ink, page: PageRect, request: &LabelRequest) -> Option<Placed> {
+    let clearances = [request.padding, 0.4 * request.padding, 0.0];
+    clearances.into_iter().find_map(|padding| {
+        let mut centres = request.preferred.iter();
+        let rect =
+            centres.find_map(|at| fitting(ink, page, request, *at, CLEARANCE + padding))?;
+        Some(Placed {
+            avoided: false,
+            rect,
+            leader: None,
+        })
+    })
+}
+
+/// The position of least cost on the rings about the anchor.
+fn ring_position(
+    ink: &Ink,
+    page: PageRect,
+    request: &LabelRequest,
+    avoid: &dyn Fn(PageRect) -> bool,
 ) -> Option<Placed> {
-    let with_room = |middle: PagePoint, room: f64| {
-        let rect = around(middle, request.size);
-        let kept = around(
-            middle,
-            (request.size.0 + 2.0 * room, request.size.1 + 2.0 * room),
-        );
-        (within(page, kept) && ink.clear(kept)).then_some(rect)
-    };
-    for room in [ROOM + request.ease, ROOM + 0.4 * request.ease, ROOM] {
-        let place = |middle: &PagePoint| with_room(*middle, room);
-        if let Some(rect) = request.preferred.iter().find_map(place) {
-            return Some(Placed {
-                disliked: false,
-                rect,
-                leader: None,
-            });
-        }
-    }
-    let fits = |middle: PagePoint| with_room(middle, ROOM);
-    let farthest = request.from + request.roams?;
-    let step = (0.5 * request.size.1).max(3.0);
+    let (width, height) = request.size;
+    let farthest = request.first_ring + request.max_distance?;
+    let ring_step = (0.5 * height).max(3.0);
     let mut best: Option<(f64, Placed)> = None;
-    for ring in 0..RINGS {
-        let radius = request.from + step * ring as f64;
-        // A ring farther out than the best place cannot better it by more than a crossing.
+    for ring in 0..MAX_RINGS {
+        let radius = request.first_ring + ring_step * ring as f64;
+        // The cost is at least the radius, so no ring farther out is better.
         if radius > farthest || best.is_some_and(|(cost, _)| radius > cost) {
             break;
         }
-        for part in 0..AROUND {
-            let angle = TAU * part as f64 / AROUND as f64;
+        for part in 0..POSITIONS_PER_RING {
+            let angle = TAU * part as f64 / POSITIONS_PER_RING as f64;
             let (cos, sin) = (libm::cos(angle), libm::sin(angle));
-            // The label's nearest side lies on the ring, not its middle: wide labels stand as near as narrow ones.
+            // The label's nearest side lies on the ring, not its centre: wide labels stand as near as narrow ones.
             let (x, y) = (
-                cos * radius + cos * request.size.0 / 2.0,
-                sin * radius + sin * request.size.1 / 2.0,
+                cos * radius + cos * width / 2.0,
+                sin * radius + sin * height / 2.0,
             );
-            let Some(rect) = fits(request.anchor.moved(x, y)) else {
+            let centre = request.anchor.moved(x, y);
+            let Some(rect) = fitting(ink, page, request, centre, CLEARANCE) else {
                 continue;
             };
-            let end = nearest(rect, request.anchor);
-            let apart = libm::hypot(end.x - request.anchor.x, end.y - request.anchor.y);
-            let (labels, others) = ink.crossed(request.anchor, end);
-            let disliked = disliked(rect);
-            let leader = (disliked || apart > request.from + NEAR).then_some([end, request.anchor]);
-            let penalty = if disliked { DISLIKED } else { 0.0 };
-            let cost = radius
-                + penalty
-                + CROSSING * others.saturating_sub(1) as f64
-                + STRUCK * labels as f64;
-            // Of places that differ by rounding alone the first stays.
-            if best.is_none_or(|(least, _)| cost < least - TIE) {
-                let placed = Placed {
-                    disliked,
-                    rect,
-                    leader,
-                };
+            let (penalty, placed) = candidate(ink, request, rect, avoid(rect));
+            let cost = radius + penalty;
+            if best.is_none_or(|(least, _)| cost < least - COST_TIE) {
                 best = Some((cost, placed));
             }
         }
@@ -160,9 +177,29 @@ fn one(
     best.map(|(_, placed)| placed)
 }
 
-fn around(middle: PagePoint, (width, height): (f64, f64)) -> PageRect {
+/// A label in this rectangle, with a leader if it needs one, and the penalties of its position.
+fn candidate(ink: &Ink, request: &LabelRequest, rect: PageRect, avoided: bool) -> (f64, Placed) {
+    let anchor = request.anchor;
+    let end = nearest(rect, anchor);
+    let distance = libm::hypot(end.x - anchor.x, end.y - anchor.y);
+    let (labels, others) = ink.crossed(anchor, end);
+    let needs_leader = avoided || distance > request.first_ring + LEADER_DISTANCE;
+    let placed = Placed {
+        avoided,
+        rect,
+        leader: needs_leader.then_some([end, anchor]),
+    };
+    // One piece of ink is what the label names.
+    let penalty = if avoided { AVOIDED_COST } else { 0.0 }
+        + INK_CROSSING_COST * others.saturating_sub(1) as f64
+        + LABEL_CROSSING_COST * labels as f64;
+    (penalty, placed)
+}
+
+/// The rectangle of this size about a centre.
+fn centred(centre: PagePoint, (width, height): (f64, f64)) -> PageRect {
     PageRect {
-        at: middle.moved(-width / 2.0, -height / 2.0),
+        at: centre.moved(-width / 2.0, -height / 2.0),
         width,
         height,
     }
@@ -183,6 +220,7 @@ pub(crate) fn nearest(rect: PageRect, p: PagePoint) -> PagePoint {
     )
 }
 
+/// The corners of a rectangle in order.
 fn corners(rect: PageRect) -> [PagePoint; 4] {
     [
         rect.at,
@@ -205,11 +243,11 @@ mod tests {
     fn request(x: f64, y: f64) -> LabelRequest {
         LabelRequest {
             anchor: PagePoint::new(x, y),
-            from: 4.0,
+            first_ring: 4.0,
             size: (30.0, 10.0),
             preferred: vec![PagePoint::new(x + 20.0, y)],
-            ease: 3.0,
-            roams: Some(f64::INFINITY),
+            padding: 3.0,
+            max_distance: Some(f64::INFINITY),
         }
     }
 
@@ -217,11 +255,11 @@ mod tests {
     fn a_slanting_line_bars_what_it_crosses_and_not_its_box() {
         let mut ink = Ink::default();
         ink.line(PagePoint::new(0.0, 0.0), PagePoint::new(100.0, 100.0), 2.0);
-        assert!(!ink.clear(around(PagePoint::new(50.0, 52.0), (10.0, 10.0))));
-        assert!(ink.clear(around(PagePoint::new(80.0, 20.0), (30.0, 30.0))));
+        assert!(!ink.clear(centred(PagePoint::new(50.0, 52.0), (10.0, 10.0))));
+        assert!(ink.clear(centred(PagePoint::new(80.0, 20.0), (30.0, 30.0))));
         ink.disc(PagePoint::new(80.0, 20.0), 4.0);
-        assert!(!ink.clear(around(PagePoint::new(80.0, 20.0), (2.0, 2.0))));
-        assert!(ink.clear(around(PagePoint::new(80.0, 30.0), (8.0, 8.0))));
+        assert!(!ink.clear(centred(PagePoint::new(80.0, 20.0), (2.0, 2.0))));
+        assert!(ink.clear(centred(PagePoint::new(80.0, 30.0), (8.0, 8.0))));
     }
 
     #[test]
@@ -248,7 +286,7 @@ mod tests {
         ink.rect(PAGE);
         assert_eq!(place(&mut ink, PAGE, &[request(50.0, 50.0)]), [None]);
         let fixed = LabelRequest {
-            roams: None,
+            max_distance: None,
             preferred: Vec::new(),
             ..request(50.0, 50.0)
         };

@@ -1,4 +1,4 @@
-//! Rows of colours that tell an amount: the well-known ones by [name](named), and own ones [through stops](between).
+//! Colour maps: the well-known ones by [name](named), and others [interpolated between stops](between).
 
 mod cividis;
 mod plasma;
@@ -8,10 +8,10 @@ use super::colour::Colour;
 
 pub use plasma::PLASMA;
 
-/// The names of the ramps that are known: [`named`] knows each of them.
+/// The names that [`named`] knows.
 pub const NAMES: [&str; 4] = ["plasma", "viridis", "cividis", "grey"];
 
-/// So many colours a ramp has.
+/// Number of colours in a map.
 pub const LENGTH: usize = 256;
 
 /// A ramp by its name: 256 colours, those of small amounts first. `None` for a name that is not in [`NAMES`].
@@ -29,14 +29,7 @@ pub fn named(name: &str) -> Option<Vec<Colour>> {
     }
 }
 
-/// 256 colours that run evenly through some stops, mixed channel by channel; none where there is no stop.
-///
-/// ```
-/// use drystone::drawing::{Colour, ramp};
-/// let ramp = ramp::between(&[Colour::WHITE, Colour::hex(0xff0000), Colour::BLACK]);
-/// assert_eq!((ramp.len(), ramp[0], ramp[255]), (256, Colour::WHITE, Colour::BLACK));
-/// assert_eq!(ramp[51].0[0], 255);
-/// ```
+/// 256 colours interpolated evenly between stops, channel by channel; empty without a stop.
 pub fn between(stops: &[Colour]) -> Vec<Colour> {
     let Some(last) = stops.len().checked_sub(1) else {
         return Vec::new();
@@ -81,5 +74,7 @@ mod tests {
         assert!((0..LENGTH).all(|i| two[i] == Colour([i as u8; 3])));
         assert_eq!(between(&[Colour::BLACK]), vec![Colour::BLACK; LENGTH]);
         assert_eq!(between(&[]), Vec::new());
+        let three = between(&[Colour::WHITE, Colour::hex(0xff0000), Colour::BLACK]);
+        assert_eq!((three[0], three[51].0[0], three[255]), (Colour::WHITE, 255, Colour::BLACK));
     }
 }

@@ -1,8 +1,15 @@
-//! [`apart`]: arrows that lie on one line, set side by side.
+//! [`apart`]: moves arrows that lie on one line next to each other.
 //!
-//! A block on the ground is pushed up on the very line along which its weight pulls it down; drawn there, the two look
-//! like one arrow with two heads. Each arrow is moved across its line by no more than keeps it clear of those before it,
-//! and the two arrows of one interface stay centred about their true line. Lengths and directions are untouched.
+//! The ground pushes a block up on the very line along which its weight pulls it down; drawn there, the two look like one
+//! arrow with two heads. The arrows of a frame are treated one after the other, in drawing order:
+//!
+//! 1. The ideal offset of an arrow is 0. If it has an opposite arrow at the same point, it is half a shaft and half the gap,
+//!    so that the pair stays centred about its true line.
+//! 2. If the arrow is clear of all arrows before it there, it is drawn there.
+//! 3. Otherwise the candidates are 0 and, for each arrow nearby, the two offsets just clear of it. The candidate nearest to
+//!    the ideal offset that is clear of all arrows is taken.
+//!
+//! Lengths and directions do not change, so an arrow still shows its force.
 
 mod place;
 
@@ -11,99 +18,107 @@ use super::arrow::{ForceArrow, Marks};
 use crate::drawing::arrow::{HEAD_WIDTH, head_size};
 use crate::geometry::{Bounds, Point, Vector};
 
-/// Arrows whose directions differ by less than this, rad, run side by side.
-const PARALLEL: f64 = 0.12;
-/// Room between two arrows set side by side, in widths of the wider shaft.
-const ROOM: f64 = 0.4;
-/// A free place for an arrow is looked for beside those so many of its widths off, and beside all where none is found there.
-const NEAR: f64 = 24.0;
-/// Above so many arrows in a frame they are texture, and stay where they are.
-const MOST: usize = 4000;
+/// Arrows whose directions differ by less than this, rad (7°), count as parallel: they would cover each other over most of
+/// their lengths. Arrows at a larger angle cross, which can be read.
+const PARALLEL_ANGLE: f64 = 0.12;
+/// Gap between two parallel arrows, in widths of the wider shaft.
+const GAP: f64 = 0.4;
+/// Candidates are first taken from arrows within this distance, in widths of the arrow, and only then from all arrows of the
+/// frame. It saves time and does not change the result: see `offset_of_least_change`.
+const NEARBY: f64 = 24.0;
+/// Frames with more arrows are not treated: their arrows are a texture in which nobody follows a single one.
+const MAX_ARROWS: usize = 4000;
+/// Offsets are compared in units of this share of a shaft's width. Of two offsets equally far from the ideal one, rounding
+/// of the forces must not choose.
+const OFFSET_RESOLUTION: f64 = 1e-6;
+/// Arrows nearer to each other than needed by less than this share are clear: candidates lie exactly at the limit.
+const CLEAR_TOL: f64 = 1e-6;
 
 /// Moves the arrows of a frame that lie on one line apart.
 pub(crate) fn apart(marks: &mut Marks) {
     let arrows = &mut marks.arrows;
-    if arrows.len() > MOST {
+    if arrows.len() > MAX_ARROWS {
         return;
     }
     let original = arrows.clone();
-    // The rooms of those that were set.
-    let mut rooms = Places::sized_for(original.iter().map(around));
-    let mut by_place: Vec<(f64, usize)> = original.iter().map(|a| a.at.x).zip(0..).collect();
-    by_place.sort_by(|a, b| a.0.total_cmp(&b.0));
+    // The boxes of the arrows that have their place already.
+    let mut placed = Places::sized_for(original.iter().map(space_around));
+    let mut by_x: Vec<(f64, usize)> = original.iter().map(|a| a.at.x).zip(0..).collect();
+    by_x.sort_by(|a, b| a.0.total_cmp(&b.0));
     for i in 0..arrows.len() {
-        let Some(across) = across(&original[i]) else {
-            rooms.put(around(&original[i]));
-            continue;
-        };
-        let moved = |aside: f64| ForceArrow {
-            at: original[i].at + across * aside,
-            ..original[i]
-        };
-        // An arrow and its opposite keep their true line between them.
-        let opposite = opposites(&by_place, &original, i);
-        let ideal = opposite.map_or(0.0, |_| -0.5 * (1.0 + ROOM) * original[i].width);
-        let clear = |place: &f64| {
-            let there = moved(*place);
-            !rooms.any(around(&there), |other| asked(&there, &arrows[other]))
-        };
-        // Most stand clear where they would stand best.
-        if clear(&ideal) {
-            arrows[i] = moved(ideal);
-            rooms.put(around(&arrows[i]));
-            continue;
+        if let Some(across) = across(&original[i]) {
+            let has_opposite = has_opposite(&by_x, &original, i);
+            let ideal = if has_opposite {
+                -0.5 * (1.0 + GAP) * original[i].width
+            } else {
+                0.0
+            };
+            let offset = offset_of_least_change(&original[i], across, ideal, arrows, &placed);
+            arrows[i].at = original[i].at + across * offset;
         }
-        // To a millionth of a shaft: of two places as far as each other noise of the forces must not choose.
-        let shafts = |far: f64| (far / original[i].width * 1e6).round();
-        let far = |place: &f64| shafts((place - ideal).abs());
-        let nearest = |within: Option<Bounds>| {
-            let mut places = vec![ideal, 0.0];
-            for other in rooms.meeting(within) {
-                let other = &arrows[other];
-                // Just clear of one of those before it, on either side.
-                let aside = |at: Point| (at - other.at).dot(&across);
-                if let Some((needed, _)) = side_by_side(&original[i], other) {
-                    let now = aside(original[i].at);
-                    places.extend([needed - now, -needed - now]);
-                }
-            }
-            places.sort_by(|a, b| far(a).total_cmp(&far(b)).then(b.total_cmp(a)));
-            places.into_iter().find(clear)
-        };
-        // Places beside arrows that are farther off than the one that is found are farther off themselves.
-        let width = original[i].width;
-        let near = nearest(Some(around(&original[i]).grown(NEAR * width)));
-        let place = near
-            .filter(|place| place.abs() < 0.5 * NEAR * width)
-            .or_else(|| nearest(None));
-        arrows[i] = moved(place.unwrap_or(ideal));
-        rooms.put(around(&arrows[i]));
+        placed.put(space_around(&arrows[i]));
     }
 }
 
-/// A box about an arrow and all the room it asks for: arrows whose boxes are apart do not ask each other for more.
-fn around(arrow: &ForceArrow) -> Bounds {
+/// The offset across its line, metres, nearest to the ideal one at which an arrow is clear of all that are placed.
+fn offset_of_least_change(
+    arrow: &ForceArrow,
+    across: Vector,
+    ideal: f64,
+    arrows: &[ForceArrow],
+    placed: &Places,
+) -> f64 {
+    let clear = |offset: &f64| {
+        let there = ForceArrow {
+            at: arrow.at + across * *offset,
+            ..*arrow
+        };
+        !placed.any(space_around(&there), |other| too_close(&there, &arrows[other]))
+    };
+    // Most arrows are clear at their ideal offset.
+    if clear(&ideal) {
+        return ideal;
+    }
+    let distance = |offset: &f64| ((offset - ideal).abs() / arrow.width / OFFSET_RESOLUTION).round();
+    let nearest = |within: Option<Bounds>| {
+        let mut offsets = vec![ideal, 0.0];
+        for other in placed.meeting(within) {
+            let other = &arrows[other];
+            if let Some((needed, _)) = side_by_side(arrow, other) {
+                let now = (arrow.at - other.at).dot(&across);
+                offsets.extend([needed - now, -needed - now]);
+            }
+        }
+        offsets.sort_by(|a, b| distance(a).total_cmp(&distance(b)).then(b.total_cmp(a)));
+        offsets.into_iter().find(clear)
+    };
+    // An offset found nearby is final if it is small: offsets that come from arrows farther off are larger.
+    let nearby = nearest(Some(space_around(arrow).grown(NEARBY * arrow.width)));
+    nearby
+        .filter(|offset| offset.abs() < 0.5 * NEARBY * arrow.width)
+        .or_else(|| nearest(None))
+        .unwrap_or(ideal)
+}
+
+/// A box around an arrow and the gap it keeps: arrows whose boxes are disjoint are clear of each other.
+fn space_around(arrow: &ForceArrow) -> Bounds {
     let tip = arrow.at + arrow.reach();
     let ends = Bounds {
         min: arrow.at.inf(&tip),
         max: arrow.at.sup(&tip),
     };
-    ends.grown((HEAD_WIDTH + 2.0 * ROOM) * arrow.width)
+    ends.grown((HEAD_WIDTH + 2.0 * GAP) * arrow.width)
 }
 
-/// The first of the arrows that begins where arrow `i` does and points the opposite way; `by_place` are their places from
-/// left to right.
-fn opposites(by_place: &[(f64, usize)], arrows: &[ForceArrow], i: usize) -> Option<usize> {
+/// Whether an arrow begins where arrow `i` does and points the opposite way. `by_x` lists the arrows from left to right.
+fn has_opposite(by_x: &[(f64, usize)], arrows: &[ForceArrow], i: usize) -> bool {
     let (x, far) = (arrows[i].at.x, 0.5 * arrows[i].width);
-    let from = by_place.partition_point(|place| place.0 < x - far);
-    let near = by_place[from..]
-        .iter()
-        .take_while(|place| place.0 <= x + far);
-    let found = near.filter(|(_, j)| opposite(&arrows[i], &arrows[*j]));
-    found.map(|(_, j)| *j).min()
+    let from = by_x.partition_point(|entry| entry.0 < x - far);
+    let mut near = by_x[from..].iter().take_while(|entry| entry.0 <= x + far);
+    near.any(|(_, j)| opposite(&arrows[i], &arrows[*j]))
 }
 
-/// Whether two arrows begin at one place and point opposite ways.
+/// Whether two arrows begin at one point and point opposite ways.
 fn opposite(a: &ForceArrow, b: &ForceArrow) -> bool {
     let near = (a.at - b.at).norm() <= 0.5 * a.width;
     near && a.reach().dot(&b.reach()) < 0.0 && side_by_side(a, b).is_some()
@@ -116,12 +131,13 @@ fn across(arrow: &ForceArrow) -> Option<Vector> {
     (length > 0.0).then(|| Vector::new(-reach.y, reach.x) / length)
 }
 
-/// Whether two arrows lie on one line and are nearer than they may be.
-fn asked(a: &ForceArrow, b: &ForceArrow) -> bool {
-    side_by_side(a, b).is_some_and(|(needed, apart)| apart < needed * (1.0 - 1e-6))
+/// Whether two parallel arrows are closer than the gap between them allows.
+fn too_close(a: &ForceArrow, b: &ForceArrow) -> bool {
+    side_by_side(a, b).is_some_and(|(needed, distance)| distance < needed * (1.0 - CLEAR_TOL))
 }
 
-/// How far apart the axes of two nearly parallel arrows that stand beside each other have to be, and how far they are.
+/// For two parallel arrows that overlap along their direction: the distance that their axes need, and the one they have,
+/// metres. `None` for any other pair.
 fn side_by_side(a: &ForceArrow, b: &ForceArrow) -> Option<(f64, f64)> {
     let (u, v) = (a.reach(), b.reach());
     let (long, other) = (u.norm(), v.norm());
@@ -130,34 +146,34 @@ fn side_by_side(a: &ForceArrow, b: &ForceArrow) -> Option<(f64, f64)> {
     }
     let along = u / long;
     let sine = (along.x * v.y - along.y * v.x) / other;
-    if sine.abs() > PARALLEL {
+    if sine.abs() > PARALLEL_ANGLE {
         return None;
     }
-    let place = |d: Vector| d.dot(&along);
-    let from = place(b.at - a.at);
-    let sense = place(v).signum();
-    let room = ROOM * a.width.max(b.width);
+    let project = |d: Vector| d.dot(&along);
+    let from = project(b.at - a.at);
+    let sense = project(v).signum();
+    let gap = GAP * a.width.max(b.width);
     let needed = parts(a)
         .iter()
         .flat_map(|p| parts(b).map(|q| (*p, q)))
         .filter(|(p, q)| {
             let (low, high) = (from + sense * q.0, from + sense * q.1);
             let (low, high) = (low.min(high), low.max(high));
-            low < p.1 + room && high > p.0 - room
+            low < p.1 + gap && high > p.0 - gap
         })
-        .map(|(p, q)| p.2 + q.2 + room)
+        .map(|(p, q)| p.2 + q.2 + gap)
         .fold(0.0, f64::max);
     let cross = |d: Vector| along.x * d.y - along.y * d.x;
-    // Where they lie beside each other the axes are nearest at an end of the shared stretch.
+    // Two straight axes are nearest at an end of the stretch that they share.
     let ends = [
         from.max(0.0).min(long),
-        (from + place(v)).max(0.0).min(long),
+        (from + project(v)).max(0.0).min(long),
     ];
-    let beside = ends.map(|at| {
-        let share = ((at - from) / place(v)).clamp(0.0, 1.0);
+    let distances = ends.map(|at| {
+        let share = ((at - from) / project(v)).clamp(0.0, 1.0);
         cross(b.at + v * share - a.at).abs()
     });
-    (needed > 0.0).then_some((needed, beside[0].min(beside[1])))
+    (needed > 0.0).then_some((needed, distances[0].min(distances[1])))
 }
 
 /// Shaft and head: where each begins and ends along the arrow, and half its width, metres.
@@ -192,7 +208,7 @@ mod tests {
         let overlaps = |arrows: &[ForceArrow]| {
             let pairs = (0..arrows.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
             pairs
-                .filter(|(i, j)| asked(&arrows[*i], &arrows[*j]))
+                .filter(|(i, j)| too_close(&arrows[*i], &arrows[*j]))
                 .count()
         };
         assert!(overlaps(&before.arrows) > 0, "nothing to set apart");

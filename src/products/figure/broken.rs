@@ -1,6 +1,6 @@
 //! [`broken`]: the outlines of a scene that is refused, with its problems marked and numbered, and no forces.
 
-use super::layout::MARGIN;
+use super::layout::MAX_MARGIN;
 use super::option::Options;
 use crate::drawing::hatch::{hatch, lines};
 use crate::drawing::text::{cut, width, wrap};
@@ -46,7 +46,7 @@ struct Marked {
 pub fn broken(sketch: &Sketch, options: &Options) -> Drawing {
     let theme = &options.theme;
     let wide = options.width.unwrap_or(WIDE);
-    let room = wide - 2.0 * MARGIN;
+    let room = wide - 2.0 * MAX_MARGIN;
     let (marks, entries) = marks(sketch);
     let count = sketch.problems.list.len();
     let verdict = match count {
@@ -59,27 +59,27 @@ pub fn broken(sketch: &Sketch, options: &Options) -> Drawing {
         title => format!("{title}: {verdict}"),
     };
     let mut items = Vec::new();
-    let mut y = MARGIN;
+    let mut y = MAX_MARGIN;
     let size = theme.sizes.title;
     let lines = wrap(&title, Face::SerifBold, size, room);
     for line in cut(lines, 3, Face::SerifBold, size, room) {
         y += size;
-        let at = PagePoint::new(MARGIN, y);
+        let at = PagePoint::new(MAX_MARGIN, y);
         items.push(Text::new(at, line, Face::SerifBold, size, theme.ink).into());
         y += 0.3 * size;
     }
-    y += 0.5 * MARGIN;
+    y += 0.5 * MAX_MARGIN;
     if let Some(view) = view(sketch, &marks) {
         let scale = (room / view.width()).min(HIGH * wide / view.height());
         let rect = PageRect {
-            at: PagePoint::new(MARGIN + (room - scale * view.width()) / 2.0, y),
+            at: PagePoint::new(MAX_MARGIN + (room - scale * view.width()) / 2.0, y),
             width: scale * view.width(),
             height: scale * view.height(),
         };
         let camera = Camera::new(view, rect.at, scale);
         items.push(structure(sketch, &marks, &camera, rect, options).into());
         items.push(numbers(&marks, &camera, options).into());
-        y += rect.height + 0.5 * MARGIN;
+        y += rect.height + 0.5 * MAX_MARGIN;
     }
     let size = theme.sizes.reason;
     let indent = 2.0 * DISC + 10.0;
@@ -88,12 +88,12 @@ pub fn broken(sketch: &Sketch, options: &Options) -> Drawing {
         let lines = wrap(entry, Face::Sans, size, room - indent);
         y += 0.6 * size;
         if let Some(number) = number {
-            let at = PagePoint::new(MARGIN + DISC, y + 0.65 * size);
+            let at = PagePoint::new(MAX_MARGIN + DISC, y + 0.65 * size);
             list = list.with(disc(*number, at, options));
         }
         for line in cut(lines, 6, Face::Sans, size, room - indent) {
             y += size;
-            let at = PagePoint::new(MARGIN + indent, y);
+            let at = PagePoint::new(MAX_MARGIN + indent, y);
             list = list.with(Text::new(at, line, Face::Sans, size, theme.ink));
             y += 0.35 * size;
         }
@@ -102,7 +102,7 @@ pub fn broken(sketch: &Sketch, options: &Options) -> Drawing {
     let listed: Vec<&str> = entries.iter().map(|e| e.1.as_str()).collect();
     Drawing {
         width: wide,
-        height: (y + MARGIN).ceil(),
+        height: (y + MAX_MARGIN).ceil(),
         title,
         description: format!(
             "Outlines as they are written, without forces. {}",

@@ -1,20 +1,21 @@
 //! [`reason`]: a mechanism in words: which blocks turn about what, which slide, and how many hinges there are.
 
-use super::displacement::together;
+use super::displacement::connected_groups;
 use super::joint::{Joint, joints};
 use super::words::{counted, listed};
 use crate::analysis::{Analysis, Motion, Verdict};
 use crate::drawing::text::NO_BREAK;
 use crate::scene::BodyId;
 
-/// So many rigid bodies are listed one by one.
-const MOST_LISTED: usize = 3;
-/// So many blocks of a body are named.
-const MOST_NAMED: usize = 4;
-/// A body whose turning moves it by less than this share of its fastest point's speed merely shifts.
-const TURNS: f64 = 0.02;
+/// Up to this many rigid bodies are described one by one.
+const MAX_DESCRIBED_BODIES: usize = 3;
+/// Up to this many blocks of a body are named.
+const MAX_NAMED_BLOCKS: usize = 4;
+/// A body whose rotation contributes less than this share of the speed of its fastest point is said to slide or fall, not to
+/// turn.
+const ROTATION_TOL: f64 = 0.02;
 
-/// What is written below a panel of a mechanism.
+/// The line below the verdict in a figure of a mechanism.
 pub(crate) fn reason(analysis: &Analysis, frame: usize) -> String {
     let found = &analysis.frames[frame];
     match found.verdict {
@@ -27,7 +28,7 @@ pub(crate) fn reason(analysis: &Analysis, frame: usize) -> String {
 fn collapse(analysis: &Analysis, frame: usize) -> String {
     let joints = joints(analysis, frame);
     let bodies = bodies(analysis, frame, &joints);
-    let teller = Teller {
+    let sentences = Sentences {
         analysis,
         frame,
         joints: &joints,
@@ -40,8 +41,8 @@ fn collapse(analysis: &Analysis, frame: usize) -> String {
         .filter(|c| c.0 > 0)
         .map(|(count, what)| counted(count, what))
         .collect();
-    if bodies.len() <= MOST_LISTED {
-        let mut described: Vec<String> = bodies.iter().map(|body| teller.body(body)).collect();
+    if bodies.len() <= MAX_DESCRIBED_BODIES {
+        let mut described: Vec<String> = bodies.iter().map(|body| sentences.body(body)).collect();
         if bodies.len() > 1 && !counts.is_empty() {
             described.push(listed(&counts));
         }
@@ -58,24 +59,25 @@ fn collapse(analysis: &Analysis, frame: usize) -> String {
     format!("{moving} of {blocks} blocks move as {bodies} rigid bodies{how}")
 }
 
-/// The blocks that move, those that stay together as one body; in the order of their first blocks.
+/// The moving blocks in rigid bodies: blocks without a hinge or slip between them move as one. In the order of their first
+/// blocks.
 fn bodies(analysis: &Analysis, frame: usize, joints: &[Joint]) -> Vec<Vec<Motion>> {
-    let mut parted = vec![false; analysis.frames[frame].contacts.len()];
+    let mut separated = vec![false; analysis.frames[frame].contacts.len()];
     for joint in joints {
-        parted[joint.contact] = true;
+        separated[joint.contact] = true;
     }
-    together(analysis, frame, |contact| !parted[contact])
+    connected_groups(analysis, frame, |contact| !separated[contact])
 }
 
-struct Teller<'a> {
+struct Sentences<'a> {
     analysis: &'a Analysis,
     frame: usize,
     joints: &'a [Joint],
     bodies: &'a [Vec<Motion>],
 }
 
-impl Teller<'_> {
-    /// What one rigid body does: `blocks 4 and 5 slide on block 3`.
+impl Sentences<'_> {
+    /// The motion of one rigid body in words: `blocks 4 and 5 slide on block 3`.
     fn body(&self, body: &[Motion]) -> String {
         let scene = &self.analysis.scene;
         let names: Vec<String> = body
@@ -84,7 +86,7 @@ impl Teller<'_> {
             .collect();
         let subject = match names.len() {
             1 => format!("block{NO_BREAK}{}", names[0]),
-            n if n <= MOST_NAMED => format!("blocks {}", listed(&names)),
+            n if n <= MAX_NAMED_BLOCKS => format!("blocks {}", listed(&names)),
             n => format!("{n} blocks"),
         };
         let (turns, slides, falls) = if body.len() == 1 {
@@ -93,7 +95,7 @@ impl Teller<'_> {
             ("turn", "slide", "fall")
         };
         let fastest = body.iter().map(|m| m.fastest(scene)).fold(0.0, f64::max);
-        let slip = self.beside(body).find(|j| j.0.slip != 0.0);
+        let slip = self.joints_of(body).find(|j| j.0.slip != 0.0);
         let on = |joint: Option<(&Joint, BodyId)>| match joint {
             Some((_, body)) => format!(" on {}", self.named(body)),
             None => String::new(),
@@ -107,7 +109,7 @@ impl Teller<'_> {
         if let Some(robot) = self.pinned(body, fastest) {
             return format!("{subject} {turns} about the grip of robot{NO_BREAK}{robot}");
         }
-        let hinge = self.beside(body).find(|(joint, other)| {
+        let hinge = self.joints_of(body).find(|(joint, other)| {
             let still = !self.moves(*other);
             still && joint.slip == 0.0 && joint.hinge.is_some()
         });
@@ -126,7 +128,7 @@ impl Teller<'_> {
         }
     }
 
-    /// Whether turning is a part of a body's motion that is seen.
+    /// Whether the rotation of a body is visible in its motion.
     fn turning(&self, body: &[Motion], fastest: f64) -> bool {
         let scene = &self.analysis.scene;
         let turned = |m: &Motion| {
@@ -135,11 +137,11 @@ impl Teller<'_> {
             let reach = corners.map(|p| (p - block.centroid).norm());
             m.spin.abs() * reach.fold(0.0, f64::max)
         };
-        body.iter().any(|m| turned(m) > TURNS * fastest)
+        body.iter().any(|m| turned(m) > ROTATION_TOL * fastest)
     }
 
-    /// The joints of a body with others, and those others; bodies that stay first.
-    fn beside(&self, body: &[Motion]) -> impl Iterator<Item = (&Joint, BodyId)> {
+    /// The joints of a body with other bodies, and these bodies; bodies at rest come first.
+    fn joints_of(&self, body: &[Motion]) -> impl Iterator<Item = (&Joint, BodyId)> {
         let contacts = &self.analysis.frames[self.frame].contacts;
         let within =
             |id: BodyId| matches!(id, BodyId::Block(b) if body.iter().any(|m| m.block == b));
@@ -167,13 +169,13 @@ impl Teller<'_> {
         }
     }
 
-    /// The robot about whose grip a body turns.
+    /// The robot about whose grip point a body turns.
     fn pinned(&self, body: &[Motion], fastest: f64) -> Option<&str> {
         let scene = &self.analysis.scene;
         let robots = &self.analysis.frames[self.frame].robots;
         let holding = robots.iter().find(|robot| {
             body.iter()
-                .any(|m| m.block == robot.block && m.at(scene, robot.at).norm() < TURNS * fastest)
+                .any(|m| m.block == robot.block && m.at(scene, robot.at).norm() < ROTATION_TOL * fastest)
         })?;
         Some(&scene.robots[holding.robot.0].id)
     }

@@ -1,4 +1,5 @@
-//! [`FigureContext`]: what all panels of a figure share: the unit edge, the view, colours, and each frame's arrows.
+//! [`FigureContext`]: what all panels of a figure share: the unit edge, the view, the colours and the arrows of each frame.
+//! `content.rs` computes it.
 
 use core::cell::Cell;
 
@@ -10,46 +11,47 @@ use super::view;
 use crate::analysis::Analysis;
 use crate::geometry::{Bounds, Point, Vector};
 
-/// Above so many blocks in a frame, blocks are drawn together by colour, without names.
-pub(crate) const MANY: usize = 1000;
+/// In frames with more blocks than this, shapes of one colour are drawn as one path, without names: thousands of elements
+/// make a file slow to open.
+pub(crate) const MANY_BLOCKS: usize = 1000;
 
-/// Where a unit edge is shorter than this, pixels, 2.2 mm, the arrows of a figure are dust.
-const DUST: f64 = 8.4;
-/// Fewer blocks than this are no crowd: their arrows stay, and what is too short to be seen is counted.
-const CROWD: usize = 40;
+/// If a unit edge is shorter than this on the page, pixels (2.2 mm), arrows are too small to read.
+const MIN_UNIT_EDGE: f64 = 8.4;
+/// Figures of fewer blocks keep their arrows in any case, and count those too short to be seen.
+const MIN_CROWD: usize = 40;
 
-/// Where in a crowd less than this share of the arrows can be seen, colours tell the forces instead.
-const FEW_SEEN: f64 = 0.2;
+/// If less than this share of the arrows of a crowd is long enough to be seen, colours show the forces instead.
+const MIN_VISIBLE_SHARE: f64 = 0.2;
 
 /// What all panels of a figure share.
 pub(crate) struct FigureContext<'a> {
     pub analysis: &'a Analysis,
-    /// Whether blocks tell amplitudes by their colour; otherwise they are plain.
+    /// Whether the colour of a block shows its amplitude; otherwise blocks are plain.
     pub colours_show_amplitudes: bool,
-    /// Whether lines are drawn across the blocks, below their names.
+    /// Whether lines run across the blocks, below their names.
     pub lines_cross_names: bool,
     pub options: &'a Options,
     /// The unit edge, metres.
     pub unit: f64,
-    /// A box around all that each frame shows.
+    /// A box around everything that each frame shows, metres.
     pub shown: Vec<Bounds>,
     /// A box around all of them.
     pub view: Bounds,
     pub fills: Fills,
     /// One entry per frame.
     pub marks: Vec<Marks>,
-    /// For each frame how each block is displaced, by its number; empty where all are drawn in their places.
+    /// For each frame the displacement of each block, by its number; empty if all blocks are drawn in their places.
     pub displaced: Vec<Vec<Option<Displacement>>>,
-    /// What is written below each frame's verdict.
+    /// The line below each frame's verdict.
     pub statements: Vec<String>,
-    /// How many labels, so far, had no room, or none but in another block.
+    /// How many labels had no position so far, or only one inside another block.
     pub cramped: Cell<usize>,
 }
 
 impl<'a> FigureContext<'a> {
-    /// With more room around what every frame shows, metres across and up.
+    /// The same context with more space around what each frame shows, metres to the left and right, and up and down.
     pub fn with_room(mut self, across: f64, up: f64) -> FigureContext<'a> {
-        // Where ground is shown, it is the lower edge.
+        // The lower edge of visible ground is the lower edge of the picture.
         let down = match view::ground_shown(&self.analysis.scene, self.unit) {
             Some(ground) if ground.min.y <= self.view.min.y + self.unit => 0.0,
             _ => up,
@@ -64,9 +66,9 @@ impl<'a> FigureContext<'a> {
         self
     }
 
-    /// Whether arrows would be dust where a metre is so many pixels long, and colours tell the forces instead.
-    pub fn dusty(&self, scale: f64) -> bool {
-        let described = self
+    /// Whether arrows are too small to read at this scale, pixels per metre, so that blocks show forces by colour instead.
+    pub fn arrows_too_small(&self, scale: f64) -> bool {
+        let has_plain_block = self
             .analysis
             .scene
             .blocks
@@ -74,29 +76,28 @@ impl<'a> FigureContext<'a> {
             .any(|b| b.body.fill.is_none());
         let frames = self.analysis.scene.frames.iter();
         let most = frames.map(|f| f.placed.len()).max().unwrap_or(0);
-        most >= CROWD
-            && (self.unit * scale < DUST || self.faint(scale))
-            && described
+        most >= MIN_CROWD
+            && (self.unit * scale < MIN_UNIT_EDGE || self.few_arrows_visible(scale))
+            && has_plain_block
             && !self.plain()
             && !self.options.printed()
     }
 
-    /// Whether nearly all arrows are too short to be seen, so that those that are left would tell of a few joints and
-    /// hide what the others carry.
-    fn faint(&self, scale: f64) -> bool {
+    /// Whether nearly all arrows are too short to be seen. The few that are left would show some joints only.
+    fn few_arrows_visible(&self, scale: f64) -> bool {
         let arrows = || self.marks.iter().flat_map(|m| &m.arrows);
         let carried = |a: &&ForceArrow| !a.kind.is_failure() && a.kind != ArrowKind::Load;
         let seen = |a: &&ForceArrow| a.reach().norm() * scale >= LEAST_SEEN;
         let count = arrows().filter(carried).count();
-        (arrows().filter(carried).filter(seen).count() as f64) < FEW_SEEN * count as f64
+        (arrows().filter(carried).filter(seen).count() as f64) < MIN_VISIBLE_SHARE * count as f64
     }
 
-    /// Whether blocks have one plain colour.
+    /// Whether all blocks have one plain colour.
     pub fn plain(&self) -> bool {
         !self.colours_show_amplitudes || self.fills.scale == FillScale::Plain
     }
 
-    /// What the panels of a row show: as wide as all frames need, so that structures stand one below the other, and as
+    /// The box that the panels of a row show: as wide as all frames need, so that structures line up below each other, and as
     /// high as the frames of the row need.
     pub fn row(&self, frames: &[usize]) -> Bounds {
         let rows = frames.iter().filter_map(|f| self.shown.get(*f)).copied();

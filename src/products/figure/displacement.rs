@@ -1,4 +1,10 @@
-//! [`Displacement`]: how far a block has gone along a mechanism, as a finite rigid motion, so that it keeps its shape.
+//! [`Displacement`]: a block displaced along a collapse mechanism, as a finite rigid motion, so that it keeps its shape.
+//!
+//! A mechanism gives velocities only, so the figure has to choose an amplitude. For each group of blocks in contact:
+//!
+//! 1. The fastest point goes at least [`MIN_DISPLACEMENT`] and [`MIN_DISPLACEMENT_SHARE`] say, so that hinges are seen to open.
+//! 2. No block turns by more than [`MAX_ROTATION`]: the velocities hold for small rotations only.
+//! 3. While blocks overlap by more than [`MAX_OVERLAP`], the amplitude is reduced, a few times.
 
 use std::collections::BTreeMap;
 
@@ -6,115 +12,118 @@ use crate::analysis::{Analysis, Motion, Verdict};
 use crate::geometry::{Bounds, ConvexPieces, Point, Polygon, Vector, overlap, quarter_turn};
 use crate::scene::{BlockId, BodyId};
 
-/// The fastest point goes at least so many unit edges …
-const LEAST: f64 = 0.35;
-/// … and at least this share of the diagonal of all that moves: in an arch of many voussoirs a unit edge is too little
-/// for a hinge to be seen to open …
-const SHARE: f64 = 0.045;
-/// … but no block turns farther than so many radians.
-const MOST: f64 = 0.35;
-/// Blocks that touch may lie in each other by this share of the smaller one; farther the motion is not followed …
-const SHARED: f64 = 0.01;
-/// … but so many times shortened by this factor it is drawn all the same: with a kernel, blocks turn about points within
-/// their interfaces and dip into each other however little they turn.
-const SHORTENED: (u32, f64) = (5, 0.75);
-/// Blocks of larger heaps are not asked whether they lie in each other.
-const MOST_ASKED: usize = 500;
-/// A block is still where its fastest point is slower than this, as a share of the fastest of all.
-const STILL: f64 = 1e-3;
+/// Least displacement of the fastest point, unit edges.
+const MIN_DISPLACEMENT: f64 = 0.35;
+/// Least displacement of the fastest point, as a share of the diagonal of all that moves: in an arch of many voussoirs a unit
+/// edge is too little for a hinge to be seen to open.
+const MIN_DISPLACEMENT_SHARE: f64 = 0.045;
+/// Largest rotation of a block, rad (20°).
+const MAX_ROTATION: f64 = 0.35;
+/// Largest overlap of two blocks in contact, as a share of the area of the smaller one. Finite rotations always make a
+/// little overlap, of the order of the square of the angle; one hundredth is not visible.
+const MAX_OVERLAP: f64 = 0.01;
+/// How often the amplitude is reduced while blocks overlap, and by which factor. The number is limited because with a kernel
+/// blocks turn about points inside their interfaces and overlap at any amplitude.
+const MAX_REDUCTIONS: u32 = 5;
+const REDUCTION: f64 = 0.75;
+/// Groups of more blocks are not tested for overlap, which would take longer than the drawing.
+const MAX_TESTED_BLOCKS: usize = 500;
+/// A block is at rest if its fastest point is slower than this share of the fastest point of all. Slower motions are noise of
+/// the solution, or not visible.
+const REST_TOL: f64 = 1e-3;
 
-/// A rotation about a point, then a shift.
+/// A rotation about a point, followed by a translation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Displacement {
-    about: Point,
+    centre: Point,
     sin: f64,
     cos: f64,
-    shift: Vector,
+    translation: Vector,
 }
 
 impl Displacement {
-    /// A block's motion followed for a while: a rotation about its instantaneous centre by `amplitude`·spin, a shift by
-    /// `amplitude`·velocity where it does not turn.
+    /// A block's motion with this amplitude: a rotation about its instantaneous centre by `amplitude`·spin, or, without spin,
+    /// a translation by `amplitude`·velocity.
     ///
-    /// Units: `amplitude` is the way in metres of a point of speed 1.
+    /// Units: `amplitude` is the displacement in metres of a point of speed 1.
     pub fn new(motion: &Motion, centroid: Point, amplitude: f64) -> Displacement {
         let angle = amplitude * motion.spin;
         let (sin, cos) = (libm::sin(angle), libm::cos(angle));
-        // The rotation about the instantaneous centre, written as one about the centroid and the centroid's way along
-        // its arc: without a division by the spin it holds for a mere shift as well.
+        // The rotation about the instantaneous centre is written as one about the centroid, plus the chord of the
+        // centroid's arc: amplitude·(sin θ/θ·v + (1 − cos θ)/θ·v⊥). Below 1e-6 rad the first terms of the series are exact
+        // to rounding, and a translation needs no case of its own.
         let (along, aside) = if angle.abs() < 1e-6 {
             (1.0, 0.5 * angle)
         } else {
             (sin / angle, (1.0 - cos) / angle)
         };
-        let shift = (motion.velocity * along + quarter_turn(motion.velocity) * aside) * amplitude;
+        let translation = (motion.velocity * along + quarter_turn(motion.velocity) * aside) * amplitude;
         Displacement {
-            about: centroid,
+            centre: centroid,
             sin,
             cos,
-            shift,
+            translation,
         }
     }
 
-    /// Where a point of the block has gone.
+    /// The displaced position of a point of the block.
     pub fn moved(&self, point: Point) -> Point {
-        self.about + self.turned(point - self.about) + self.shift
+        self.centre + self.turned(point - self.centre) + self.translation
     }
 
-    /// Which point of the block has gone here.
+    /// The point of the block whose displaced position this is.
     pub fn back(&self, point: Point) -> Point {
-        let d = point - self.about - self.shift;
-        self.about + d * self.cos - quarter_turn(d) * self.sin
+        let d = point - self.centre - self.translation;
+        self.centre + d * self.cos - quarter_turn(d) * self.sin
     }
 
-    /// A direction that turns with the block.
+    /// A direction, turned with the block.
     pub fn turned(&self, direction: Vector) -> Vector {
         direction * self.cos + quarter_turn(direction) * self.sin
     }
 }
 
-/// How each block of a frame that falls is displaced, by its number; `None` for a block that stays. Empty where the
-/// frame does not fall.
+/// The displacement of each block of a frame that falls, by its number; `None` for a block at rest. Empty for a frame that
+/// does not fall.
 ///
-/// Blocks that touch go equally far for their speed; a heap that falls apart from others has its own measure. `share` of
-/// the way is drawn, 0 … 1.
+/// Blocks in contact have one amplitude; separate groups have their own. `share` is the share of the amplitude that is
+/// drawn, 0 … 1.
 pub(crate) fn displacements(
     analysis: &Analysis,
     frame: usize,
     unit: f64,
     share: f64,
 ) -> Vec<Option<Displacement>> {
-    let way = |heap: &[Motion]| share * clear(analysis, frame, heap, unit);
+    let amplitude = |group: &[Motion]| share * drawn_amplitude(analysis, frame, group, unit);
     match analysis.frames[frame].verdict {
-        Verdict::Unstable => followed(analysis, frame, way),
+        Verdict::Unstable => displaced(analysis, frame, amplitude),
         _ => Vec::new(),
     }
 }
 
-/// How far the motion of a heap is followed so that no block lies in another.
-fn clear(analysis: &Analysis, frame: usize, heap: &[Motion], unit: f64) -> f64 {
-    let mut way = amplitude(analysis, heap, unit);
-    if heap.len() > MOST_ASKED {
-        return way;
+/// The amplitude of a group, reduced while blocks overlap.
+fn drawn_amplitude(analysis: &Analysis, frame: usize, group: &[Motion], unit: f64) -> f64 {
+    let mut amplitude = amplitude(analysis, group, unit);
+    if group.len() > MAX_TESTED_BLOCKS {
+        return amplitude;
     }
-    let (times, factor) = SHORTENED;
-    for _ in 0..times {
-        if !dips(analysis, frame, heap, way) {
+    for _ in 0..MAX_REDUCTIONS {
+        if !overlaps(analysis, frame, group, amplitude) {
             break;
         }
-        way *= factor;
+        amplitude *= REDUCTION;
     }
-    way
+    amplitude
 }
 
-/// Whether two bodies that touch lie in each other where a heap has gone so far.
-fn dips(analysis: &Analysis, frame: usize, heap: &[Motion], way: f64) -> bool {
+/// Whether two bodies in contact overlap when a group is displaced with this amplitude.
+fn overlaps(analysis: &Analysis, frame: usize, group: &[Motion], amplitude: f64) -> bool {
     let scene = &analysis.scene;
     let moves = |body: BodyId| {
         let BodyId::Block(id) = body else { return None };
-        heap.iter().find(|m| m.block == id)
+        group.iter().find(|m| m.block == id)
     };
-    let gone = |body: BodyId| -> Option<Polygon> {
+    let displaced = |body: BodyId| -> Option<Polygon> {
         let polygon = &scene.body(body).polygon;
         let BodyId::Block(id) = body else {
             return Some(polygon.clone());
@@ -122,7 +131,7 @@ fn dips(analysis: &Analysis, frame: usize, heap: &[Motion], way: f64) -> bool {
         let Some(motion) = moves(body) else {
             return Some(polygon.clone());
         };
-        let moved = Displacement::new(motion, scene.blocks[id.0].centroid, way);
+        let moved = Displacement::new(motion, scene.blocks[id.0].centroid, amplitude);
         let ring = |ring: &Vec<Point>| ring.iter().map(|p| moved.moved(*p)).collect();
         let mut rings = polygon.rings().iter().map(ring);
         Polygon::new(rings.next()?, rings.collect()).ok()
@@ -132,21 +141,21 @@ fn dips(analysis: &Analysis, frame: usize, heap: &[Motion], way: f64) -> bool {
         if moves(a).is_none() && moves(b).is_none() {
             return false;
         }
-        let (Some(a), Some(b)) = (gone(a), gone(b)) else {
+        let (Some(a), Some(b)) = (displaced(a), displaced(b)) else {
             return false;
         };
         let smaller = a.area().min(b.area());
-        let shared = overlap(&ConvexPieces::new(&a), &ConvexPieces::new(&b), 0.0);
-        shared.is_some_and(|o| o.area > SHARED * smaller)
+        let common = overlap(&ConvexPieces::new(&a), &ConvexPieces::new(&b), 0.0);
+        common.is_some_and(|o| o.area > MAX_OVERLAP * smaller)
     })
 }
 
-/// How far the motion of a heap is followed: the way in metres of a point of speed 1.
-fn amplitude(analysis: &Analysis, heap: &[Motion], unit: f64) -> f64 {
+/// The amplitude of a group, without regard to overlaps: the displacement in metres of a point of speed 1.
+fn amplitude(analysis: &Analysis, group: &[Motion], unit: f64) -> f64 {
     let scene = &analysis.scene;
-    let fastest = heap.iter().map(|m| m.fastest(scene)).fold(0.0, f64::max);
-    let spin = heap.iter().map(|m| m.spin.abs()).fold(0.0, f64::max);
-    let size = heap
+    let fastest = group.iter().map(|m| m.fastest(scene)).fold(0.0, f64::max);
+    let spin = group.iter().map(|m| m.spin.abs()).fold(0.0, f64::max);
+    let size = group
         .iter()
         .map(|m| scene.blocks[m.block.0].body.polygon.bounds())
         .reduce(Bounds::union)
@@ -154,24 +163,26 @@ fn amplitude(analysis: &Analysis, heap: &[Motion], unit: f64) -> f64 {
     if fastest <= 0.0 {
         return 0.0;
     }
-    let way = f64::max(LEAST * unit.min(size), SHARE * size) / fastest;
+    let displacement = f64::max(MIN_DISPLACEMENT * unit.min(size), MIN_DISPLACEMENT_SHARE * size);
+    let amplitude = displacement / fastest;
     if spin > 0.0 {
-        way.min(MOST / spin)
+        amplitude.min(MAX_ROTATION / spin)
     } else {
-        way
+        amplitude
     }
 }
 
-fn followed(
+/// The displacements of all groups of a frame, each with the amplitude that `amplitude` gives it.
+fn displaced(
     analysis: &Analysis,
     frame: usize,
     amplitude: impl Fn(&[Motion]) -> f64,
 ) -> Vec<Option<Displacement>> {
     let scene = &analysis.scene;
     let mut displacements = vec![None; scene.blocks.len()];
-    for heap in together(analysis, frame, |_| true) {
-        let amplitude = amplitude(&heap);
-        for motion in heap {
+    for group in connected_groups(analysis, frame, |_| true) {
+        let amplitude = amplitude(&group);
+        for motion in group {
             let centroid = scene.blocks[motion.block.0].centroid;
             displacements[motion.block.0] = Some(Displacement::new(&motion, centroid, amplitude));
         }
@@ -179,52 +190,52 @@ fn followed(
     displacements
 }
 
-/// The motions of the blocks that move, those together whose blocks are joined by contacts that `joins` tells by their
-/// numbers; in the order of their first blocks.
-pub(crate) fn together(
+/// The motions of the moving blocks, in groups connected by the contacts for whose numbers `joins` is true: the connected
+/// components, by depth-first search, in the order of their first blocks.
+pub(crate) fn connected_groups(
     analysis: &Analysis,
     frame: usize,
     joins: impl Fn(usize) -> bool,
 ) -> Vec<Vec<Motion>> {
     let motions: BTreeMap<BlockId, Motion> =
         moving(analysis, frame).map(|m| (m.block, *m)).collect();
-    let mut next: BTreeMap<BlockId, Vec<BlockId>> = BTreeMap::new();
+    let mut neighbours: BTreeMap<BlockId, Vec<BlockId>> = BTreeMap::new();
     for (number, contact) in analysis.frames[frame].contacts.iter().enumerate() {
         if let ([BodyId::Block(a), BodyId::Block(b)], true) =
             (contact.interface.bodies, joins(number))
         {
-            next.entry(a).or_default().push(b);
-            next.entry(b).or_default().push(a);
+            neighbours.entry(a).or_default().push(b);
+            neighbours.entry(b).or_default().push(a);
         }
     }
     let mut seen = vec![false; analysis.scene.blocks.len()];
-    let mut found = Vec::new();
+    let mut groups = Vec::new();
     for first in motions.keys() {
-        let (mut part, mut left) = (Vec::new(), vec![*first]);
-        while let Some(block) = left.pop() {
+        let (mut group, mut stack) = (Vec::new(), vec![*first]);
+        while let Some(block) = stack.pop() {
             let Some(motion) = motions.get(&block).filter(|_| !seen[block.0]) else {
                 continue;
             };
             seen[block.0] = true;
-            part.push(*motion);
-            left.extend(next.get(&block).into_iter().flatten());
+            group.push(*motion);
+            stack.extend(neighbours.get(&block).into_iter().flatten());
         }
-        if !part.is_empty() {
-            part.sort_by_key(|m| m.block);
-            found.push(part);
+        if !group.is_empty() {
+            group.sort_by_key(|m| m.block);
+            groups.push(group);
         }
     }
-    found
+    groups
 }
 
-/// The motions of the blocks of a frame that are seen to move.
+/// The motions of the blocks of a frame that are not at rest.
 fn moving(analysis: &Analysis, frame: usize) -> impl Iterator<Item = &Motion> {
     let (scene, motions) = (&analysis.scene, &analysis.frames[frame].mechanism);
     let speed = |m: &Motion| m.fastest(scene);
     let fastest = motions.iter().map(speed).fold(0.0, f64::max);
     motions
         .iter()
-        .filter(move |m| m.fastest(scene) > STILL * fastest)
+        .filter(move |m| m.fastest(scene) > REST_TOL * fastest)
 }
 
 #[cfg(test)]
@@ -272,7 +283,7 @@ mod tests {
 
     /// How much displaced blocks lie in each other, m².
     fn shared(analysis: &Analysis, amplitude: f64) -> f64 {
-        let displaced = followed(analysis, 0, |_| amplitude);
+        let displaced = displaced(analysis, 0, |_| amplitude);
         let blocks: Vec<Polygon> = analysis
             .scene
             .blocks
@@ -295,9 +306,9 @@ mod tests {
         // A kernel lets blocks turn about points within an interface, so that what lies beyond dips in at once.
         for scene in falling().into_iter().filter(|s| s.kernel == 0.0) {
             let analysis = Analysis::new(&scene);
-            let heaps = together(&analysis, 0, |_| true);
-            assert_eq!(heaps.len(), 1);
-            let amplitude = amplitude(&analysis, &heaps[0], unit(&scene, None));
+            let groups = connected_groups(&analysis, 0, |_| true);
+            assert_eq!(groups.len(), 1);
+            let amplitude = amplitude(&analysis, &groups[0], unit(&scene, None));
             // Where the way is short the square is all there is.
             let (short, half) = (
                 shared(&analysis, amplitude / 4.0),

@@ -1,91 +1,96 @@
-//! [`Stretch`]: the pieces of the line of thrust, block by block: where forces run, in numbers.
+//! [`ThrustSegment`]: the straight segments of the line of thrust, block by block.
 //!
-//! A piece lies on a true line of action and on nothing else. Where two bodies press a block, the thrust follows the
-//! line of the first force until it meets the line of a load or of the weight, goes on along the line of their
-//! resultant, and so on until it arrives at the second body along the line of that body's force: the funicular polygon
-//! of the block. That is drawn only where each of these lines meets the next one inside the block. Elsewhere (three
-//! bodies press, or the forces are parallel and apart, or they do not balance) there is no single line: each joint
-//! shows a short piece of the line of its own resultant, and no more.
+//! A segment lies on the true line of action of a force. In a block between two bodies the line of thrust is a funicular
+//! polygon. Its construction, in [`BlockForces::funicular`]:
+//!
+//! 1. It starts at the first joint, along the line of action of that joint's force.
+//! 2. Where it meets the line of action of a load or of the weight, it goes on along the line of their resultant.
+//! 3. Step 2 is repeated for every load. At last it must arrive at the second joint, along the line of that joint's force.
+//!
+//! It is drawn only if every vertex and every segment lies inside the block. The order of the loads is not known, so all
+//! orders are tried, and at last the sum of all loads. If none works (three bodies press, the forces are parallel and apart,
+//! or they do not balance), there is no single line: each joint shows a short segment on the line of its own resultant.
 
 use super::bearing::{self, bearings};
 use crate::analysis::FrameAnalysis;
 use crate::geometry::{Point, Polygon, Vector, cross, quarter_turn};
 use crate::scene::{Block, BlockId, BodyId, Frame, RobotId, Scene};
 
-/// How far a line may pass by a point that it should meet, as a share of the block's size.
-const NEAR: f64 = 1e-6;
-/// Imbalance up to which the forces on a block are one system in equilibrium, as a share of their sum.
-const BALANCED: f64 = 1e-6;
-/// Least length of the piece at a joint where no line runs through, unit edges.
-const PIECE: f64 = 0.5;
-/// The loads of a block with more than so many are put together with its weight.
-const MOST_LOADS: usize = 3;
+/// A line passes through a point if it misses it by less than this share of the block's size. Forces are known to about
+/// 1e-9, so rounding stays far below; a larger miss would be a different line of action.
+const LENGTH_TOL: f64 = 1e-6;
+/// Forces on a block are in equilibrium up to this share of their sum.
+const BALANCE_TOL: f64 = 1e-6;
+/// Least length of the segment at a joint where no line runs through the block, unit edges.
+const MIN_STUB: f64 = 0.5;
+/// With more loads than this on a block their orders are not tried (4! with the weight); their sum is used.
+const MAX_ORDERED_LOADS: usize = 3;
 
-/// Who gives a force.
+/// The origin of a force.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Giver {
+pub(crate) enum ForceOrigin {
     /// Another body, through the contact of this number.
     Contact(usize),
     /// A robot.
     Robot(RobotId),
     /// The load of this number in the scene.
     Load(usize),
-    /// The force of a joint and the loads that the line has met on its way from there.
+    /// The resultant of a joint's force and the loads that the line has met since.
     Resultant,
 }
 
-/// A straight piece of the line of thrust.
+/// A straight segment of the line of thrust.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Stretch {
+pub(crate) struct ThrustSegment {
     /// The block it runs through.
     pub on: BlockId,
-    /// Who gives the force.
-    pub giver: Giver,
+    /// The origin of the force.
+    pub origin: ForceOrigin,
     /// One end.
     pub from: Point,
     /// The other end.
     pub to: Point,
     /// The force that acts along it, N.
     pub force: Vector,
-    /// Whether the line runs on through the block; otherwise it stops here.
+    /// Whether the line runs through the block; otherwise it ends here.
     pub through: bool,
 }
 
-/// The pieces of the line of thrust, block by block in placing order; `unit` metres are one unit edge.
-pub(crate) fn stretches(
+/// The segments of the line of thrust, block by block in placing order. `unit` is the unit edge in metres.
+pub(crate) fn segments(
     scene: &Scene,
     frame: &Frame,
     found: &FrameAnalysis,
     unit: f64,
-) -> Vec<Stretch> {
+) -> Vec<ThrustSegment> {
     let (pressing, loads) = (pressing(scene, found), loads(scene));
-    let mut stretches = Vec::new();
+    let mut segments = Vec::new();
     for id in &frame.placed {
-        let case = Case {
+        let forces = BlockForces {
             id: *id,
             block: &scene.blocks[id.0],
             pressing: &pressing[id.0],
             loads: &loads[id.0],
             unit,
         };
-        match case.path() {
-            Some(path) => stretches.extend(path),
-            None => stretches.extend(case.pieces()),
+        match forces.path() {
+            Some(path) => segments.extend(path),
+            None => segments.extend(forces.stubs()),
         }
     }
-    stretches
+    segments
 }
 
 /// A force with its line of action.
 #[derive(Clone, Copy, Debug)]
 struct Line {
-    giver: Giver,
+    origin: ForceOrigin,
     /// A point of the line: where the force enters the block.
     at: Point,
     force: Vector,
 }
 
-/// What bodies and robots give to each block, by its number.
+/// The forces of bodies and robots on each block, by its number.
 fn pressing(scene: &Scene, found: &FrameAnalysis) -> Vec<Vec<Line>> {
     let mut lines: Vec<Vec<Line>> = vec![Vec::new(); scene.blocks.len()];
     let bearings = bearings(scene, found);
@@ -103,7 +108,7 @@ fn pressing(scene: &Scene, found: &FrameAnalysis) -> Vec<Vec<Line>> {
         for (body, force) in [(first, force), (second, -force)] {
             if let BodyId::Block(block) = body {
                 lines[block.0].push(Line {
-                    giver: Giver::Contact(number),
+                    origin: ForceOrigin::Contact(number),
                     at: contact.resultant.at,
                     force,
                 });
@@ -114,8 +119,8 @@ fn pressing(scene: &Scene, found: &FrameAnalysis) -> Vec<Vec<Line>> {
         let noise = bearing::noise(f64::INFINITY, scene.blocks[robot.block.0].weight);
         if robot.force.norm() > noise {
             lines[robot.block.0].push(Line {
-                giver: Giver::Robot(robot.robot),
-                at: aside(robot.at, robot.force, robot.torque),
+                origin: ForceOrigin::Robot(robot.robot),
+                at: shifted_by_torque(robot.at, robot.force, robot.torque),
                 force: robot.force,
             });
         }
@@ -123,7 +128,7 @@ fn pressing(scene: &Scene, found: &FrameAnalysis) -> Vec<Vec<Line>> {
     lines
 }
 
-/// The weight and the loads of each block, by its number. A torque without a force moves the weight's line aside.
+/// The weight and the loads of each block, by its number. A torque without a force shifts the line of the weight.
 fn loads(scene: &Scene) -> Vec<Vec<Line>> {
     let mut torques = vec![0.0; scene.blocks.len()];
     for load in scene.loads.iter().filter(|l| l.force.norm() == 0.0) {
@@ -132,8 +137,8 @@ fn loads(scene: &Scene) -> Vec<Vec<Line>> {
     let weight = |(block, torque): (&Block, &f64)| {
         let force = scene.down() * block.weight;
         let line = Line {
-            giver: Giver::Resultant,
-            at: aside(block.centroid, force, *torque),
+            origin: ForceOrigin::Resultant,
+            at: shifted_by_torque(block.centroid, force, *torque),
             force,
         };
         if block.weight > 0.0 {
@@ -146,8 +151,8 @@ fn loads(scene: &Scene) -> Vec<Vec<Line>> {
     for (number, load) in scene.loads.iter().enumerate() {
         if load.force.norm() > 0.0 {
             lines[load.block.0].push(Line {
-                giver: Giver::Load(number),
-                at: aside(load.at, load.force, load.torque),
+                origin: ForceOrigin::Load(number),
+                at: shifted_by_torque(load.at, load.force, load.torque),
                 force: load.force,
             });
         }
@@ -155,8 +160,8 @@ fn loads(scene: &Scene) -> Vec<Vec<Line>> {
     lines
 }
 
-/// A point of the line along which a force at a point acts together with a torque: moved aside by torque per force.
-fn aside(at: Point, force: Vector, torque: f64) -> Point {
+/// A point on the line of action of a force at `at` together with a torque: shifted by torque/force across the force.
+fn shifted_by_torque(at: Point, force: Vector, torque: f64) -> Point {
     let squared = force.norm_squared();
     if torque == 0.0 || squared <= 0.0 {
         return at;
@@ -165,7 +170,7 @@ fn aside(at: Point, force: Vector, torque: f64) -> Point {
 }
 
 /// One block and the forces on it.
-struct Case<'a> {
+struct BlockForces<'a> {
     id: BlockId,
     block: &'a Block,
     pressing: &'a [Line],
@@ -173,7 +178,7 @@ struct Case<'a> {
     unit: f64,
 }
 
-impl Case<'_> {
+impl BlockForces<'_> {
     fn polygon(&self) -> &Polygon {
         &self.block.body.polygon
     }
@@ -182,8 +187,8 @@ impl Case<'_> {
         self.polygon().bounds().diagonal()
     }
 
-    /// The funicular polygon of the block; `None` where there is none inside it.
-    fn path(&self) -> Option<Vec<Stretch>> {
+    /// The funicular polygon of the block; `None` if none lies inside it.
+    fn path(&self) -> Option<Vec<ThrustSegment>> {
         let (first, last) = match self.pressing {
             [one] => (one, None),
             [one, other] => (one, Some(other)),
@@ -192,19 +197,19 @@ impl Case<'_> {
         if !self.balances() {
             return None;
         }
-        let orders = if self.loads.len() <= MOST_LOADS + 1 {
-            orders(self.loads)
+        let orders = if self.loads.len() <= MAX_ORDERED_LOADS + 1 {
+            permutations(self.loads)
         } else {
             Vec::new()
         };
-        let together = self.together().map(|sum| vec![sum]);
+        let together = self.total_load().map(|sum| vec![sum]);
         orders
             .into_iter()
             .chain(together)
             .find_map(|loads| self.funicular(first, &loads, last))
     }
 
-    /// Whether the forces known of the block balance; where it falls they do not.
+    /// Whether the forces on the block are in equilibrium; in a structure that falls they need not be.
     fn balances(&self) -> bool {
         let (mut sum, mut moment, mut all) = (Vector::zeros(), 0.0, 0.0);
         for line in self.pressing.iter().chain(self.loads) {
@@ -212,133 +217,130 @@ impl Case<'_> {
             moment += cross(line.at - self.block.centroid, line.force);
             all += line.force.norm();
         }
-        sum.norm() <= BALANCED * all && moment.abs() <= BALANCED * all * self.size()
+        sum.norm() <= BALANCE_TOL * all && moment.abs() <= BALANCE_TOL * all * self.size()
     }
 
-    /// The weight and all loads as one force.
-    fn together(&self) -> Option<Line> {
+    /// The resultant of the weight and all loads.
+    fn total_load(&self) -> Option<Line> {
         let centroid = self.block.centroid;
         let force: Vector = self.loads.iter().map(|l| l.force).sum();
         let moments = self.loads.iter().map(|l| cross(l.at - centroid, l.force));
         let line = Line {
-            giver: Giver::Resultant,
-            at: aside(centroid, force, moments.sum()),
+            origin: ForceOrigin::Resultant,
+            at: shifted_by_torque(centroid, force, moments.sum()),
             force,
         };
         (self.loads.len() > 1 && force.norm() > 0.0).then_some(line)
     }
 
-    /// The line from one joint over the lines of these loads, in this order, to the other joint or to where it ends.
-    fn funicular(&self, first: &Line, loads: &[Line], last: Option<&Line>) -> Option<Vec<Stretch>> {
-        let near = NEAR * self.size();
-        let most: f64 = self.pressing.iter().map(|l| l.force.norm()).sum();
-        let (mut at, mut force, mut giver) = (first.at, first.force, first.giver);
+    /// The funicular polygon from one joint over the lines of these loads, in this order, to the other joint; without
+    /// another joint to the last load. `None` if it does not close or leaves the block.
+    fn funicular(
+        &self,
+        first: &Line,
+        loads: &[Line],
+        last: Option<&Line>,
+    ) -> Option<Vec<ThrustSegment>> {
+        let tolerance = LENGTH_TOL * self.size();
+        let sum: f64 = self.pressing.iter().map(|l| l.force.norm()).sum();
+        let (mut at, mut force, mut origin) = (first.at, first.force, first.origin);
         let mut path = Vec::new();
         for (number, load) in loads.iter().enumerate() {
-            let corner = met(at, force, load, near)?;
-            let ends = last.is_none() && number + 1 == loads.len();
-            if ends && matches!(load.giver, Giver::Load(_)) {
-                // What is left is this load alone: the line ends where it acts.
-                path.extend(self.piece(load.giver, (load.at, at), load.force));
+            let vertex = intersection(at, force, load, tolerance)?;
+            let ends_here = last.is_none() && number + 1 == loads.len();
+            if ends_here && matches!(load.origin, ForceOrigin::Load(_)) {
+                // Only this load is left: the line ends where it acts.
+                path.extend(self.segment(load.origin, (load.at, at), load.force));
                 continue;
             }
-            path.extend(self.piece(giver, (at, corner), force));
-            if let Giver::Load(_) = load.giver {
-                path.extend(self.piece(load.giver, (load.at, corner), load.force));
+            path.extend(self.segment(origin, (at, vertex), force));
+            if let ForceOrigin::Load(_) = load.origin {
+                path.extend(self.segment(load.origin, (load.at, vertex), load.force));
             }
-            at = corner;
+            at = vertex;
             force += load.force;
-            // Once the other joint's force alone is left, the line is that force's.
-            giver = match last {
-                Some(last) if number + 1 == loads.len() => last.giver,
-                _ => Giver::Resultant,
+            // After the last load only the force of the other joint is left.
+            origin = match last {
+                Some(last) if number + 1 == loads.len() => last.origin,
+                _ => ForceOrigin::Resultant,
             };
-            if !ends && force.norm() <= BALANCED * most {
+            // A resultant of zero has no line of action.
+            if !ends_here && force.norm() <= BALANCE_TOL * sum {
                 return None;
             }
         }
         if let Some(last) = last {
-            let off = cross(last.at - at, force).abs() / force.norm().max(f64::MIN_POSITIVE);
-            if off > 10.0 * near {
+            let miss = cross(last.at - at, force).abs() / force.norm().max(f64::MIN_POSITIVE);
+            // Each intersection adds its own rounding.
+            if miss > 10.0 * tolerance {
                 return None;
             }
-            let force = if giver == last.giver {
+            let force = if origin == last.origin {
                 last.force
             } else {
                 force
             };
-            path.extend(self.piece(giver, (at, last.at), force));
+            path.extend(self.segment(origin, (at, last.at), force));
         }
         let inside = path.iter().all(|s| self.within(s.from, s.to));
-        let main = path.iter().filter(|s| !matches!(s.giver, Giver::Load(_)));
-        let ends = main
-            .clone()
-            .next()
-            .map(|s| s.from)
-            .zip(main.clone().next_back().map(|s| s.to));
-        // A line that turns back lies on itself and cannot be read.
-        let onward = ends.is_none_or(|(a, b)| {
-            let chord = b - a;
-            let mut main = main;
-            main.all(|s| (s.to - s.from).dot(&chord) >= -near * chord.norm())
-        });
-        (inside && onward).then_some(path)
+        (inside && runs_onward(&path, tolerance)).then_some(path)
     }
 
-    /// A piece that runs through, where it has a length.
-    fn piece(&self, giver: Giver, (from, to): (Point, Point), force: Vector) -> Option<Stretch> {
-        let stretch = Stretch {
+    /// A segment of a line that runs through the block; `None` if it has no length.
+    fn segment(&self, origin: ForceOrigin, (from, to): (Point, Point), force: Vector) -> Option<ThrustSegment> {
+        let segment = ThrustSegment {
             on: self.id,
-            giver,
+            origin,
             from,
             to,
             force,
             through: true,
         };
-        ((to - from).norm() > NEAR * self.size()).then_some(stretch)
+        ((to - from).norm() > LENGTH_TOL * self.size()).then_some(segment)
     }
 
-    /// Whether the way between two points stays in the block, the outline included.
+    /// Whether the straight line between two points stays in the block or on its outline, tested at nine points.
     fn within(&self, from: Point, to: Point) -> bool {
-        let near = 10.0 * NEAR * self.size();
+        let near = 10.0 * LENGTH_TOL * self.size();
         (0..=8).all(|i| {
             let p = from + (to - from) * (f64::from(i) / 8.0);
             self.polygon().contains(p)
                 || self
                     .polygon()
                     .edges()
-                    .any(|e| from_edge(e.from, e.to, p) <= near)
+                    .any(|e| distance_to_edge(e.from, e.to, p) <= near)
         })
     }
 
-    /// A piece of each force's own line of action, from where it enters the block; between two joints half-way at most.
-    fn pieces(&self) -> Vec<Stretch> {
+    /// A short segment on the line of action of each force, from where it enters the block; between two joints at most half the
+    /// distance.
+    fn stubs(&self) -> Vec<ThrustSegment> {
         let between = match self.pressing {
             [one, other] => other.at - one.at,
             _ => Vector::zeros(),
         };
         let all = self.pressing.iter().chain(self.loads);
-        let given = all.filter(|l| l.giver != Giver::Resultant && l.force.norm() > 0.0);
+        let given = all.filter(|l| l.origin != ForceOrigin::Resultant && l.force.norm() > 0.0);
         let long = |line: &Line| {
             let half = 0.5 * between.dot(&line.force.normalize()).abs();
-            let half = match line.giver {
-                Giver::Load(_) => 0.0,
+            let half = match line.origin {
+                ForceOrigin::Load(_) => 0.0,
                 _ => half,
             };
-            half.max(PIECE * self.unit)
+            half.max(MIN_STUB * self.unit)
         };
         let piece = |line: &Line| {
             let along = line.force.normalize();
             // A push enters the block along the force; a pull, or a load within, leaves it that way.
-            let ways = [along, -along].map(|way| (way, self.room(line.at, way)));
-            let (way, room) = if ways[0].1 > NEAR * self.size() {
+            let ways = [along, -along].map(|way| (way, self.distance_to_outline(line.at, way)));
+            let (way, room) = if ways[0].1 > LENGTH_TOL * self.size() {
                 ways[0]
             } else {
                 ways[1]
             };
-            Stretch {
+            ThrustSegment {
                 on: self.id,
-                giver: line.giver,
+                origin: line.origin,
                 from: line.at,
                 to: line.at + way * room.min(long(line)),
                 force: line.force,
@@ -348,9 +350,9 @@ impl Case<'_> {
         given.map(piece).filter(|s| s.from != s.to).collect()
     }
 
-    /// How far one can go from a point of the block in a direction without leaving it, metres.
-    fn room(&self, at: Point, way: Vector) -> f64 {
-        let near = 10.0 * NEAR * self.size();
+    /// The distance from a point of the block to its outline in a direction, metres.
+    fn distance_to_outline(&self, at: Point, way: Vector) -> f64 {
+        let near = 10.0 * LENGTH_TOL * self.size();
         if !self.polygon().contains(at + way * (2.0 * near)) {
             return 0.0;
         }
@@ -368,13 +370,28 @@ impl Case<'_> {
     }
 }
 
-/// Where the line of a force through a point meets the line of a load; on one line with it, beside the load's point.
-fn met(at: Point, force: Vector, load: &Line, near: f64) -> Option<Point> {
+/// Whether a line of thrust runs onward from its beginning to its end; one that turns back covers itself and cannot be read.
+/// Segments that belong to a load are side branches and do not count.
+fn runs_onward(path: &[ThrustSegment], tolerance: f64) -> bool {
+    let main = || {
+        path.iter()
+            .filter(|s| !matches!(s.origin, ForceOrigin::Load(_)))
+    };
+    let (Some(first), Some(last)) = (main().next(), main().next_back()) else {
+        return true;
+    };
+    let chord = last.to - first.from;
+    main().all(|s| (s.to - s.from).dot(&chord) >= -tolerance * chord.norm())
+}
+
+/// The intersection of the line of a force through a point with the line of a load. If the two are one line, the point next
+/// to the load.
+fn intersection(at: Point, force: Vector, load: &Line, near: f64) -> Option<Point> {
     let (a, b) = (force.normalize(), load.force.normalize());
     let sine = cross(a, b);
     let between = load.at - at;
-    // Lines this near to each other throughout a block are one; where they cross, rounding alone would say.
-    if sine.abs() < NEAR {
+    // Lines this close to parallel are one line or never meet: rounding alone would decide where they cross.
+    if sine.abs() < LENGTH_TOL {
         let off = cross(between, a).abs();
         return (off <= near).then(|| at + a * between.dot(&a));
     }
@@ -386,13 +403,13 @@ fn met(at: Point, force: Vector, load: &Line, near: f64) -> Option<Point> {
         .then_some(corner)
 }
 
-/// All orders of a few loads, that of the list first.
-fn orders(loads: &[Line]) -> Vec<Vec<Line>> {
+/// All permutations of a few loads, the given order first.
+fn permutations(loads: &[Line]) -> Vec<Vec<Line>> {
     let Some((first, rest)) = loads.split_first() else {
         return vec![Vec::new()];
     };
     let mut all = Vec::new();
-    for order in orders(rest) {
+    for order in permutations(rest) {
         for place in 0..=order.len() {
             let mut longer = order.clone();
             longer.insert(place, *first);
@@ -402,7 +419,8 @@ fn orders(loads: &[Line]) -> Vec<Vec<Line>> {
     all
 }
 
-fn from_edge(a: Point, b: Point, p: Point) -> f64 {
+/// The distance of a point from a straight edge.
+fn distance_to_edge(a: Point, b: Point, p: Point) -> f64 {
     let along = b - a;
     let share = (p - a).dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE);
     (p - (a + along * share.clamp(0.0, 1.0))).norm()

@@ -1,8 +1,9 @@
 //! [`labels`]: names of blocks and robots, and amounts on request, where they hide nothing.
 //!
-//! A name stands inside its block where there is room, beside it with a leader line where there is none. Labels lie on
-//! no arrow, outline, disc or other label; one for which nowhere is clear is left out, and the figure counts those. What
-//! the words below a frame name comes first, and bears its name in a frame of any number of blocks.
+//! [`placement`](crate::drawing::placement) finds the positions; this file says which labels there are and what they prefer.
+//! A name stands inside its block if there is space, else next to it with a leader line. Labels lie on no arrow, outline,
+//! disc or other label. A label without a position is left out, and the figure counts those. Blocks that the line below the
+//! verdict names come first, and have their names in frames of any number of blocks.
 
 mod obstacle;
 mod solid;
@@ -18,41 +19,42 @@ use super::context::FigureContext;
 use super::pen::{DOT, Pen};
 use super::view;
 use super::words::{counted, listed, quantity};
-use crate::drawing::placement::{Ink, LabelRequest, Placed, nearest, place_where};
+use crate::drawing::placement::{Ink, LabelRequest, Placed, nearest, place_avoiding};
 use crate::drawing::{
     Anchor, Colour, Face, Group, Outline, PagePoint, PageRect, Path, Stroke, Text, text,
 };
 use crate::geometry::{Bounds, Point, Polygon};
 use crate::scene::{BlockId, BodyId};
 
-/// Above so many blocks in a frame labels would be soup.
-pub(crate) const MOST_BLOCKS: usize = 60;
-/// Where a unit edge is at least this long, pixels, any name may stand beside its block …
-const ROOMY: f64 = 26.0;
-/// … and of so many blocks in any case.
-const FEW: usize = 12;
-/// In other frames a name stands in its block or beside it, at most so many pixels off.
-const BESIDE: f64 = 8.0;
-/// A name beside its block has a leader where another block's middle is less than so many times as far.
-const DOUBT: f64 = 1.5;
-/// Places tried along each axis of a block.
-const TRIED: usize = 13;
-/// Letters are no smaller than this, pixels.
-const SMALLEST: f64 = 9.0;
-/// Distances from a block's middle are ranked in steps of this share of the block's diagonal.
-const RANK: f64 = 1e-3;
-/// A name of several words has at most so many lines …
-const MOST_LINES: usize = 3;
-/// … so far apart, in sizes, …
-const PITCH: f64 = 1.1;
-/// … and keeps so far from the sides of its block, pixels.
+/// No labels in frames with more blocks than this, except those that the text names.
+pub(crate) const MAX_LABELLED_BLOCKS: usize = 60;
+/// If a unit edge is at least this long, pixels, any name may stand at any distance from its block.
+const ROOMY_UNIT_EDGE: f64 = 26.0;
+/// In frames of at most this many blocks, too.
+const FEW_BLOCKS: usize = 12;
+/// In other frames a name stands at most this far from its block, pixels: longer leaders would hide the figure.
+const MAX_DISTANCE: f64 = 8.0;
+/// A name outside its block has a leader if another block's centroid is less than this many times as far away.
+const AMBIGUITY_RATIO: f64 = 1.5;
+/// Positions tried along each axis of a block.
+const POSITIONS_PER_AXIS: usize = 13;
+/// Least size of letters, pixels.
+const MIN_SIZE: f64 = 9.0;
+/// Distances from a block's centroid are compared in steps of this share of the block's diagonal. Rounding of a centroid must
+/// not move a name.
+const DISTANCE_STEP: f64 = 1e-3;
+/// Most lines of a name of several words.
+const MAX_LINES: usize = 3;
+/// Distance of its lines, in sizes of its letters.
+const LINE_PITCH: f64 = 1.1;
+/// Its distance from the sides of its block, pixels.
 const INSET: f64 = 4.0;
-/// How a character is spelled out that no font has.
+/// The beginning of a character that is written as its code point, as no font has it.
 const SPELLED: &str = "U+";
-/// Height of a line of letters, in sizes.
-const HIGH: f64 = 0.96;
+/// Height of a line, in sizes of its letters.
+const LINE_HEIGHT: f64 = 0.96;
 
-/// A label before it has a place.
+/// A label without a position yet.
 struct Label {
     /// Its words, in lines.
     lines: Vec<String>,
@@ -60,21 +62,21 @@ struct Label {
     size: f64,
     class: &'static str,
     request: LabelRequest,
-    /// The colour of what it tells of; `None` for plain letters.
+    /// The colour of the arrow it belongs to; `None` for plain letters.
     colour: Option<Colour>,
-    /// Whether the words below the frame name it: then it is there in any case.
+    /// Whether the text below the frame names it: then it is drawn in any case.
     named: bool,
-    /// The block it stands for: in another it would seem to name that one.
+    /// The block it names: inside another block it would seem to name that one.
     of: Option<BlockId>,
 }
 
-/// The class of a frame's labels; the description of their group counts those without room.
+/// The class of a frame's labels. The description of their group counts those without a position.
 pub(crate) const CLASS: &str = "labels";
 
-/// The labels of a frame, clear of all `ink`, which is asked for where there are any.
+/// The labels of a frame, clear of all `ink`, which is computed only if there are labels.
 pub(crate) fn labels(pen: &Pen<'_>, view: Bounds, ink: impl FnOnce() -> Ink) -> Group {
     let mut group = Group::with_class(CLASS);
-    let labels = wanted(pen, view);
+    let labels = all_labels(pen, view);
     if labels.is_empty() {
         return group;
     }
@@ -82,18 +84,18 @@ pub(crate) fn labels(pen: &Pen<'_>, view: Bounds, ink: impl FnOnce() -> Ink) -> 
     let page = pen.camera.rect(view);
     let requests: Vec<LabelRequest> = labels.iter().map(|l| l.request.clone()).collect();
     let solids = Solids::new(pen);
-    let abroad = |number: usize, rect: PageRect| {
+    let covers_other_block = |number: usize, rect: PageRect| {
         let own: Option<BlockId> = labels[number].of;
         own.is_some_and(|own| solids.other(pen, own, rect))
     };
-    let places = place_where(&mut ink, page, &requests, &abroad);
+    let places = place_avoiding(&mut ink, page, &requests, &covers_other_block);
     let mut missing: Vec<(&str, usize)> = Vec::new();
     for (label, placed) in labels.iter().zip(places) {
-        if placed.is_none_or(|p| p.disliked) {
+        if placed.is_none_or(|p| p.avoided) {
             pen.context.cramped.set(pen.context.cramped.get() + 1);
         }
         if let Some(mut placed) = placed {
-            if placed.leader.is_none() && doubtful(pen, label, placed.rect) {
+            if placed.leader.is_none() && is_ambiguous(pen, label, placed.rect) {
                 placed.leader = Some([
                     nearest(placed.rect, label.request.anchor),
                     label.request.anchor,
@@ -103,7 +105,7 @@ pub(crate) fn labels(pen: &Pen<'_>, view: Bounds, ink: impl FnOnce() -> Ink) -> 
             continue;
         }
         if label.named {
-            group.items.push(over(pen, label).into());
+            group.items.push(drawn_over(pen, label).into());
             continue;
         }
         let what = match label.class {
@@ -125,8 +127,8 @@ pub(crate) fn labels(pen: &Pen<'_>, view: Bounds, ink: impl FnOnce() -> Ink) -> 
     group
 }
 
-/// Whether a name beside its block could be taken for another block's, whose middle is nearly as near.
-fn doubtful(pen: &Pen<'_>, label: &Label, rect: PageRect) -> bool {
+/// Whether a name outside its block could be taken for the name of another block, whose centroid is nearly as near.
+fn is_ambiguous(pen: &Pen<'_>, label: &Label, rect: PageRect) -> bool {
     let scene = &pen.context.analysis.scene;
     let Some(own) = label.of.filter(|_| label.class == "name") else {
         return false;
@@ -143,10 +145,10 @@ fn doubtful(pen: &Pen<'_>, label: &Label, rect: PageRect) -> bool {
     };
     let others = scene.frames[pen.number].placed.iter().copied();
     let mut others = others.filter(|id| *id != own);
-    others.any(|id| far(id) < DOUBT * far(own))
+    others.any(|id| far(id) < AMBIGUITY_RATIO * far(own))
 }
 
-/// What a figure says of the labels that its frames are too full for; `None` where there are none.
+/// The note on labels that are left out because a frame has too many blocks; `None` if none is.
 pub(crate) fn left_out(context: &FigureContext<'_>) -> Option<String> {
     let options = context.options;
     let frames = &context.analysis.scene.frames;
@@ -163,13 +165,14 @@ pub(crate) fn left_out(context: &FigureContext<'_>) -> Option<String> {
     } else {
         ""
     };
-    (most > MOST_BLOCKS).then(|| format!("{most} blocks: {what} left out{but}"))
+    (most > MAX_LABELLED_BLOCKS).then(|| format!("{most} blocks: {what} left out{but}"))
 }
 
-fn wanted(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
+/// All labels of a frame, the most important first.
+fn all_labels(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
     let options = pen.context.options;
     let frame = &pen.context.analysis.scene.frames[pen.number];
-    let few = frame.placed.len() <= MOST_BLOCKS;
+    let few = frame.placed.len() <= MAX_LABELLED_BLOCKS;
     let mut labels = Vec::new();
     if options.labels {
         let first = mentioned(pen.context, pen.number);
@@ -181,13 +184,13 @@ fn wanted(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
         labels.extend(robots(pen, view));
         if few {
             let others = frame.placed.iter().filter(|id| !first.contains(id));
-            // Leaders from everywhere to everywhere would hide the figure.
-            let roam = pen.unit() >= ROOMY || frame.placed.len() <= FEW;
+            // Long leaders in a crowded frame would hide the figure.
+            let any_distance = pen.unit() >= ROOMY_UNIT_EDGE || frame.placed.len() <= FEW_BLOCKS;
             let names = others.filter_map(|id| name(pen, *id, view));
             labels.extend(names.map(|label| {
                 let mut request = label.request;
-                if !roam {
-                    request.roams = request.roams.map(|far| far.min(BESIDE));
+                if !any_distance {
+                    request.max_distance = request.max_distance.map(|far| far.min(MAX_DISTANCE));
                 }
                 Label { request, ..label }
             }));
@@ -200,7 +203,7 @@ fn wanted(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
     labels
 }
 
-/// The blocks that the words below a frame name, in placing order.
+/// The blocks that the text below a frame names, in placing order.
 fn mentioned(context: &FigureContext<'_>, frame: usize) -> Vec<BlockId> {
     let scene = &context.analysis.scene;
     let stated = &context.statements[frame];
@@ -210,15 +213,15 @@ fn mentioned(context: &FigureContext<'_>, frame: usize) -> Vec<BlockId> {
         .collect()
 }
 
-/// Edge of a block of which so much is the root of its area.
-const EDGE: f64 = 0.6;
-/// A block whose edge is so many unit edges long is a boulder.
-const BOULDER: f64 = 3.0;
+/// The edge of a block is this share of the square root of its area.
+const EDGE_SHARE: f64 = 0.6;
+/// A block whose edge is longer than this, unit edges, has a name of its own size.
+const LARGE_BLOCK: f64 = 3.0;
 
-/// Size of the name of a block whose edge is so many pixels long, pixels.
+/// Size of the name of a block with an edge of this length, both in pixels.
 fn name_size(pen: &Pen<'_>, edge: f64) -> f64 {
     (0.25 * edge)
-        .max(SMALLEST)
+        .max(MIN_SIZE)
         .min(pen.context.options.theme.sizes.name)
 }
 
@@ -229,7 +232,7 @@ fn label(
     class: &'static str,
     request: LabelRequest,
 ) -> Label {
-    let size_of = (text::width(&words, face, size), HIGH * size);
+    let size_of = (text::width(&words, face, size), LINE_HEIGHT * size);
     Label {
         request: LabelRequest {
             size: size_of,
@@ -245,19 +248,19 @@ fn label(
     }
 }
 
-/// A name of several words in lines that fit across its block, where one line does not and few do. What is spelled out in
-/// code points for want of a font may be broken between any two of them.
+/// A name of several words, broken into lines that fit the width of its block, if one line does not fit and a few do. A name
+/// written as code points may be broken between any two of them.
 fn broken(label: Label, across: f64) -> Label {
     let name = label.lines.concat();
     if label.request.size.0 <= across {
         return label;
     }
     let (name, most) = match name.contains(SPELLED) {
-        true => (name.replace(text::NO_BREAK, " "), 2 * MOST_LINES),
-        false => (name, MOST_LINES),
+        true => (name.replace(text::NO_BREAK, " "), 2 * MAX_LINES),
+        false => (name, MAX_LINES),
     };
     let lines = text::balanced(&name, label.face, label.size, across, most + 1);
-    // A word broken in two is no name any more.
+    // A word broken in two is not readable as a name.
     let whole = lines.join(" ").split(' ').eq(name.split_whitespace());
     if !whole || lines.len() > most {
         return label;
@@ -265,7 +268,7 @@ fn broken(label: Label, across: f64) -> Label {
     let widths = lines.iter().map(|l| text::width(l, label.face, label.size));
     let size = (
         widths.fold(0.0, f64::max),
-        label.size * (HIGH + PITCH * (lines.len() - 1) as f64),
+        label.size * (LINE_HEIGHT + LINE_PITCH * (lines.len() - 1) as f64),
     );
     let request = LabelRequest {
         size,
@@ -278,34 +281,34 @@ fn broken(label: Label, across: f64) -> Label {
     }
 }
 
-/// The name of a block; `None` where nothing of it is in view.
+/// The name of a block; `None` if no part of the block is in view.
 fn name(pen: &Pen<'_>, id: BlockId, view: Bounds) -> Option<Label> {
     let block = &pen.context.analysis.scene.blocks[id.0];
     let zoomed = pen.context.options.zoom.is_some();
     if zoomed && view::common(view, block.body.polygon.bounds()).is_none() {
         return None;
     }
-    // A boulder among pebbles has a name that is read from as far off as the boulder is.
+    // The name of a large block among small ones is larger.
     let own = pen
         .camera
-        .length(EDGE * libm::sqrt(block.body.polygon.area()));
-    let size = if own > BOULDER * pen.unit() {
+        .length(EDGE_SHARE * libm::sqrt(block.body.polygon.area()));
+    let size = if own > LARGE_BLOCK * pen.unit() {
         name_size(pen, own)
     } else {
         name_size(pen, pen.unit())
     };
-    // Beside a pebble its name stands as near as the pebble is small.
+    // A small block has its name nearer.
     let extent = block.body.polygon.bounds().diagonal();
     let request = LabelRequest {
         anchor: pen.camera.place(pen.moved(id, block.centroid)),
-        from: (0.4 * pen.unit()).min(0.5 * pen.camera.length(extent) + 2.0),
+        first_ring: (0.4 * pen.unit()).min(0.5 * pen.camera.length(extent) + 2.0),
         size: (0.0, 0.0),
-        preferred: inside(&block.body.polygon, block.centroid, zoomed.then_some(view))
+        preferred: centres_inside(&block.body.polygon, block.centroid, zoomed.then_some(view))
             .into_iter()
             .map(|p| pen.camera.place(pen.moved(id, p)))
             .collect(),
-        ease: 0.5 * size,
-        roams: (!zoomed || view::holds(view, block.centroid)).then_some(f64::INFINITY),
+        padding: 0.5 * size,
+        max_distance: (!zoomed || view::holds(view, block.centroid)).then_some(f64::INFINITY),
     };
     let label = label(block.id.clone(), Face::SansBold, size, "name", request);
     let across = pen.camera.length(block.body.polygon.bounds().width()) - 2.0 * INSET;
@@ -318,16 +321,16 @@ fn name(pen: &Pen<'_>, id: BlockId, view: Bounds) -> Option<Label> {
 fn robots(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
     let scene = &pen.context.analysis.scene;
     let size = name_size(pen, pen.unit());
-    // Above the smallest letters names of robots stand back a little.
-    let size = (0.9 * size).max(size.min(SMALLEST));
+    // Names of robots are a little smaller than those of blocks, but not below the least size.
+    let size = (0.9 * size).max(size.min(MIN_SIZE));
     let named = |hold: &crate::scene::Hold| {
         let request = LabelRequest {
             anchor: pen.camera.place(pen.moved(hold.block, hold.at)),
-            from: pen.disc() + 2.0,
+            first_ring: pen.disc() + 2.0,
             size: (0.0, 0.0),
             preferred: Vec::new(),
-            ease: 0.0,
-            roams: Some(f64::INFINITY),
+            padding: 0.0,
+            max_distance: Some(f64::INFINITY),
         };
         let id = scene.robots[hold.robot.0].id.clone();
         let block = scene.blocks[hold.block.0].body.polygon.bounds();
@@ -346,30 +349,30 @@ fn robots(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
 
 fn amounts(pen: &Pen<'_>) -> Vec<Label> {
     let (marks, options) = (&pen.context.marks[pen.number], pen.context.options);
-    // How large a load is belongs to the question, not to the answer: it is always told.
-    let asked = |load: bool| options.amounts || (load && options.labels);
+    // The amount of a load is part of the problem, not of the result: it is always shown.
+    let is_shown = |load: bool| options.amounts || (load && options.labels);
     let size = (0.2 * pen.unit())
-        .max(SMALLEST)
+        .max(MIN_SIZE)
         .min(pen.context.options.theme.sizes.amount);
-    // Between two blocks the same amount acts both ways: it is said once, on the block of the lower number.
-    let stated = |arrow: &&ForceArrow| match (arrow.kind.partner(), arrow.on) {
+    // Between two blocks the same amount acts both ways: it is written once, on the block of the lower number.
+    let written_here = |arrow: &&ForceArrow| match (arrow.kind.partner(), arrow.on) {
         (Some(BodyId::Block(partner)), BodyId::Block(on)) => on.0 < partner.0,
         _ => true,
     };
     let seen = |a: &&ForceArrow| pen.seen(a) || a.kind == ArrowKind::Load;
     let seen = marks.arrows.iter().filter(seen);
-    let wanted = |arrow: &&ForceArrow| asked(arrow.kind == ArrowKind::Load) && stated(arrow);
+    let wanted = |arrow: &&ForceArrow| is_shown(arrow.kind == ArrowKind::Load) && written_here(arrow);
     let straight = seen.filter(wanted).map(|arrow| {
         let words = quantity(arrow.force.norm(), "N");
         let (from, along) = (pen.camera.place(arrow.at), pen.camera.turn(arrow.reach()));
         let wide = text::width(&words, Face::Sans, size);
         let request = LabelRequest {
             anchor: from.moved(0.5 * along.0, 0.5 * along.1),
-            from: (0.5 * pen.width(arrow)).max(DOT) + 3.0,
+            first_ring: (0.5 * pen.width(arrow)).max(DOT) + 3.0,
             size: (0.0, 0.0),
-            preferred: beside(from, along, pen.width(arrow), (wide, HIGH * size)),
-            ease: 0.0,
-            roams: Some(f64::INFINITY),
+            preferred: centres_along(from, along, pen.width(arrow), (wide, LINE_HEIGHT * size)),
+            padding: 0.0,
+            max_distance: Some(f64::INFINITY),
         };
         Label {
             colour: Some(arrow.colour),
@@ -377,15 +380,15 @@ fn amounts(pen: &Pen<'_>) -> Vec<Label> {
         }
     });
     let turns = marks.turns.iter().filter(|t| pen.turn_seen(t));
-    let turns = turns.filter(|t| asked(t.kind == TurnKind::Load));
+    let turns = turns.filter(|t| is_shown(t.kind == TurnKind::Load));
     let turning = turns.map(|turn| {
         let request = LabelRequest {
             anchor: pen.camera.place(turn.at),
-            from: pen.camera.length(0.7 * pen.context.unit),
+            first_ring: pen.camera.length(0.7 * pen.context.unit),
             size: (0.0, 0.0),
             preferred: Vec::new(),
-            ease: 0.0,
-            roams: Some(f64::INFINITY),
+            padding: 0.0,
+            max_distance: Some(f64::INFINITY),
         };
         let words = quantity(turn.torque.abs(), "N·m");
         Label {
@@ -396,8 +399,8 @@ fn amounts(pen: &Pen<'_>) -> Vec<Label> {
     straight.chain(turning).collect()
 }
 
-/// Middles of a label of this size beside an arrow's shaft, on either side, and beyond its tip.
-fn beside(
+/// Preferred centres of a label of this size: on either side of an arrow's shaft, and beyond its tip.
+fn centres_along(
     from: PagePoint,
     along: (f64, f64),
     width: f64,
@@ -408,7 +411,7 @@ fn beside(
         return Vec::new();
     }
     let (ux, uy) = (along.0 / length, along.1 / length);
-    // How far a label's middle is from a line it touches from this direction.
+    // The distance of a label's centre from a line that it touches, for a line with this normal.
     let reach = |x: f64, y: f64| x.abs() * wide / 2.0 + y.abs() * high / 2.0;
     let mut middles = Vec::new();
     for share in [0.5, 0.7, 0.3, 0.9, 0.1] {
@@ -423,22 +426,21 @@ fn beside(
     middles
 }
 
-/// Places inside a polygon, those nearest to its middle first; of a part of it where only that is in view.
-fn inside(polygon: &Polygon, middle: Point, view: Option<Bounds>) -> Vec<Point> {
+/// Preferred centres inside a polygon, those nearest to its centroid first; inside the visible part of it for a `view`.
+fn centres_inside(polygon: &Polygon, middle: Point, view: Option<Bounds>) -> Vec<Point> {
     let whole = polygon.bounds();
     let bounds = view.and_then(|v| view::common(v, whole)).unwrap_or(whole);
-    let share = |i: usize| (i as f64 + 0.5) / TRIED as f64;
-    let points: Vec<Point> = (0..TRIED * TRIED)
+    let share = |i: usize| (i as f64 + 0.5) / POSITIONS_PER_AXIS as f64;
+    let points: Vec<Point> = (0..POSITIONS_PER_AXIS * POSITIONS_PER_AXIS)
         .map(|i| {
-            let x = bounds.min.x + bounds.width() * share(i % TRIED);
-            let y = bounds.min.y + bounds.height() * share(i / TRIED);
+            let x = bounds.min.x + bounds.width() * share(i % POSITIONS_PER_AXIS);
+            let y = bounds.min.y + bounds.height() * share(i / POSITIONS_PER_AXIS);
             Point::new(x, y)
         })
         .filter(|p| polygon.contains(*p))
         .collect();
-    // Distances that differ by rounding alone are equal: then the raster's own order decides, from lower left on, so that
-    // noise in a centroid moves no name.
-    let step = RANK * whole.diagonal();
+    // Distances that differ by rounding alone are equal; the sort is stable, so the order of the grid decides then.
+    let step = DISTANCE_STEP * whole.diagonal();
     let rank = |p: &Point| ((p - middle).norm() / step).round();
     let mut ranked: Vec<(f64, Point)> = points.into_iter().map(|p| (rank(&p), p)).collect();
     ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -449,27 +451,27 @@ fn drawn(pen: &Pen<'_>, label: &Label, placed: Placed) -> Group {
     let theme = &pen.context.options.theme;
     let mut group = Group::with_class(label.class);
     if let Some(leader) = placed.leader {
-        // A thin grey line on a dark fill would be lost: a seam of the page's colour carries it.
+        // A thin grey line would be lost on a dark fill: it has a seam of the page's colour.
         let seam = Path::stroked(Outline::line(leader), Stroke::new(theme.page, 2.0));
         let line = Path::stroked(Outline::line(leader), Stroke::new(theme.faint, 0.7));
         group = group.with(seam.with_opacity(0.7)).with(line);
     }
-    // A label lies on no outline, so it lies on one fill or on the page.
+    // A label lies on no outline, so what is below it has one colour.
     let below = pen.below(middle(placed.rect));
     let colour = theme.letters_on(below, label.colour);
     let halo = pen.context.lines_cross_names.then_some(below);
     lettered(group, label, middle(placed.rect), colour, halo)
 }
 
-/// A label for which nowhere is clear, over whatever lies at its anchor, with a seam around its letters.
-fn over(pen: &Pen<'_>, label: &Label) -> Group {
+/// A label without a clear position, drawn over whatever lies at its anchor, with a halo around its letters.
+fn drawn_over(pen: &Pen<'_>, label: &Label) -> Group {
     let below = pen.below(label.request.anchor);
     let colour = pen.context.options.theme.letters_on(below, label.colour);
     let group = Group::with_class(label.class);
     lettered(group, label, label.request.anchor, colour, Some(below))
 }
 
-/// The lines of a label about its middle, on request with a seam around their letters.
+/// The lines of a label about its centre, with a halo of this colour if one is given.
 fn lettered(
     mut group: Group,
     label: &Label,
@@ -479,7 +481,7 @@ fn lettered(
 ) -> Group {
     let half = 0.5 * (label.lines.len() as f64 - 1.0);
     for (number, line) in label.lines.iter().enumerate() {
-        let down = 0.36 + PITCH * (number as f64 - half);
+        let down = 0.36 + LINE_PITCH * (number as f64 - half);
         let at = middle.moved(0.0, down * label.size);
         let words = Text::new(at, line.as_str(), label.face, label.size, colour);
         let words = words.anchored(Anchor::Middle);

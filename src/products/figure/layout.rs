@@ -1,49 +1,49 @@
-//! [`Layout`]: how many panels stand beside each other, how wide they are and at what scale.
+//! [`Layout`]: the number of columns of panels, their width and their scale.
 
 use super::context::FigureContext;
 use super::dimension;
 use crate::drawing::{Face, text};
 
-/// Most room around a figure, pixels.
-pub(crate) const MARGIN: f64 = 36.0;
-/// Most room between panels beside each other, pixels; on a page of its own width at most this share of it.
-const GAP: (f64, f64) = (44.0, 0.05);
-/// Most room across for all panels of a row, pixels.
-const ACROSS: f64 = 1028.0;
-/// Least width of a panel, so that captions have room, pixels.
-const LEAST: f64 = 240.0;
-/// Least width of one of many panels, where more room would make the figure longer than a page, pixels.
-const NARROW: f64 = 120.0;
-/// Most panels beside each other where nobody asks for more.
-const MOST_COLUMNS: usize = 8;
-/// The panels of a page are together at most so many times as high as wide, so that title and key have room …
-const PAGE: f64 = 1.2;
-/// … and a column of print, narrower than this in pixels, 110 mm, so many times.
-const COLUMN: (f64, f64) = (520.0, 2.2);
-/// What stands below a panel beside its caption: the verdict and what it says, pixels.
-const BELOW: f64 = 64.0;
-/// A unit edge is drawn at most this long in a strip, pixels.
-const LARGEST_UNIT: f64 = 72.0;
-/// A unit edge is drawn at least this long, if fewer columns can help it, pixels.
-const SMALLEST_UNIT: f64 = 30.0;
+/// Largest margin around a figure, pixels.
+pub(crate) const MAX_MARGIN: f64 = 36.0;
+/// Largest gap between columns: pixels, and share of the width of a page with a given width.
+const MAX_GAP: (f64, f64) = (44.0, 0.05);
+/// Largest width of a row of panels, pixels.
+const MAX_ROW_WIDTH: f64 = 1028.0;
+/// Least width of a panel, so that captions have space, pixels.
+const MIN_PANEL_WIDTH: f64 = 240.0;
+/// Least width of one of many panels, if wider ones would make the figure longer than a page, pixels.
+const MIN_NARROW_PANEL_WIDTH: f64 = 120.0;
+/// Most columns, unless the options ask for more.
+const MAX_COLUMNS: usize = 8;
+/// All panels of a page together are at most this many times as high as wide, so that title and key fit on the page.
+const MAX_PAGE_RATIO: f64 = 1.2;
+/// A page narrower than the first number, pixels (110 mm), is a column of print; the second is its largest ratio.
+const PRINT_COLUMN: (f64, f64) = (520.0, 2.2);
+/// Height of the verdict and its text below a panel, pixels.
+const VERDICT_HEIGHT: f64 = 64.0;
+/// Longest unit edge in a strip, pixels.
+const MAX_UNIT_EDGE: f64 = 72.0;
+/// Shortest unit edge, pixels, if fewer columns can achieve it.
+const MIN_UNIT_EDGE: f64 = 30.0;
 
-/// What a figure has to fit.
+/// What a figure has to fit on.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Fit {
-    /// All of it on one page, if it can.
+    /// All of it on one page, if possible.
     Page,
-    /// Each row on a page, and no more.
+    /// Each row on a page.
     Rows,
 }
 
-/// Where panels go.
+/// The positions of panels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Layout {
-    /// Room around the figure, pixels.
+    /// Margin around the figure, pixels.
     pub margin: f64,
-    /// Panels beside each other.
+    /// Panels per row.
     pub columns: usize,
-    /// Room between panels beside each other, pixels.
+    /// Gap between columns, pixels.
     pub gap: f64,
     /// Width of a panel, pixels.
     pub panel: f64,
@@ -54,17 +54,17 @@ pub(crate) struct Layout {
 }
 
 impl Layout {
-    /// For `count` panels, so that all fit on a page if they can.
+    /// A layout of `count` panels that fits on one page if possible.
     pub fn new(context: &FigureContext<'_>, count: usize) -> Layout {
         Layout::with(context, count, Fit::Page)
     }
 
-    /// For `count` panels whose rows go to as many pages as it takes.
+    /// A layout of `count` panels whose rows may fill several pages.
     pub fn roomy(context: &FigureContext<'_>, count: usize) -> Layout {
         Layout::with(context, count, Fit::Rows)
     }
 
-    /// The layout in which the panels of both have room, to the smaller of their scales.
+    /// A layout in which the panels of both fit, at the smaller of their scales.
     pub fn both(self, other: Layout) -> Layout {
         let panel = self.panel.max(other.panel);
         let between = (self.columns - 1) as f64 * self.gap;
@@ -76,7 +76,7 @@ impl Layout {
         }
     }
 
-    /// The page is at least so wide and so high, pixels.
+    /// A lower bound of the width and height of the page, pixels.
     pub fn least(&self, context: &FigureContext<'_>) -> (f64, f64) {
         let frames: Vec<usize> = (0..context.marks.len()).collect();
         let rows = frames.chunks(self.columns.max(1));
@@ -85,14 +85,14 @@ impl Layout {
     }
 
     fn with(context: &FigureContext<'_>, count: usize, fit: Fit) -> Layout {
-        let margin = context.options.width.map_or(MARGIN, margin);
+        let margin = context.options.width.map_or(MAX_MARGIN, margin);
         let across = context
             .options
             .width
-            .map_or(ACROSS, |width| (width - 2.0 * margin).max(1.0));
+            .map_or(MAX_ROW_WIDTH, |width| (width - 2.0 * margin).max(1.0));
         let gap = match context.options.width {
-            Some(width) => GAP.0.min(GAP.1 * width),
-            None => GAP.0,
+            Some(width) => MAX_GAP.0.min(MAX_GAP.1 * width),
+            None => MAX_GAP.0,
         };
         let count = count.max(1);
         let room = |columns| room(across, gap, columns);
@@ -102,8 +102,8 @@ impl Layout {
             None => {
                 // On as many pages as it takes panels may be small, but not narrow.
                 let fits = |columns: usize| {
-                    (fit == Fit::Rows || scale(columns) * context.unit >= SMALLEST_UNIT)
-                        && room(columns) >= LEAST.min(across)
+                    (fit == Fit::Rows || scale(columns) * context.unit >= MIN_UNIT_EDGE)
+                        && room(columns) >= MIN_PANEL_WIDTH.min(across)
                 };
                 let most = match count {
                     1..=3 => count,
@@ -112,14 +112,14 @@ impl Layout {
                 };
                 let roomy = (1..=most).rev().find(|c| fits(*c)).unwrap_or(1);
                 let high = |columns: usize| {
-                    let words = words(context, count, room(columns)) + BELOW;
+                    let words = words(context, count, room(columns)) + VERDICT_HEIGHT;
                     let panel = context.view.height() * scale(columns) + words;
                     count.div_ceil(columns) as f64 * panel
                 };
-                let page = if across < COLUMN.0 { COLUMN.1 } else { PAGE };
+                let page = if across < PRINT_COLUMN.0 { PRINT_COLUMN.1 } else { MAX_PAGE_RATIO };
                 // More columns where the figure would not fit on a page; the fewest that help, or those that help most.
-                let narrow = roomy + 1..=count.min(MOST_COLUMNS);
-                let narrow = || narrow.clone().filter(|c| room(*c) >= NARROW);
+                let narrow = roomy + 1..=count.min(MAX_COLUMNS);
+                let narrow = || narrow.clone().filter(|c| room(*c) >= MIN_NARROW_PANEL_WIDTH);
                 if fit == Fit::Rows || high(roomy) <= page * across {
                     roomy
                 } else {
@@ -131,7 +131,7 @@ impl Layout {
             }
         };
         let scale = scale(columns);
-        let least = if count == 1 { 1.6 * LEAST } else { LEAST };
+        let least = if count == 1 { 1.6 * MIN_PANEL_WIDTH } else { MIN_PANEL_WIDTH };
         let dimensions = dimensions(context);
         let panel = (context.view.width() * scale + dimensions).max(least.min(room(columns)));
         let between = (columns - 1) as f64 * gap;
@@ -157,11 +157,11 @@ impl Layout {
         let wide = match context.options.width {
             Some(_) => room,
             None if columns > 3 => room,
-            None => room.max(LEAST),
+            None => room.max(MIN_PANEL_WIDTH),
         };
         let scale = ((wide - dimensions(context)).max(1.0) / context.view.width())
             .min(high / context.view.height())
-            .min(LARGEST_UNIT / context.unit);
+            .min(MAX_UNIT_EDGE / context.unit);
         // A scene too small for its own coordinates to tell its places apart has no scale.
         if scale.is_finite() { scale } else { 1.0 }
     }
@@ -191,7 +191,7 @@ fn words(context: &FigureContext<'_>, count: usize, panel: f64) -> f64 {
 
 /// Room around a figure on a page of this width, pixels.
 fn margin(width: f64) -> f64 {
-    (0.025 * width).min(MARGIN)
+    (0.025 * width).min(MAX_MARGIN)
 }
 
 /// Room for one of several panels beside each other, pixels.

@@ -316,7 +316,7 @@ pub(crate) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
     // Where colours tell the forces, or arrows are too small to be seen, there are none to explain.
     let is_drawn = |kind: fn(ArrowKind) -> bool| {
         let mut arrows = context.marks.iter().flat_map(|m| &m.arrows);
-        !context.dusty(scale_of_page) && arrows.any(|a| kind(a.kind) && is_seen(a))
+        !context.arrows_too_small(scale_of_page) && arrows.any(|a| kind(a.kind) && is_seen(a))
     };
     let mut seen: Vec<(Colour, String)> = Vec::new();
     let mut clash = false;

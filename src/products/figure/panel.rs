@@ -25,9 +25,9 @@ pub(crate) fn picture(
     group.items.push(pen.blocks().into());
     group.items.push(pen.plans().into());
     group.items.push(pen.discs().into());
-    let dust = context.dusty(camera.length(1.0));
+    let too_small = context.arrows_too_small(camera.length(1.0));
     group.items.push(
-        if dust {
+        if too_small {
             pen.loads()
         } else if many {
             pen.arrows_by_colour()
@@ -36,7 +36,7 @@ pub(crate) fn picture(
         }
         .into(),
     );
-    if !many && !dust && pen.unit() >= TEXTURE {
+    if !many && !too_small && pen.unit() >= TEXTURE {
         group.items.push(pen.heads().into());
     }
     group.items.push(pen.arrows(true).into());

@@ -4,7 +4,7 @@ mod stroke;
 
 use super::arrow::ForceArrow;
 use super::by_colour::ByColour;
-use super::context::{FigureContext, MANY};
+use super::context::{FigureContext, MANY_BLOCKS};
 use super::description;
 use super::displacement::Displacement;
 use crate::drawing::{Camera, Colour, Group, Outline, PagePoint, Path, Stroke};
@@ -135,7 +135,7 @@ impl<'a> Pen<'a> {
 
     /// Whether the frame has so many blocks that its parts are joined by colour, without names.
     pub(crate) fn many(&self) -> bool {
-        self.context.analysis.scene.frames[self.number].placed.len() > MANY
+        self.context.analysis.scene.frames[self.number].placed.len() > MANY_BLOCKS
     }
 
     fn fill(&self, place: usize, id: BlockId) -> Colour {

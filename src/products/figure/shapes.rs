@@ -1,6 +1,6 @@
 //! [`shapes`]: a sheet of shapes made of lattice cells, with their names, seams and origins.
 
-use super::layout::MARGIN;
+use super::layout::MAX_MARGIN;
 use super::pen::seams;
 use crate::drawing::{
     Anchor, Camera, Drawing, Face, Group, Outline, PagePoint, Path, Stroke, Text, Theme,
@@ -50,11 +50,11 @@ fn sheet(lattice: Lattice, named: &[(&str, Vec<Cell>)], theme: &Theme) -> Drawin
     }
     let scale = UNIT / lattice.side;
     let mut items = Vec::new();
-    let (mut x, mut y, mut height, mut widest) = (MARGIN, MARGIN, 0.0_f64, 0.0_f64);
+    let (mut x, mut y, mut height, mut widest) = (MAX_MARGIN, MAX_MARGIN, 0.0_f64, 0.0_f64);
     for (name, body, view) in &sheet {
         let width = (view.width() * scale).max(100.0);
-        if x > MARGIN && x + width > ACROSS {
-            (x, y, height) = (MARGIN, y + height + 64.0, 0.0);
+        if x > MAX_MARGIN && x + width > ACROSS {
+            (x, y, height) = (MAX_MARGIN, y + height + 64.0, 0.0);
         }
         // Every shape of a row stands on the row's own floor; the tallest shape of all gives the height.
         let tallest = sheet
@@ -93,12 +93,12 @@ fn sheet(lattice: Lattice, named: &[(&str, Vec<Cell>)], theme: &Theme) -> Drawin
         height = height.max(tallest);
         widest = widest.max(x - 36.0);
     }
-    let note = PagePoint::new(MARGIN, y + height + 62.0);
+    let note = PagePoint::new(MAX_MARGIN, y + height + 62.0);
     let words = "The cross is the shape's origin: the lattice point that “at” names.";
     items.push(Text::new(note, words, Face::Sans, theme.sizes.key, theme.faint).into());
     Drawing {
-        width: (widest.max(420.0) + MARGIN).ceil(),
-        height: (note.y + MARGIN - 8.0).ceil(),
+        width: (widest.max(420.0) + MAX_MARGIN).ceil(),
+        height: (note.y + MAX_MARGIN - 8.0).ceil(),
         title: "Built-in shapes".into(),
         description: "Outlines of the shapes, the seams between their cells, and their origins."
             .into(),

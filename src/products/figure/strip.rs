@@ -1,4 +1,4 @@
-//! [`Strip`]: a page of panels, one per frame, each with its caption and verdict, and one key below them all. What a
+//! [`Strip`]: a page of panels, one per frame, each with its caption and verdict, and one key below all panels. What a
 //! panel shows comes from its [`PanelContent`].
 
 use super::arrow::{ArrowKind, ForceArrow};
@@ -18,16 +18,17 @@ use crate::drawing::{
 };
 use crate::geometry::{Bounds, Point};
 
-/// Height of a caption's line, in sizes of its letters.
+/// Height of a line of a caption, in sizes of its letters.
 const CAPTION_LINE: f64 = 22.0 / 17.0;
-/// Height of a line of what is written below a verdict, in sizes of its letters.
+/// Height of a line of the text below a verdict, in sizes of its letters.
 const REASON_LINE: f64 = 1.36;
-/// Room for names around a panel, where they need it, across and up, pixels.
-const NAMES: (f64, f64) = (24.0, 30.0);
-const MOST_CAPTION_LINES: usize = 8;
-const MOST_REASON_LINES: usize = 12;
-/// The description tells so many frames.
-const MOST_LISTED: usize = 30;
+/// Space for names around a panel if names need it, to either side and above, pixels.
+const SPACE_FOR_NAMES: (f64, f64) = (24.0, 30.0);
+/// Longer captions and texts are cut with an ellipsis.
+const MAX_CAPTION_LINES: usize = 8;
+const MAX_REASON_LINES: usize = 12;
+/// The description of a figure lists this many frames at most.
+const MAX_DESCRIBED_FRAMES: usize = 30;
 
 /// The figure of an analysis: a panel of this kind for each frame.
 pub(crate) fn strip(
@@ -52,8 +53,9 @@ pub(crate) fn strip(
     if cramped == 0 || options.zoom.is_some() || scale <= 0.0 {
         return drawing;
     }
-    // Names stand around a structure whose blocks are too small for them, where there is room.
-    let (across, up) = NAMES;
+    // Blocks too small for their names: the figure is drawn again with space around the structure, and kept if that helps at
+    // least half of the names.
+    let (across, up) = SPACE_FOR_NAMES;
     let roomy = context.with_room(across / scale, up / scale);
     let (roomier, still, _) = drawn(&roomy);
     if 2 * still <= cramped {
@@ -63,7 +65,7 @@ pub(crate) fn strip(
     }
 }
 
-/// Panels of [`strip`] a page each, of these frames, all alike in size and scale, so that they can follow one another.
+/// Panels of [`strip`] for these frames, one page each, all of one size and scale, so that they can follow one another.
 pub(crate) fn pages(
     analysis: &Analysis,
     content: &'static dyn PanelContent,
@@ -89,8 +91,8 @@ pub(crate) fn pages(
     pages
 }
 
-/// The panels of [`strip`] on pages no higher than `high` times their width, one below the other in as many rows as fit, at
-/// least one; all to one scale.
+/// The panels of [`strip`] on pages at most `max_ratio` times as high as wide, in as many rows as fit and at least one; all
+/// to one scale.
 pub(crate) fn split(
     analysis: &Analysis,
     content: &'static dyn PanelContent,
@@ -230,7 +232,7 @@ pub(crate) fn page(strips: &[&Strip<'_>], order: &[(usize, usize)], heading: &st
     }
     let described: Vec<String> = order
         .iter()
-        .take(MOST_LISTED)
+        .take(MAX_DESCRIBED_FRAMES)
         .map(|(strip, frame)| strips[*strip].described(*frame))
         .collect();
     Drawing {
@@ -261,7 +263,7 @@ impl Strip<'_> {
         } else {
             Vec::new()
         };
-        if self.context.dusty(self.layout.scale) {
+        if self.context.arrows_too_small(self.layout.scale) {
             let arrows = self.context.marks.iter().flat_map(|m| &m.arrows);
             let left_out = |a: &&ForceArrow| !a.kind.is_failure() && a.kind != ArrowKind::Load;
             let count = arrows.filter(left_out).count();
@@ -334,8 +336,8 @@ impl Strip<'_> {
             };
             let size = theme.sizes.reason;
             let unseen = context.marks[frame].unseen(context.unit, layout.scale);
-            let unseen = unseen.filter(|_| !context.dusty(layout.scale));
-            let lines = text::balanced(&reason, Face::Sans, size, layout.panel, MOST_REASON_LINES);
+            let unseen = unseen.filter(|_| !context.arrows_too_small(layout.scale));
+            let lines = text::balanced(&reason, Face::Sans, size, layout.panel, MAX_REASON_LINES);
             let unseen = unseen.map(|u| text::balanced(&u, Face::Sans, size, layout.panel, 2));
             let cramped = cramped.map(|c| text::balanced(&c, Face::Sans, size, layout.panel, 2));
             let notes = unseen.into_iter().chain(cramped).flatten();
@@ -370,7 +372,7 @@ impl Strip<'_> {
             Face::Serif,
             self.context.options.theme.sizes.caption,
             self.layout.panel,
-            MOST_CAPTION_LINES,
+            MAX_CAPTION_LINES,
         )
     }
 
@@ -398,7 +400,7 @@ impl Strip<'_> {
             ),
             ArrowScale::Strip => None,
         };
-        let scale = scale.filter(|_| options.keys && !self.context.dusty(self.layout.scale));
+        let scale = scale.filter(|_| options.keys && !self.context.arrows_too_small(self.layout.scale));
         let long = scale.as_ref().map_or(0.0, |scale| {
             legend::widest(std::slice::from_ref(scale), theme)
         });

@@ -1,6 +1,6 @@
 //! The line of thrust: how pressure runs through the blocks, from interface to interface.
 //!
-//! What the line is in each block, [`stretches`] says: it runs along true lines of action only, and where there is no
+//! What the line is in each block, [`segments`] says: it runs along true lines of action only, and where there is no
 //! single line it stops at the joints. Loads are arrows that end where they act; between them lengths compare.
 
 use super::arrow::{ArrowKind, ForceArrow, Marks, TurnKind};
@@ -9,7 +9,7 @@ use super::by_colour::ByColour;
 use super::content::PanelContent;
 use super::context::FigureContext;
 use super::description;
-use super::funicular::{Giver, Stretch, stretches};
+use super::funicular::{ForceOrigin, ThrustSegment, segments};
 use super::label;
 use super::legend::{self, Entry};
 use super::mark;
@@ -72,15 +72,15 @@ impl PanelContent for ThrustLine {
         let pen = Pen::new(context, frame, camera);
         let scene = &context.analysis.scene;
         let found = &context.analysis.frames[frame];
-        let stretches = stretches(scene, &scene.frames[frame], found, context.unit);
+        let segments = segments(scene, &scene.frames[frame], found, context.unit);
         let mut ink = label::ink(&pen);
-        for stretch in &stretches {
-            let [from, to] = [stretch.from, stretch.to].map(|p| camera.place(p));
-            ink.line(from, to, width(&pen, stretch) + 1.0);
+        for segment in &segments {
+            let [from, to] = [segment.from, segment.to].map(|p| camera.place(p));
+            ink.line(from, to, width(&pen, segment) + 1.0);
         }
         let seams = seams(&pen, found);
         let dots = dots(&pen, found, &mut |at, radius| ink.disc(at, radius + 1.0));
-        let lines = lines(&pen, scene, found, &stretches);
+        let lines = lines(&pen, scene, found, &segments);
         let loads = pen.arrows(false);
         composed(
             &pen,
@@ -96,9 +96,9 @@ impl PanelContent for ThrustLine {
         let frames = scene.frames.iter().zip(&context.analysis.frames);
         let (mut through, mut stopped) = (false, false);
         for (frame, found) in frames {
-            let stretches = stretches(scene, frame, found, context.unit);
-            through |= stretches.iter().any(|s| s.through);
-            stopped |= stretches.iter().any(|s| !s.through);
+            let segments = segments(scene, frame, found, context.unit);
+            through |= segments.iter().any(|s| s.through);
+            stopped |= segments.iter().any(|s| !s.through);
         }
         let mut entries = Vec::new();
         if context.options.scale == ArrowScale::Strip {
@@ -191,9 +191,9 @@ fn widest(unit: f64) -> f64 {
     (width * unit).clamp(least, most)
 }
 
-/// Width of a stretch, pixels.
-fn width(pen: &Pen<'_>, stretch: &Stretch) -> f64 {
-    let share = stretch.force.norm() / largest(pen.context).max(f64::MIN_POSITIVE);
+/// Width of a segment, pixels.
+fn width(pen: &Pen<'_>, segment: &ThrustSegment) -> f64 {
+    let share = segment.force.norm() / largest(pen.context).max(f64::MIN_POSITIVE);
     let share = share.min(1.0);
     widest(pen.unit()) * (THINNEST + (1.0 - THINNEST) * share)
 }
@@ -215,14 +215,14 @@ fn seams(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
     seams.with(Path::stroked(outline, stroke))
 }
 
-fn lines(pen: &Pen<'_>, scene: &Scene, found: &FrameAnalysis, stretches: &[Stretch]) -> Group {
+fn lines(pen: &Pen<'_>, scene: &Scene, found: &FrameAnalysis, segments: &[ThrustSegment]) -> Group {
     let theme = &pen.context.options.theme;
     let opacity = match found.verdict {
         Verdict::Stable => 1.0,
         _ => FAINT,
     };
     let mut group = Group::with_class("thrust");
-    let line = |s: &Stretch| Outline::line([s.from, s.to].map(|p| pen.camera.place(p)));
+    let line = |s: &ThrustSegment| Outline::line([s.from, s.to].map(|p| pen.camera.place(p)));
     let path = |outline, width| {
         let stroke = Stroke::new(colour(theme), width);
         Path::stroked(outline, stroke).with_opacity(opacity)
@@ -230,9 +230,9 @@ fn lines(pen: &Pen<'_>, scene: &Scene, found: &FrameAnalysis, stretches: &[Stret
     if pen.many() {
         let mut steps: Vec<Outline> = vec![Outline::default(); STEPS as usize + 1];
         let most = widest(pen.unit());
-        for stretch in stretches {
-            let step = (STEPS * width(pen, stretch) / most).round() as usize;
-            steps[step.min(STEPS as usize)].extend(line(stretch));
+        for segment in segments {
+            let step = (STEPS * width(pen, segment) / most).round() as usize;
+            steps[step.min(STEPS as usize)].extend(line(segment));
         }
         for (step, outline) in steps.into_iter().enumerate() {
             if !outline.segments.is_empty() {
@@ -242,21 +242,21 @@ fn lines(pen: &Pen<'_>, scene: &Scene, found: &FrameAnalysis, stretches: &[Stret
         }
         return group;
     }
-    for stretch in stretches {
-        let on = &scene.blocks[stretch.on.0].id;
-        let by = match stretch.giver {
-            Giver::Contact(number) => {
+    for segment in segments {
+        let on = &scene.blocks[segment.on.0].id;
+        let by = match segment.origin {
+            ForceOrigin::Contact(number) => {
                 let [a, b] = found.contacts[number].interface.bodies;
-                let other = if a == BodyId::Block(stretch.on) { b } else { a };
+                let other = if a == BodyId::Block(segment.on) { b } else { a };
                 description::named(scene, other)
             }
-            Giver::Robot(robot) => format!("robot {}", scene.robots[robot.0].id),
-            Giver::Load(_) => "a load".to_owned(),
-            Giver::Resultant => "a joint and its loads together".to_owned(),
+            ForceOrigin::Robot(robot) => format!("robot {}", scene.robots[robot.0].id),
+            ForceOrigin::Load(_) => "a load".to_owned(),
+            ForceOrigin::Resultant => "a joint and its loads together".to_owned(),
         };
-        let title = format!("Force on block {on} from {by}: {}", force(stretch.force));
+        let title = format!("Force on block {on} from {by}: {}", force(segment.force));
         let drawn = Group::with_class("force").titled(title);
-        let drawn = drawn.with(path(line(stretch), width(pen, stretch)));
+        let drawn = drawn.with(path(line(segment), width(pen, segment)));
         group.items.push(drawn.into());
     }
     group

@@ -1,7 +1,7 @@
-//! [`Ink`]: what labels keep clear of, sorted so that a place is tried by looking at what lies about it alone.
+//! [`Ink`]: convex pieces that labels keep clear of, in a uniform grid, so that a test looks at nearby pieces only.
 //!
-//! A figure tries hundreds of places for each of its labels: nothing is allocated for one of them, and what a piece has to
-//! be asked about is worked out when it is added.
+//! Two convex pieces are disjoint exactly if a side of one of them separates them (the separating axis theorem). A figure
+//! tests hundreds of positions for each label, so a test allocates nothing, and each side stores its own projection.
 
 use core::f64::consts::TAU;
 
@@ -9,23 +9,23 @@ use super::{Placed, corners};
 use crate::drawing::arrow::head_size;
 use crate::drawing::{PagePoint, PageRect};
 
-/// Ink that labels must keep clear of: convex pieces.
+/// Convex pieces that labels must keep clear of.
 #[derive(Clone, Debug, Default)]
 pub struct Ink {
     pieces: Vec<Piece>,
-    /// Corners of all pieces, one piece's after the other's.
+    /// Corners of all pieces, one piece after the other.
     corners: Vec<PagePoint>,
     /// The side that begins at each of the corners.
     sides: Vec<Side>,
-    /// Which pieces lie where, once that is wanted.
-    raster: Option<Raster>,
+    /// The grid, once [`Ink::index`] has built it.
+    grid: Option<Grid>,
 }
 
 #[derive(Clone, Copy, Debug)]
 struct Piece {
-    /// Whether it is a label, which a leader that crosses it would strike out, or a leader, which one could take for it.
+    /// Whether it is a label, which a crossing leader would strike out, or a leader, which a reader could follow by mistake.
     is_label: bool,
-    /// Its corners and sides, by their numbers.
+    /// The range of its corners and sides.
     first: usize,
     end: usize,
     min: PagePoint,
@@ -33,7 +33,7 @@ struct Piece {
 }
 
 impl Ink {
-    /// A convex piece with these corners in order; two corners are a line without width.
+    /// Adds a convex piece with these corners in order; two corners are a line without width.
     pub fn convex(&mut self, corners: impl IntoIterator<Item = PagePoint>) {
         self.piece(corners, false);
     }
@@ -59,43 +59,43 @@ impl Ink {
             min,
             max,
         };
-        if let Some(raster) = &mut self.raster {
-            raster.add(self.pieces.len(), &piece);
+        if let Some(grid) = &mut self.grid {
+            grid.add(self.pieces.len(), &piece);
         }
         self.pieces.push(piece);
     }
 
-    /// Sorts the pieces into a raster, so that the many questions of [`place`](super::place) look at those nearby alone.
+    /// Sorts the pieces into a grid, which makes the many tests of [`place`](super::place) fast.
     pub fn index(&mut self) {
-        if self.raster.is_none() {
-            self.raster = Some(Raster::new(&self.pieces));
+        if self.grid.is_none() {
+            self.grid = Some(Grid::new(&self.pieces));
         }
     }
 
-    /// Whether any piece whose box meets a box is `wanted`; each is asked about once.
+    /// Whether `matches` holds for any piece whose box overlaps a box. It is called once for each of them.
     fn any_near(
         &self,
         min: PagePoint,
         max: PagePoint,
-        mut wanted: impl FnMut(&Piece) -> bool,
+        mut matches: impl FnMut(&Piece) -> bool,
     ) -> bool {
-        let mut asked = |piece: &Piece| {
+        let mut tested = |piece: &Piece| {
             piece.min.x < max.x
                 && piece.max.x > min.x
                 && piece.min.y < max.y
                 && piece.max.y > min.y
-                && wanted(piece)
+                && matches(piece)
         };
-        let Some(raster) = &self.raster else {
-            return self.pieces.iter().any(asked);
+        let Some(grid) = &self.grid else {
+            return self.pieces.iter().any(tested);
         };
-        let fields = raster.fields(min, max);
-        for y in fields.top..=fields.bottom {
-            for x in fields.left..=fields.right {
-                for entry in &raster.lists[y * raster.columns + x] {
-                    // A piece in several fields is met in the first of those that the box touches, too.
-                    let met = x == fields.left.max(entry.left) && y == fields.top.max(entry.top);
-                    if met && asked(&self.pieces[entry.number]) {
+        let cells = grid.cells(min, max);
+        for y in cells.top..=cells.bottom {
+            for x in cells.left..=cells.right {
+                for entry in &grid.lists[y * grid.columns + x] {
+                    // A piece in several cells is tested in the first cell that both it and the box touch.
+                    let first = x == cells.left.max(entry.left) && y == cells.top.max(entry.top);
+                    if first && tested(&self.pieces[entry.number]) {
                         return true;
                     }
                 }
@@ -104,7 +104,7 @@ impl Ink {
         false
     }
 
-    /// A line `width` pixels wide.
+    /// Adds a line `width` pixels wide.
     pub fn line(&mut self, from: PagePoint, to: PagePoint, width: f64) {
         let (dx, dy) = (to.x - from.x, to.y - from.y);
         let length = libm::hypot(dx, dy);
@@ -120,7 +120,7 @@ impl Ink {
         ]);
     }
 
-    /// A disc, as the octagon around it.
+    /// Adds a disc, as the octagon around it.
     pub fn disc(&mut self, centre: PagePoint, radius: f64) {
         let reach = radius / libm::cos(TAU / 16.0);
         let corner = |i: u32| {
@@ -130,7 +130,7 @@ impl Ink {
         self.convex((0..8).map(corner));
     }
 
-    /// The arrow that [`arrow::straight`](crate::drawing::arrow::straight) draws.
+    /// Adds the arrow that [`arrow::straight`](crate::drawing::arrow::straight) draws.
     pub fn arrow(&mut self, from: PagePoint, along: (f64, f64), width: f64) {
         let length = libm::hypot(along.0, along.1);
         if length.is_nan() || length <= 0.0 {
@@ -148,13 +148,13 @@ impl Ink {
         ]);
     }
 
-    /// An upright rectangle.
+    /// Adds an upright rectangle.
     pub fn rect(&mut self, rect: PageRect) {
         self.convex(corners(rect));
     }
 
-    /// A label and its leader, neither of which another leader should cross.
-    pub(super) fn placed(&mut self, placed: Option<&Placed>) {
+    /// Adds a label and its leader, neither of which another leader should cross.
+    pub(super) fn add_label(&mut self, placed: Option<&Placed>) {
         let Some(placed) = placed else { return };
         self.piece(corners(placed.rect), true);
         if let Some(leader) = placed.leader {
@@ -162,13 +162,13 @@ impl Ink {
         }
     }
 
-    /// Whether an upright rectangle lies clear of all ink.
+    /// Whether an upright rectangle overlaps no ink.
     pub fn clear(&self, rect: PageRect) -> bool {
         let (min, max) = (rect.at, rect.at.moved(rect.width, rect.height));
-        // The rectangle's own sides part nothing: the boxes overlap.
+        // The rectangle's own sides separate nothing here, as the boxes overlap: the sides of the piece decide.
         let meets = |piece: &Piece| {
             let sides = &self.sides[piece.first..piece.end];
-            !sides.iter().any(|side| side.parts_box(min, max))
+            !sides.iter().any(|side| side.separates_box(min, max))
         };
         !self.any_near(min, max, meets)
     }
@@ -183,8 +183,8 @@ impl Ink {
         self.any_near(min, max, |piece| {
             let sides = &self.sides[piece.first..piece.end];
             let line = [from, to];
-            if !sides.iter().any(|side| side.parts(&line))
-                && !parted(&line, &self.corners[piece.first..piece.end])
+            if !sides.iter().any(|side| side.separates(&line))
+                && !separated(&line, &self.corners[piece.first..piece.end])
             {
                 let count = if piece.is_label {
                     &mut labels
@@ -199,17 +199,18 @@ impl Ink {
     }
 }
 
-/// Pieces that reach into each other by less than this, pixels, touch: what rounding decides must not choose a place.
-const TOUCH: f64 = 1e-3;
+/// Pieces that overlap by less than this, pixels, only touch. It is far above rounding, which must not decide a position,
+/// and far below anything visible.
+const TOUCH_TOL: f64 = 1e-3;
 
-/// A side of a convex piece, and how far the piece reaches to either side of it.
+/// A side of a convex piece, and the projection of the piece onto its normal.
 #[derive(Clone, Copy, Debug)]
 struct Side {
     from: PagePoint,
     along: (f64, f64),
-    /// Of the piece's corners, the least and the greatest of [`Side::beside`].
+    /// The least and the greatest [`Side::offset`] of the piece's corners.
     own: (f64, f64),
-    /// What [`TOUCH`] is in that measure.
+    /// [`TOUCH_TOL`] in the same measure.
     touch: f64,
 }
 
@@ -220,7 +221,7 @@ impl Side {
             from,
             along,
             own: (0.0, 0.0),
-            touch: TOUCH * libm::hypot(along.0, along.1),
+            touch: TOUCH_TOL * libm::hypot(along.0, along.1),
         };
         Side {
             own: side.reach(piece),
@@ -228,28 +229,28 @@ impl Side {
         }
     }
 
-    /// How far a point lies beside it, times its length: positive to the left on a page whose y runs up.
-    fn beside(&self, p: PagePoint) -> f64 {
+    /// The distance of a point from the line of the side, times the length of the side.
+    fn offset(&self, p: PagePoint) -> f64 {
         self.along.0 * (p.y - self.from.y) - self.along.1 * (p.x - self.from.x)
     }
 
     fn reach(&self, points: &[PagePoint]) -> (f64, f64) {
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         for p in points {
-            let side = self.beside(*p);
+            let side = self.offset(*p);
             (low, high) = (low.min(side), high.max(side));
         }
         (low, high)
     }
 
-    /// Whether it parts its piece from some points.
-    fn parts(&self, others: &[PagePoint]) -> bool {
+    /// Whether the line of the side separates its piece from these points.
+    fn separates(&self, others: &[PagePoint]) -> bool {
         self.apart(self.reach(others))
     }
 
-    /// Whether it parts its piece from an upright box.
-    fn parts_box(&self, min: PagePoint, max: PagePoint) -> bool {
-        // The corners at which `beside` is least and greatest follow from the direction of the side.
+    /// Whether the line of the side separates its piece from an upright box.
+    fn separates_box(&self, min: PagePoint, max: PagePoint) -> bool {
+        // The direction of the side tells at which corners the offset is least and greatest.
         let (below, above) = if self.along.0 >= 0.0 {
             (min.y, max.y)
         } else {
@@ -260,8 +261,8 @@ impl Side {
         } else {
             (min.x, max.x)
         };
-        let least = self.beside(PagePoint::new(right, below));
-        let most = self.beside(PagePoint::new(left, above));
+        let least = self.offset(PagePoint::new(right, below));
+        let most = self.offset(PagePoint::new(left, above));
         self.apart((least, most))
     }
 
@@ -270,30 +271,30 @@ impl Side {
     }
 }
 
-/// Whether a side of the convex `piece` parts it from the others.
-pub(super) fn parted(piece: &[PagePoint], others: &[PagePoint]) -> bool {
+/// Whether a side of the convex `piece` separates it from the other points.
+pub(super) fn separated(piece: &[PagePoint], others: &[PagePoint]) -> bool {
     (0..piece.len()).any(|i| {
         let next = piece[(i + 1) % piece.len()];
-        Side::new(piece[i], next, piece).parts(others)
+        Side::new(piece[i], next, piece).separates(others)
     })
 }
 
-/// Side of a field of the raster, pixels.
-const FIELD: f64 = 48.0;
+/// Side of a cell of the grid, pixels: about the size of a label.
+const CELL: f64 = 48.0;
 
-/// The numbers of the pieces in each field of a grid.
+/// The numbers of the pieces in each cell of a uniform grid.
 #[derive(Clone, Debug)]
-struct Raster {
-    /// Number of the first column and row, in fields from the page's corner.
+struct Grid {
+    /// Number of the first column and row, in cells from the corner of the page.
     left: f64,
     top: f64,
     columns: usize,
     rows: usize,
-    /// Row by row, what touches each field.
+    /// Row by row, the pieces that touch each cell.
     lists: Vec<Vec<Entry>>,
 }
 
-/// A piece in a field, and the first column and row of its own fields.
+/// A piece in a cell, and the first column and row of its own cells.
 #[derive(Clone, Copy, Debug)]
 struct Entry {
     number: usize,
@@ -301,20 +302,20 @@ struct Entry {
     top: usize,
 }
 
-/// The fields that a box touches: columns and rows, all included.
-struct Fields {
+/// The cells that a box touches: columns and rows, both ends included.
+struct Cells {
     left: usize,
     right: usize,
     top: usize,
     bottom: usize,
 }
 
-impl Raster {
-    fn new(pieces: &[Piece]) -> Raster {
-        // A page has some thousand pixels; what lies far beyond it shares the last fields.
-        let field = |v: f64| (v / FIELD).floor().clamp(-20.0, 200.0);
+impl Grid {
+    fn new(pieces: &[Piece]) -> Grid {
+        // A page has some thousand pixels; what lies far beyond it shares the outermost cells.
+        let cell = |v: f64| (v / CELL).floor().clamp(-20.0, 200.0);
         let ends =
-            |ends: (f64, f64), min: f64, max: f64| (ends.0.min(field(min)), ends.1.max(field(max)));
+            |ends: (f64, f64), min: f64, max: f64| (ends.0.min(cell(min)), ends.1.max(cell(max)));
         let (mut x, mut y) = (
             (f64::INFINITY, f64::NEG_INFINITY),
             (f64::INFINITY, f64::NEG_INFINITY),
@@ -323,10 +324,10 @@ impl Raster {
             x = ends(x, piece.min.x, piece.max.x);
             y = ends(y, piece.min.y, piece.max.y);
         }
-        // Of no pieces there is one field.
+        // Without pieces the grid has one cell.
         let count = |(first, last): (f64, f64)| ((last - first).max(0.0) as usize) + 1;
         let first = |(first, _): (f64, f64)| if first.is_finite() { first } else { 0.0 };
-        let mut raster = Raster {
+        let mut grid = Grid {
             left: first(x),
             top: first(y),
             columns: count(x),
@@ -334,18 +335,18 @@ impl Raster {
             lists: vec![Vec::new(); count(x) * count(y)],
         };
         for (number, piece) in pieces.iter().enumerate() {
-            raster.add(number, piece);
+            grid.add(number, piece);
         }
-        raster
+        grid
     }
 
     fn add(&mut self, number: usize, piece: &Piece) {
-        let Fields {
+        let Cells {
             left,
             right,
             top,
             bottom,
-        } = self.fields(piece.min, piece.max);
+        } = self.cells(piece.min, piece.max);
         for y in top..=bottom {
             for x in left..=right {
                 self.lists[y * self.columns + x].push(Entry { number, left, top });
@@ -353,16 +354,16 @@ impl Raster {
         }
     }
 
-    /// The fields that a box touches; what lies beyond the grid belongs to the fields at its edge.
-    fn fields(&self, min: PagePoint, max: PagePoint) -> Fields {
-        let field = |v: f64, first: f64, count: usize| {
-            (((v / FIELD).floor() - first).max(0.0) as usize).min(count - 1)
+    /// The cells that a box touches; what lies beyond the grid belongs to the cells at its edge.
+    fn cells(&self, min: PagePoint, max: PagePoint) -> Cells {
+        let cell = |v: f64, first: f64, count: usize| {
+            (((v / CELL).floor() - first).max(0.0) as usize).min(count - 1)
         };
-        Fields {
-            left: field(min.x, self.left, self.columns),
-            right: field(max.x, self.left, self.columns),
-            top: field(min.y, self.top, self.rows),
-            bottom: field(max.y, self.top, self.rows),
+        Cells {
+            left: cell(min.x, self.left, self.columns),
+            right: cell(max.x, self.left, self.columns),
+            top: cell(min.y, self.top, self.rows),
+            bottom: cell(max.y, self.top, self.rows),
         }
     }
 }
@@ -372,7 +373,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn with_a_raster_and_without_the_answers_are_the_same() {
+    fn with_a_grid_and_without_the_answers_are_the_same() {
         // Lines, discs and labels strewn over a page and beyond it, by a rule without a pattern to the eye.
         let mut plain = Ink::default();
         let mut seed = 1_u64;
@@ -401,12 +402,12 @@ mod tests {
         sorted.index();
         for (i, rect) in late.into_iter().enumerate() {
             let placed = Placed {
-                disliked: false,
+                avoided: false,
                 rect,
                 leader: (i % 2 == 0).then(|| [rect.at, rect.at.moved(-70.0, 30.0)]),
             };
-            plain.placed(Some(&placed));
-            sorted.placed(Some(&placed));
+            plain.add_label(Some(&placed));
+            sorted.add_label(Some(&placed));
         }
         let (mut clear, mut crossed) = (0, 0);
         for _ in 0..4000 {
@@ -417,8 +418,8 @@ mod tests {
                 height: 1.0 + next(12.0),
             };
             assert_eq!(plain.clear(rect), sorted.clear(rect), "{rect:?}");
-            // A box is a piece like any other: asked corner by corner it meets the same ones.
-            let meets = |p: &Piece| !parted(&plain.corners[p.first..p.end], &corners(rect));
+            // A box is a piece like any other: tested corner by corner it meets the same ones.
+            let meets = |p: &Piece| !separated(&plain.corners[p.first..p.end], &corners(rect));
             let max = at.moved(rect.width, rect.height);
             assert_eq!(
                 !plain.any_near(at, max, meets),

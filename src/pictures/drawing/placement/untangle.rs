@@ -1,75 +1,84 @@
-//! [`untangle`]: two labels whose leaders cross take each other's places where that leaves fewer crossings.
+//! [`untangle`]: two labels whose leaders cross exchange their positions where that leaves fewer crossings.
 //!
-//! Labels are placed one after the other, each where it is best then; the last ones of a crowd may end up behind those of
-//! their neighbours.
+//! Labels are placed one after the other, so the last ones of a crowd may end up behind those of their neighbours. This is
+//! a local search over pairs (2-opt): it stops when no exchange helps, or after a few rounds.
 
-use super::ink::parted;
-use super::{Ink, LabelRequest, Placed, ROOM, around, corners, nearest, within};
+use super::ink::separated;
+use super::{CLEARANCE, Ink, LabelRequest, Placed, centred, corners, within};
 use crate::drawing::{PagePoint, PageRect};
 
-/// Rounds over all pairs.
-const ROUNDS: usize = 4;
+/// Rounds over all pairs. The second rarely changes anything; the limit keeps crowded figures fast.
+const MAX_ROUNDS: usize = 4;
 
-/// Swaps labels while that leaves fewer crossings; whether any was.
+/// Exchanges positions of labels while that leaves fewer crossings. Returns whether any label moved.
 pub(super) fn untangle(
-    bare: &Ink,
+    ink_without_labels: &Ink,
     page: PageRect,
     requests: &[LabelRequest],
     placed: &mut [Option<Placed>],
-    disliked: &dyn Fn(usize, PageRect) -> bool,
+    avoid: &dyn Fn(usize, PageRect) -> bool,
 ) -> bool {
-    let mut swapped = false;
-    for _ in 0..ROUNDS {
-        let mut better = false;
+    // The label of a request where another one stands, if it fits there.
+    let moved = |number: usize, to: PageRect| {
+        let request = &requests[number];
+        let centre = to.at.moved(to.width / 2.0, to.height / 2.0);
+        let rect = centred(centre, request.size);
+        let (width, height) = (rect.width + 2.0 * CLEARANCE, rect.height + 2.0 * CLEARANCE);
+        let kept = centred(centre, (width, height));
+        let free = within(page, kept) && ink_without_labels.clear(kept) && !avoid(number, rect);
+        free.then(|| Placed::with_leader(rect, request.anchor))
+    };
+    let mut any_moved = false;
+    for _ in 0..MAX_ROUNDS {
+        let mut improved = false;
         for i in 0..placed.len() {
             for j in 0..i {
-                let (Some(a), Some(b)) = (placed[i], placed[j]) else {
-                    continue;
-                };
-                if a.leader.is_none() || b.leader.is_none() {
-                    continue;
-                }
-                let before = tangles(placed, i, j);
-                if before == 0 {
-                    continue;
-                }
-                let moved = |number: usize, to: PageRect| {
-                    let middle = to.at.moved(to.width / 2.0, to.height / 2.0);
-                    let (request, rect) =
-                        (&requests[number], around(middle, requests[number].size));
-                    let kept = around(middle, (rect.width + 2.0 * ROOM, rect.height + 2.0 * ROOM));
-                    let free = within(page, kept) && bare.clear(kept) && !disliked(number, rect);
-                    free.then(|| Placed {
-                        disliked: false,
-                        rect,
-                        leader: Some([nearest(rect, request.anchor), request.anchor]),
-                    })
-                };
-                let (Some(x), Some(y)) = (moved(i, b.rect), moved(j, a.rect)) else {
-                    continue;
-                };
-                (placed[i], placed[j]) = (Some(x), Some(y));
-                let alone = |number: usize, own: &Placed| {
-                    let others = placed.iter().enumerate().filter(|(k, _)| *k != number);
-                    let mut others = others.filter_map(|(_, other)| other.as_ref());
-                    !others.any(|other| overlap(own.rect, other.rect))
-                };
-                if alone(i, &x) && alone(j, &y) && tangles(placed, i, j) < before {
-                    (better, swapped) = (true, true);
-                } else {
-                    (placed[i], placed[j]) = (Some(a), Some(b));
-                }
+                improved |= exchange(placed, i, j, &moved);
             }
         }
-        if !better {
+        any_moved |= improved;
+        if !improved {
             break;
         }
     }
-    swapped
+    any_moved
+}
+
+/// Exchanges the positions of two labels with leaders if both fit and fewer leaders cross. Returns whether it did.
+fn exchange(
+    placed: &mut [Option<Placed>],
+    i: usize,
+    j: usize,
+    moved: &dyn Fn(usize, PageRect) -> Option<Placed>,
+) -> bool {
+    let (Some(a), Some(b)) = (placed[i], placed[j]) else {
+        return false;
+    };
+    if a.leader.is_none() || b.leader.is_none() {
+        return false;
+    }
+    let before = crossings(placed, i, j);
+    if before == 0 {
+        return false;
+    }
+    let (Some(x), Some(y)) = (moved(i, b.rect), moved(j, a.rect)) else {
+        return false;
+    };
+    (placed[i], placed[j]) = (Some(x), Some(y));
+    let is_clear = |number: usize, own: &Placed| {
+        let others = placed.iter().enumerate().filter(|(k, _)| *k != number);
+        let mut others = others.filter_map(|(_, other)| other.as_ref());
+        !others.any(|other| overlap(own.rect, other.rect))
+    };
+    let better = is_clear(i, &x) && is_clear(j, &y) && crossings(placed, i, j) < before;
+    if !better {
+        (placed[i], placed[j]) = (Some(a), Some(b));
+    }
+    better
 }
 
 /// How often the leaders of two labels cross other leaders or labels, and how often other leaders cross these labels.
-fn tangles(placed: &[Option<Placed>], i: usize, j: usize) -> usize {
+fn crossings(placed: &[Option<Placed>], i: usize, j: usize) -> usize {
     let mut count = 0;
     for own in [i, j] {
         let Some(a) = placed[own] else { continue };
@@ -77,22 +86,23 @@ fn tangles(placed: &[Option<Placed>], i: usize, j: usize) -> usize {
             let Some(b) = other.filter(|_| number != own) else {
                 continue;
             };
-            let met = |leader: Option<[PagePoint; 2]>, other: &[PagePoint]| {
-                leader.is_some_and(|line| !parted(&line, other) && !parted(other, &line))
+            let crosses = |leader: Option<[PagePoint; 2]>, other: &[PagePoint]| {
+                leader.is_some_and(|line| !separated(&line, other) && !separated(other, &line))
             };
-            let lines = b.leader.is_some_and(|line| met(a.leader, &line));
-            let struck = met(a.leader, &corners(b.rect)) || met(b.leader, &corners(a.rect));
-            count += usize::from(lines) + usize::from(struck);
+            let leaders = b.leader.is_some_and(|line| crosses(a.leader, &line));
+            let labels =
+                crosses(a.leader, &corners(b.rect)) || crosses(b.leader, &corners(a.rect));
+            count += usize::from(leaders) + usize::from(labels);
         }
     }
     count
 }
 
 fn overlap(a: PageRect, b: PageRect) -> bool {
-    a.at.x < b.at.x + b.width + ROOM
-        && b.at.x < a.at.x + a.width + ROOM
-        && a.at.y < b.at.y + b.height + ROOM
-        && b.at.y < a.at.y + a.height + ROOM
+    a.at.x < b.at.x + b.width + CLEARANCE
+        && b.at.x < a.at.x + a.width + CLEARANCE
+        && a.at.y < b.at.y + b.height + CLEARANCE
+        && b.at.y < a.at.y + a.height + CLEARANCE
 }
 
 #[cfg(test)]
@@ -108,23 +118,19 @@ mod tests {
         };
         let request = |x: f64| LabelRequest {
             anchor: PagePoint::new(x, 20.0),
-            from: 4.0,
+            first_ring: 4.0,
             size: (20.0, 10.0),
             preferred: Vec::new(),
-            ease: 0.0,
-            roams: Some(f64::INFINITY),
+            padding: 0.0,
+            max_distance: Some(f64::INFINITY),
         };
         let requests = [request(50.0), request(100.0)];
         let at = |x: f64, request: &LabelRequest| {
-            let rect = around(PagePoint::new(x, 80.0), request.size);
-            Some(Placed {
-                disliked: false,
-                rect,
-                leader: Some([nearest(rect, request.anchor), request.anchor]),
-            })
+            let rect = centred(PagePoint::new(x, 80.0), request.size);
+            Some(Placed::with_leader(rect, request.anchor))
         };
         let mut placed = vec![at(120.0, &requests[0]), at(40.0, &requests[1])];
-        assert_eq!(tangles(&placed, 0, 1), 2);
+        assert_eq!(crossings(&placed, 0, 1), 2);
         let none = |_: usize, _: PageRect| false;
         assert!(untangle(
             &Ink::default(),
@@ -133,7 +139,7 @@ mod tests {
             &mut placed,
             &none
         ));
-        assert_eq!(tangles(&placed, 0, 1), 0);
+        assert_eq!(crossings(&placed, 0, 1), 0);
         assert_eq!(
             placed,
             vec![at(40.0, &requests[0]), at(120.0, &requests[1])]
@@ -147,7 +153,7 @@ mod tests {
         ));
         // Where ink lies in the way nothing is moved.
         let mut ink = Ink::default();
-        ink.rect(around(PagePoint::new(40.0, 80.0), (20.0, 10.0)));
+        ink.rect(centred(PagePoint::new(40.0, 80.0), (20.0, 10.0)));
         let mut crossed = vec![at(120.0, &requests[0]), at(40.0, &requests[1])];
         assert!(!untangle(&ink, page, &requests, &mut crossed, &none));
     }

@@ -1,13 +1,13 @@
-//! [`Places`]: boxes on a grid of cells, so that those near another are found without a look at all.
+//! [`Places`]: boxes in a uniform grid (a spatial hash), so that the boxes near another one are found quickly.
 
 use std::collections::HashMap;
 
 use crate::geometry::{Bounds, Point};
 
-/// A box that lies in more cells than these is looked at every time.
-const MOST_CELLS: f64 = 64.0;
+/// A box in more cells than this is kept in a list that every search scans.
+const MAX_CELLS: f64 = 64.0;
 
-/// Boxes by their numbers, from 0 in the order in which they were put.
+/// Boxes, numbered from 0 in the order in which they were added.
 pub(super) struct Places {
     /// Width and height of a cell, metres.
     cell: f64,
@@ -17,7 +17,7 @@ pub(super) struct Places {
 }
 
 impl Places {
-    /// None yet, and cells as large as these boxes are on average.
+    /// An empty grid whose cells are as large as these boxes on average.
     pub fn sized_for(boxes: impl ExactSizeIterator<Item = Bounds>) -> Places {
         let count = boxes.len();
         Places {
@@ -28,7 +28,7 @@ impl Places {
         }
     }
 
-    /// One more box.
+    /// Adds a box.
     pub fn put(&mut self, its: Bounds) {
         let number = self.boxes.len();
         self.boxes.push(its);
@@ -42,17 +42,17 @@ impl Places {
         }
     }
 
-    /// Whether some box that meets this one is as asked.
-    pub fn any(&self, near: Bounds, mut asked: impl FnMut(usize) -> bool) -> bool {
-        let mut asked = |number: &usize| near.intersects(self.boxes[*number]) && asked(*number);
+    /// Whether `matches` holds for some box that overlaps this one.
+    pub fn any(&self, near: Bounds, mut matches: impl FnMut(usize) -> bool) -> bool {
+        let mut tested = |number: &usize| near.intersects(self.boxes[*number]) && matches(*number);
         let Some((low, high)) = self.covered(near) else {
-            return (0..self.boxes.len()).any(|number| asked(&number));
+            return (0..self.boxes.len()).any(|number| tested(&number));
         };
         let mut cells = grid(low, high).filter_map(|cell| self.cells.get(&cell));
-        self.large.iter().any(&mut asked) || cells.any(|cell| cell.iter().any(&mut asked))
+        self.large.iter().any(&mut tested) || cells.any(|cell| cell.iter().any(&mut tested))
     }
 
-    /// The numbers of the boxes that meet this one, in order; of all without one.
+    /// The numbers of the boxes that overlap this one, in order; of all boxes for `None`.
     pub fn meeting(&self, near: Option<Bounds>) -> Vec<usize> {
         let Some(near) = near else {
             return (0..self.boxes.len()).collect();
@@ -68,11 +68,11 @@ impl Places {
         found
     }
 
-    /// The first and the last of the cells in which a box lies; `None` for too many.
+    /// The first and the last cell of a box; `None` if there are more than [`MAX_CELLS`].
     fn covered(&self, its: Bounds) -> Option<((i64, i64), (i64, i64))> {
         let cell = |p: Point| ((p.x / self.cell).floor(), (p.y / self.cell).floor());
         let (low, high) = (cell(its.min), cell(its.max));
-        let few = (high.0 - low.0 + 1.0) * (high.1 - low.1 + 1.0) <= MOST_CELLS;
+        let few = (high.0 - low.0 + 1.0) * (high.1 - low.1 + 1.0) <= MAX_CELLS;
         let whole = |(x, y): (f64, f64)| (x as i64, y as i64);
         few.then(|| (whole(low), whole(high)))
     }

@@ -1,4 +1,4 @@
-//! What stands below a free-body diagram: the verdict, the scale, what is left out, and the list of forces.
+//! The foot of a free-body diagram: the verdict, the scale, notes on what is left out, and the list of forces.
 
 use super::force::{WIDTH, largest, longest};
 use super::table::Table;
@@ -86,7 +86,7 @@ impl Sheet<'_> {
         (group, y)
     }
 
-    /// An arrow that tells the scale; `None` where lengths tell nothing.
+    /// An arrow of a round amount that shows the scale; `None` where no arrow has a length.
     fn scale(&self) -> Option<legend::Entry> {
         let largest = largest(&self.forces, unit(&self.analysis.scene, None), self.options);
         let amount = round_below(largest);
@@ -97,11 +97,12 @@ impl Sheet<'_> {
         })
     }
 
-    /// What a reader must know of arrows and names that are not there, or whose length tells nothing.
+    /// Notes for the reader: arrows whose length shows no amount, forces and names that are left out, and forces that do not
+    /// balance.
     fn notes(&self, nameless: usize) -> Vec<String> {
         let mut notes = Vec::new();
         if self.options.corners == Corners::All {
-            notes.push("arrows name forces; their lengths tell nothing".to_owned());
+            notes.push("arrows name forces; their lengths show no amounts".to_owned());
         }
         let unseen = self.arrows.iter().filter(|a| !Sheet::seen(a)).count();
         if unseen > 0 {
@@ -121,11 +122,12 @@ impl Sheet<'_> {
         }
         let found = &self.analysis.frames[self.frame];
         if found.unsupported.contains(&self.block) {
-            notes.push("nothing could hold this block: its forces do not balance".to_owned());
+            notes.push("no adhesion could hold this block: its forces do not balance".to_owned());
         }
         notes
     }
 
+    /// The diagram in words: its arrows, the list of forces, and the points where forces act.
     pub(super) fn described(&self) -> String {
         let arrows: Vec<&str> = self.arrows.iter().map(|a| a.title.as_str()).collect();
         let mut stated = self.table().stated();

@@ -25,7 +25,7 @@ use super::option::Options;
 use crate::analysis::{Analysis, Contact};
 use crate::drawing::arrow::{straight, turning};
 use crate::drawing::hatch::{hatch, lines};
-use crate::drawing::placement::{Ink, LabelRequest, place, place_where};
+use crate::drawing::placement::{Ink, LabelRequest, place, place_avoiding};
 use crate::drawing::symbol::{Accent, Symbol};
 use crate::drawing::{
     Anchor, Camera, Drawing, Face, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Text,
@@ -301,11 +301,11 @@ impl<'a> Sheet<'a> {
                     symbol,
                     LabelRequest {
                         anchor: end,
-                        from: 4.0,
+                        first_ring: 4.0,
                         size: (wide, high),
                         preferred: (0..3).map(|row| place(f64::from(row))).collect(),
-                        ease: 0.0,
-                        roams: None,
+                        padding: 0.0,
+                        max_distance: None,
                     },
                 ));
             }
@@ -354,11 +354,11 @@ impl<'a> Sheet<'a> {
                 symbol.clone(),
                 LabelRequest {
                     anchor: from.moved(0.7 * arrow.along.0, 0.7 * arrow.along.1),
-                    from: 5.0,
+                    first_ring: 5.0,
                     size: (wide, high),
                     preferred: arrow.beside(from, wide, high),
-                    ease: 0.0,
-                    roams: Some(f64::INFINITY),
+                    padding: 0.0,
+                    max_distance: Some(f64::INFINITY),
                 },
             ));
         }
@@ -441,11 +441,11 @@ impl<'a> Sheet<'a> {
             let middle = scene.body(body).polygon.centroid();
             let request = LabelRequest {
                 anchor: self.camera.place(middle),
-                from: 4.0,
+                first_ring: 4.0,
                 size,
                 preferred: self.inside(&scene.body(body).polygon),
-                ease: 8.0,
-                roams: own.then_some(f64::INFINITY),
+                padding: 8.0,
+                max_distance: own.then_some(f64::INFINITY),
             };
             let room = if own {
                 page
@@ -453,7 +453,7 @@ impl<'a> Sheet<'a> {
                 self.camera.rect(self.view)
             };
             // In another body it would seem to name that one; the heading names the block in any case.
-            let abroad = |_: usize, rect: PageRect| {
+            let covers_other_block = |_: usize, rect: PageRect| {
                 let at = rect.at.moved(rect.width / 2.0, rect.height / 2.0);
                 let at = self.camera.back(at);
                 let mut others = others.iter().filter(|other| **other != body);
@@ -462,7 +462,7 @@ impl<'a> Sheet<'a> {
                     polygon.contains(at) || runs_on(at, self.view, polygon.bounds())
                 })
             };
-            match place_where(ink, room, &[request], &abroad)[0].filter(|p| !p.disliked) {
+            match place_avoiding(ink, room, &[request], &covers_other_block)[0].filter(|p| !p.avoided) {
                 Some(placed) => {
                     if let Some(leader) = placed.leader {
                         let line = Outline::line(leader);

@@ -7,17 +7,17 @@ fn scene(text: &str) -> Scene {
     Scene::from_json(text).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
-fn of(scene: &Scene) -> Vec<Stretch> {
+fn of(scene: &Scene) -> Vec<ThrustSegment> {
     let analysis = Analysis::new(scene);
-    stretches(scene, &scene.frames[0], &analysis.frames[0], 1.0)
+    segments(scene, &scene.frames[0], &analysis.frames[0], 1.0)
 }
 
 #[test]
 fn in_an_arch_the_line_runs_from_joint_to_joint_and_bends_in_line_with_each_centroid() {
     let scene = scene(include_str!("../../../../assets/study/arch-27.json"));
-    let stretches = of(&scene);
+    let segments = of(&scene);
     let mut bends = 0;
-    for pair in stretches.chunk_by(|a, b| a.on == b.on) {
+    for pair in segments.chunk_by(|a, b| a.on == b.on) {
         let [a, b] = pair else {
             panic!("two pieces to a voussoir: {pair:?}")
         };
@@ -31,7 +31,7 @@ fn in_an_arch_the_line_runs_from_joint_to_joint_and_bends_in_line_with_each_cent
         }
     }
     assert!(bends >= 9, "{bends}");
-    assert!(stretches.iter().any(|s| !s.through));
+    assert!(segments.iter().any(|s| !s.through));
 }
 
 #[test]
@@ -57,15 +57,15 @@ fn beam(loads: &str) -> Scene {
 
 #[test]
 fn a_loaded_beam_shows_its_reactions_and_its_load_and_no_line_between_them() {
-    let stretches = of(&beam(
+    let segments = of(&beam(
         r#"{ "block": "beam", "force": [0, -12], "at": [4, 1] }"#,
     ));
-    assert_eq!(stretches.len(), 3, "{stretches:?}");
-    for s in &stretches {
+    assert_eq!(segments.len(), 3, "{segments:?}");
+    for s in &segments {
         assert!(!s.through && (s.to.x - s.from.x).abs() < 1e-9, "{s:?}");
         assert!((s.to - s.from).norm() <= 0.5 + 1e-9);
     }
-    let load = stretches.iter().find(|s| s.giver == Giver::Load(0));
+    let load = segments.iter().find(|s| s.origin == ForceOrigin::Load(0));
     let load = load.expect("the load belongs to the line");
     assert_eq!(
         (load.from, load.force),
@@ -80,17 +80,17 @@ fn a_load_bends_the_line_where_its_own_line_meets_it() {
              "blocks": [ { "id": "a", "polygon": [[0,0],[4,0],[4,4],[0,4]], "weight": 40 } ],
              "loads": [ { "block": "a", "force": [10, 0], "at": [0, 3] } ] }"#,
     );
-    let stretches = of(&scene);
+    let segments = of(&scene);
     // 40 N down through x = 2 and 10 N at height 3 meet in (2, 3); from there the ground is reached at (2.75, 0).
-    let [main, load] = &stretches[..] else {
-        panic!("{stretches:?}")
+    let [main, load] = &segments[..] else {
+        panic!("{segments:?}")
     };
     assert!(
         (main.from - Point::new(2.75, 0.0)).norm() < 1e-6,
         "{main:?}"
     );
     assert!((main.to - Point::new(2.0, 3.0)).norm() < 1e-6, "{main:?}");
-    assert_eq!(load.giver, Giver::Load(0));
+    assert_eq!(load.origin, ForceOrigin::Load(0));
     assert!((load.from - Point::new(0.0, 3.0)).norm() < 1e-9);
     assert!((load.to - main.to).norm() < 1e-6);
 }
@@ -102,14 +102,14 @@ fn a_stack_is_one_straight_line() {
              "blocks": [ { "id": "a", "polygon": [[0,0],[2,0],[2,1],[0,1]], "weight": 7 },
                          { "id": "b", "polygon": [[0,1],[2,1],[2,3],[0,3]], "weight": 5 } ] }"#,
     );
-    let stretches = of(&scene);
-    assert!(stretches.iter().all(|s| s.through), "{stretches:?}");
+    let segments = of(&scene);
+    assert!(segments.iter().all(|s| s.through), "{segments:?}");
     assert!(
-        stretches
+        segments
             .iter()
             .all(|s| (s.from.x - 1.0).abs() + (s.to.x - 1.0).abs() < 1e-6)
     );
-    let along: f64 = stretches.iter().map(|s| (s.to - s.from).norm()).sum();
+    let along: f64 = segments.iter().map(|s| (s.to - s.from).norm()).sum();
     // Through the lower block and up to the centroid of the upper one.
-    assert!((along - 2.0).abs() < 1e-6, "{stretches:?}");
+    assert!((along - 2.0).abs() < 1e-6, "{segments:?}");
 }
