@@ -234,6 +234,62 @@ pub enum Failure {
     },
 }
 
+impl Failure {
+    /// The point where it acts, metres.
+    pub fn at(&self) -> Point {
+        match *self {
+            Failure::Tension { at, .. }
+            | Failure::Friction { at, .. }
+            | Failure::RobotForce { at, .. }
+            | Failure::RobotTorque { at, .. } => at,
+        }
+    }
+
+    /// The missing force, N, on the first body of a joint or on the block that a robot holds; zero for a torque.
+    pub fn force(&self) -> Vector {
+        match *self {
+            Failure::Tension { force, .. }
+            | Failure::Friction { force, .. }
+            | Failure::RobotForce { force, .. } => force,
+            Failure::RobotTorque { .. } => Vector::zeros(),
+        }
+    }
+
+    /// The missing torque on the block that a robot holds, N·m; zero for a force.
+    pub fn torque(&self) -> f64 {
+        match *self {
+            Failure::RobotTorque { torque, .. } => torque,
+            _ => 0.0,
+        }
+    }
+
+    /// The missing force on a body, N, and the missing torque, N·m; `None` if it does not act on that body.
+    pub fn on(&self, body: BodyId) -> Option<(Vector, f64)> {
+        let sign = match *self {
+            Failure::Tension { bodies, .. } | Failure::Friction { bodies, .. } => match bodies {
+                [a, _] if a == body => 1.0,
+                [_, b] if b == body => -1.0,
+                _ => return None,
+            },
+            Failure::RobotForce { block, .. } | Failure::RobotTorque { block, .. } => {
+                if BodyId::Block(block) != body {
+                    return None;
+                }
+                1.0
+            }
+        };
+        Some((self.force() * sign, self.torque()))
+    }
+
+    /// The robot whose limits are exceeded; `None` for a joint.
+    pub fn robot(&self) -> Option<RobotId> {
+        match *self {
+            Failure::RobotForce { robot, .. } | Failure::RobotTorque { robot, .. } => Some(robot),
+            Failure::Tension { .. } | Failure::Friction { .. } => None,
+        }
+    }
+}
+
 /// What is known of the components of earlier frames.
 #[derive(Default)]
 struct Known {

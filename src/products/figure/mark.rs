@@ -72,13 +72,10 @@ pub(crate) fn largest(analysis: &Analysis, frame: usize, options: &Options) -> f
             for robot in found.robots.iter().filter(|r| shown(r.at)) {
                 most = most.max(robot.force.norm()).max(robot.torque.abs() / edge);
             }
-            for failure in found.failures.iter().filter(|f| shown(place(f))) {
-                most = most.max(match failure {
-                    Failure::Tension { force, .. }
-                    | Failure::Friction { force, .. }
-                    | Failure::RobotForce { force, .. } => force.norm(),
-                    Failure::RobotTorque { torque, .. } => torque.abs() / edge,
-                });
+            for failure in found.failures.iter().filter(|f| shown(f.at())) {
+                most = most
+                    .max(failure.force().norm())
+                    .max(failure.torque().abs() / edge);
             }
         }
     }
@@ -87,16 +84,6 @@ pub(crate) fn largest(analysis: &Analysis, frame: usize, options: &Options) -> f
         most = most.max(load.force.norm()).max(load.torque.abs() / edge);
     }
     most
-}
-
-/// Where something is missing.
-fn place(failure: &Failure) -> Point {
-    match failure {
-        Failure::Tension { at, .. }
-        | Failure::Friction { at, .. }
-        | Failure::RobotForce { at, .. }
-        | Failure::RobotTorque { at, .. } => *at,
-    }
 }
 
 /// Every arrow of frame `frame` (from 0), `newtons_per_unit` N being one unit edge long.

@@ -314,33 +314,21 @@ fn missing(
 ) -> Option<(String, &'static str, Point, (Vector, f64))> {
     let scene = &analysis.scene;
     let own = BodyId::Block(block);
-    let between = |what: &'static str, bodies: [BodyId; 2], at: Point, force: Vector| {
-        let (whose, force) = match bodies {
-            [a, b] if a == own => (b, force),
-            [a, b] if b == own => (a, -force),
-            _ => return None,
-        };
-        let whose = format!("missing, {}", named(analysis, whose));
-        Some((whose, what, at, (force, 0.0)))
+    let action = failure.on(own)?;
+    let what = match failure {
+        Failure::Tension { .. } => "Missing pull",
+        Failure::Friction { .. } => "Missing friction",
+        Failure::RobotForce { .. } => "Missing force",
+        Failure::RobotTorque { .. } => "Missing torque",
     };
-    let robot = |number: usize| format!("missing, robot {}", scene.robots[number].id);
-    match *failure {
-        Failure::Tension { bodies, at, force } => between("Missing pull", bodies, at, force),
-        Failure::Friction { bodies, at, force } => between("Missing friction", bodies, at, force),
-        Failure::RobotForce {
-            robot: r,
-            block: b,
-            at,
-            force,
-        } if b == block => Some((robot(r.0), "Missing force", at, (force, 0.0))),
-        Failure::RobotTorque {
-            robot: r,
-            block: b,
-            at,
-            torque,
-        } if b == block => Some((robot(r.0), "Missing torque", at, (Vector::zeros(), torque))),
-        _ => None,
-    }
+    let whose = match *failure {
+        Failure::Tension { bodies, .. } | Failure::Friction { bodies, .. } => {
+            let other = bodies.into_iter().find(|body| *body != own)?;
+            named(analysis, other)
+        }
+        _ => format!("robot {}", scene.robots[failure.robot()?.0].id),
+    };
+    Some((format!("missing, {whose}"), what, failure.at(), action))
 }
 
 /// A body as the list has it.
