@@ -41,13 +41,11 @@ impl Destination {
             .map(|e| e.to_string_lossy().to_ascii_lowercase());
         let by_name = ending.as_deref().and_then(Format::from_ending);
         let Some(by_name) = by_name else {
-            let (shown, endings) = (
-                path.display(),
-                Format::ALL.map(|f| format!(".{}", f.ending())),
-            );
+            let shown = path.display();
+            let endings = Format::ALL.map(|format| format!(".{}", format.ending()));
             return Err(CliError::CommandLine(format!(
-                "{shown}: a picture is one of {}; for a folder end its name with a slash",
-                endings.join(", ")
+                "{shown}: a picture is {}; for a folder end its name with a slash",
+                one_of(&endings)
             )));
         };
         match asked {
@@ -59,6 +57,14 @@ impl Destination {
             }
             _ => Ok(by_name),
         }
+    }
+}
+
+/// `.svg, .png or .pdf`.
+fn one_of(names: &[String]) -> String {
+    match names.split_last() {
+        Some((last, rest)) if !rest.is_empty() => format!("{} or {last}", rest.join(", ")),
+        _ => names.concat(),
     }
 }
 

@@ -128,8 +128,7 @@ fn preferred_position(ink: &Ink, page: PageRect, request: &LabelRequest) -> Opti
     let clearances = [request.padding, 0.4 * request.padding, 0.0];
     clearances.into_iter().find_map(|padding| {
         let mut centres = request.preferred.iter();
-        let rect =
-            centres.find_map(|at| fitting(ink, page, request, *at, CLEARANCE + padding))?;
+        let rect = centres.find_map(|at| fitting(ink, page, request, *at, CLEARANCE + padding))?;
         Some(Placed {
             avoided: false,
             rect,

@@ -75,6 +75,9 @@ mod tests {
         assert_eq!(between(&[Colour::BLACK]), vec![Colour::BLACK; LENGTH]);
         assert_eq!(between(&[]), Vec::new());
         let three = between(&[Colour::WHITE, Colour::hex(0xff0000), Colour::BLACK]);
-        assert_eq!((three[0], three[51].0[0], three[255]), (Colour::WHITE, 255, Colour::BLACK));
+        assert_eq!(
+            (three[0], three[51].0[0], three[255]),
+            (Colour::WHITE, 255, Colour::BLACK)
+        );
     }
 }

@@ -16,7 +16,7 @@ mod place;
 use self::place::Places;
 use super::arrow::{ForceArrow, Marks};
 use crate::drawing::arrow::{HEAD_WIDTH, head_size};
-use crate::geometry::{Bounds, Point, Vector};
+use crate::geometry::{Bounds, Vector};
 
 /// Arrows whose directions differ by less than this, rad (7°), count as parallel: they would cover each other over most of
 /// their lengths. Arrows at a larger angle cross, which can be read.
@@ -73,13 +73,16 @@ fn offset_of_least_change(
             at: arrow.at + across * *offset,
             ..*arrow
         };
-        !placed.any(space_around(&there), |other| too_close(&there, &arrows[other]))
+        !placed.any(space_around(&there), |other| {
+            too_close(&there, &arrows[other])
+        })
     };
     // Most arrows are clear at their ideal offset.
     if clear(&ideal) {
         return ideal;
     }
-    let distance = |offset: &f64| ((offset - ideal).abs() / arrow.width / OFFSET_RESOLUTION).round();
+    let distance =
+        |offset: &f64| ((offset - ideal).abs() / arrow.width / OFFSET_RESOLUTION).round();
     let nearest = |within: Option<Bounds>| {
         let mut offsets = vec![ideal, 0.0];
         for other in placed.meeting(within) {

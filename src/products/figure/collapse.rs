@@ -174,8 +174,9 @@ impl Sentences<'_> {
         let scene = &self.analysis.scene;
         let robots = &self.analysis.frames[self.frame].robots;
         let holding = robots.iter().find(|robot| {
-            body.iter()
-                .any(|m| m.block == robot.block && m.at(scene, robot.at).norm() < ROTATION_TOL * fastest)
+            body.iter().any(|m| {
+                m.block == robot.block && m.at(scene, robot.at).norm() < ROTATION_TOL * fastest
+            })
         })?;
         Some(&scene.robots[holding.robot.0].id)
     }

@@ -57,7 +57,8 @@ impl Displacement {
         } else {
             (sin / angle, (1.0 - cos) / angle)
         };
-        let translation = (motion.velocity * along + quarter_turn(motion.velocity) * aside) * amplitude;
+        let translation =
+            (motion.velocity * along + quarter_turn(motion.velocity) * aside) * amplitude;
         Displacement {
             centre: centroid,
             sin,
@@ -163,7 +164,10 @@ fn amplitude(analysis: &Analysis, group: &[Motion], unit: f64) -> f64 {
     if fastest <= 0.0 {
         return 0.0;
     }
-    let displacement = f64::max(MIN_DISPLACEMENT * unit.min(size), MIN_DISPLACEMENT_SHARE * size);
+    let displacement = f64::max(
+        MIN_DISPLACEMENT * unit.min(size),
+        MIN_DISPLACEMENT_SHARE * size,
+    );
     let amplitude = displacement / fastest;
     if spin > 0.0 {
         amplitude.min(MAX_ROTATION / spin)

@@ -287,7 +287,12 @@ impl BlockForces<'_> {
     }
 
     /// A segment of a line that runs through the block; `None` if it has no length.
-    fn segment(&self, origin: ForceOrigin, (from, to): (Point, Point), force: Vector) -> Option<ThrustSegment> {
+    fn segment(
+        &self,
+        origin: ForceOrigin,
+        (from, to): (Point, Point),
+        force: Vector,
+    ) -> Option<ThrustSegment> {
         let segment = ThrustSegment {
             on: self.id,
             origin,

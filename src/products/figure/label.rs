@@ -361,7 +361,8 @@ fn amounts(pen: &Pen<'_>) -> Vec<Label> {
     };
     let seen = |a: &&ForceArrow| pen.seen(a) || a.kind == ArrowKind::Load;
     let seen = marks.arrows.iter().filter(seen);
-    let wanted = |arrow: &&ForceArrow| is_shown(arrow.kind == ArrowKind::Load) && written_here(arrow);
+    let wanted =
+        |arrow: &&ForceArrow| is_shown(arrow.kind == ArrowKind::Load) && written_here(arrow);
     let straight = seen.filter(wanted).map(|arrow| {
         let words = quantity(arrow.force.norm(), "N");
         let (from, along) = (pen.camera.place(arrow.at), pen.camera.turn(arrow.reach()));

@@ -116,10 +116,18 @@ impl Layout {
                     let panel = context.view.height() * scale(columns) + words;
                     count.div_ceil(columns) as f64 * panel
                 };
-                let page = if across < PRINT_COLUMN.0 { PRINT_COLUMN.1 } else { MAX_PAGE_RATIO };
+                let page = if across < PRINT_COLUMN.0 {
+                    PRINT_COLUMN.1
+                } else {
+                    MAX_PAGE_RATIO
+                };
                 // More columns where the figure would not fit on a page; the fewest that help, or those that help most.
                 let narrow = roomy + 1..=count.min(MAX_COLUMNS);
-                let narrow = || narrow.clone().filter(|c| room(*c) >= MIN_NARROW_PANEL_WIDTH);
+                let narrow = || {
+                    narrow
+                        .clone()
+                        .filter(|c| room(*c) >= MIN_NARROW_PANEL_WIDTH)
+                };
                 if fit == Fit::Rows || high(roomy) <= page * across {
                     roomy
                 } else {
@@ -131,7 +139,11 @@ impl Layout {
             }
         };
         let scale = scale(columns);
-        let least = if count == 1 { 1.6 * MIN_PANEL_WIDTH } else { MIN_PANEL_WIDTH };
+        let least = if count == 1 {
+            1.6 * MIN_PANEL_WIDTH
+        } else {
+            MIN_PANEL_WIDTH
+        };
         let dimensions = dimensions(context);
         let panel = (context.view.width() * scale + dimensions).max(least.min(room(columns)));
         let between = (columns - 1) as f64 * gap;

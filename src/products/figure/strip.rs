@@ -400,7 +400,8 @@ impl Strip<'_> {
             ),
             ArrowScale::Strip => None,
         };
-        let scale = scale.filter(|_| options.keys && !self.context.arrows_too_small(self.layout.scale));
+        let scale =
+            scale.filter(|_| options.keys && !self.context.arrows_too_small(self.layout.scale));
         let long = scale.as_ref().map_or(0.0, |scale| {
             legend::widest(std::slice::from_ref(scale), theme)
         });

@@ -90,8 +90,7 @@ fn crossings(placed: &[Option<Placed>], i: usize, j: usize) -> usize {
                 leader.is_some_and(|line| !separated(&line, other) && !separated(other, &line))
             };
             let leaders = b.leader.is_some_and(|line| crosses(a.leader, &line));
-            let labels =
-                crosses(a.leader, &corners(b.rect)) || crosses(b.leader, &corners(a.rect));
+            let labels = crosses(a.leader, &corners(b.rect)) || crosses(b.leader, &corners(a.rect));
             count += usize::from(leaders) + usize::from(labels);
         }
     }

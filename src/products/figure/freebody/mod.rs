@@ -462,7 +462,9 @@ impl<'a> Sheet<'a> {
                     polygon.contains(at) || runs_on(at, self.view, polygon.bounds())
                 })
             };
-            match place_avoiding(ink, room, &[request], &covers_other_block)[0].filter(|p| !p.avoided) {
+            match place_avoiding(ink, room, &[request], &covers_other_block)[0]
+                .filter(|p| !p.avoided)
+            {
                 Some(placed) => {
                     if let Some(leader) = placed.leader {
                         let line = Outline::line(leader);
