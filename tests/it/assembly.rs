@@ -233,11 +233,16 @@ fn components_hold_every_body_contact_and_grip_once_and_effects_count_what_is_po
                 posed += all.len();
                 let count = UnknownCounts::new(&program, &all);
                 assert_eq!(
-                    count.contact
-                        + count.friction
-                        + count.corner_contact
-                        + count.robot
-                        + count.robot_torque,
+                    [
+                        EffectName::Contact,
+                        EffectName::Friction,
+                        EffectName::CornerContacts,
+                        EffectName::Robots,
+                        EffectName::RobotTorque,
+                    ]
+                    .map(|effect| count.get(effect))
+                    .iter()
+                    .sum::<usize>(),
                     all.len()
                 );
             }

@@ -17,7 +17,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("interface", &["geometry", "scene"]),
     ("assembly", &["geometry", "scene", "interface"]),
     ("effect", &["geometry", "scene", "interface", "assembly"]),
-    ("program", &["geometry", "interface", "assembly"]),
+    ("program", &["geometry", "interface", "assembly", "effect"]),
     ("solve", &["geometry", "interface", "program"]),
     ("proof", &["geometry", "scene", "interface", "assembly"]),
     ("resultant", &["geometry", "scene", "interface", "solve"]),

@@ -2,9 +2,7 @@
 
 use super::{FrameAnalysis, Verdict};
 use crate::effect::sticking::Sought;
-use crate::effect::{
-    FrameContext, contact, corner_contact, friction, mechanism, robot, robot_torque, sticking,
-};
+use crate::effect::{EffectName, FrameContext, mechanism, sticking};
 use crate::program::UnknownCounts;
 use crate::proof::Proof;
 
@@ -52,7 +50,7 @@ pub(super) fn worst(a: Proof, b: Proof) -> Proof {
 pub(super) fn settle(
     analysis: &mut FrameAnalysis,
     situation: &FrameContext,
-    count: UnknownCounts,
+    counts: &UnknownCounts,
     verdict_only: bool,
 ) {
     let unstable = analysis.verdict == Verdict::Unstable;
@@ -60,14 +58,7 @@ pub(super) fn settle(
         analysis.doubts.clear();
     }
     for report in analysis.effects.iter_mut().filter(|r| r.simulated) {
-        report.unknowns = match report.effect {
-            contact::NAME => count.contact,
-            friction::NAME => count.friction,
-            corner_contact::NAME => count.corner_contact,
-            robot::NAME => count.robot,
-            robot_torque::NAME => count.robot_torque,
-            _ => 0,
-        };
+        report.unknowns = counts.get(report.effect);
     }
     let blocks = situation.frame.placed.len();
     let sought = match verdict_only {
@@ -75,9 +66,11 @@ pub(super) fn settle(
         _ if analysis.failures.is_empty() => Sought::NotNeeded,
         _ => Sought::Found,
     };
-    analysis
-        .effects
-        .push(sticking::report(blocks, sought, count.sticking));
+    analysis.effects.push(sticking::report(
+        blocks,
+        sought,
+        counts.get(EffectName::Sticking),
+    ));
     analysis.effects.push(mechanism::report(unstable));
     match (verdict_only, analysis.verdict) {
         (true, Verdict::Stable) => analysis.notices.push(

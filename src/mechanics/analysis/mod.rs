@@ -425,8 +425,8 @@ fn examined(situation: &FrameContext, options: Options, known: &mut Known) -> Fr
     }
     let count = found
         .iter()
-        .fold(UnknownCounts::default(), |sum, f| sum.and(f.1.count));
-    settle(&mut analysis, situation, count, options.verdict_only);
+        .fold(UnknownCounts::default(), |sum, f| sum.plus(&f.1.count));
+    settle(&mut analysis, situation, &count, options.verdict_only);
     if analysis.verdict == Verdict::Undecided && options.is_late() {
         analysis.doubts.insert(0, UndecidedReason::Late);
     }

@@ -7,6 +7,7 @@
 //! unknowns, the same optimum).
 
 use super::{ContactTerm, GripTerm, Program};
+use crate::effect::EffectName;
 use crate::geometry::{Vector, cross, quarter_turn};
 use crate::interface::ContactKind;
 
@@ -65,6 +66,24 @@ impl Force {
             self,
             Force::StickNormal { .. } | Force::StickFriction { .. } | Force::StickGrip { .. }
         )
+    }
+
+    /// The effect that the force belongs to.
+    fn effect(&self, program: &Program) -> EffectName {
+        match *self {
+            Force::Ray {
+                contact, friction, ..
+            } => match (program.contacts[contact].kind, friction) {
+                (ContactKind::Corner, _) => EffectName::CornerContacts,
+                (ContactKind::Edge, 0.0) => EffectName::Contact,
+                (ContactKind::Edge, _) => EffectName::Friction,
+            },
+            Force::Grip { component: 2, .. } => EffectName::RobotTorque,
+            Force::Grip { .. } => EffectName::Robots,
+            Force::StickNormal { .. } | Force::StickFriction { .. } | Force::StickGrip { .. } => {
+                EffectName::Sticking
+            }
+        }
     }
 }
 
@@ -180,57 +199,44 @@ impl Column {
     }
 }
 
-/// How many unknowns each effect has in a program.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// The number of unknowns that each effect has in a program.
+#[derive(Clone, Debug, Default)]
 pub struct UnknownCounts {
-    /// Normal forces of edge contacts.
-    pub contact: usize,
-    /// Normal forces with full friction of edge contacts.
-    pub friction: usize,
-    /// All forces of corner contacts.
-    pub corner_contact: usize,
-    /// Forces of robots.
-    pub robot: usize,
-    /// Torques of robots.
-    pub robot_torque: usize,
-    /// Sticking forces.
-    pub sticking: usize,
+    /// The effects that have unknowns. The list is so short that a linear search is quickest.
+    counts: Vec<(EffectName, usize)>,
 }
 
 impl UnknownCounts {
-    /// Counts columns, `program`'s own.
+    /// Counts the columns of a program by the effect that each belongs to.
     pub fn new<'a>(
         program: &Program,
         columns: impl IntoIterator<Item = &'a Column>,
     ) -> UnknownCounts {
-        let mut count = UnknownCounts::default();
+        let mut counts = UnknownCounts::default();
         for column in columns {
-            let of = match column.force {
-                Force::Ray {
-                    contact, friction, ..
-                } => match (program.contacts[contact].kind, friction) {
-                    (ContactKind::Corner, _) => &mut count.corner_contact,
-                    (ContactKind::Edge, 0.0) => &mut count.contact,
-                    (ContactKind::Edge, _) => &mut count.friction,
-                },
-                Force::Grip { component: 2, .. } => &mut count.robot_torque,
-                Force::Grip { .. } => &mut count.robot,
-                _ => &mut count.sticking,
-            };
-            *of += 1;
+            counts.add(column.force.effect(program), 1);
         }
-        count
+        counts
     }
 
-    /// The sum of two counts.
-    pub fn and(self, other: UnknownCounts) -> UnknownCounts {
-        UnknownCounts {
-            contact: self.contact + other.contact,
-            friction: self.friction + other.friction,
-            corner_contact: self.corner_contact + other.corner_contact,
-            robot: self.robot + other.robot,
-            robot_torque: self.robot_torque + other.robot_torque,
-            sticking: self.sticking + other.sticking,
+    /// The number of unknowns of an effect; 0 for an effect without columns of its own.
+    pub fn get(&self, effect: EffectName) -> usize {
+        let entry = self.counts.iter().find(|entry| entry.0 == effect);
+        entry.map_or(0, |entry| entry.1)
+    }
+
+    /// The sum of two counts, effect by effect.
+    pub fn plus(mut self, other: &UnknownCounts) -> UnknownCounts {
+        for (effect, count) in &other.counts {
+            self.add(*effect, *count);
+        }
+        self
+    }
+
+    fn add(&mut self, effect: EffectName, count: usize) {
+        match self.counts.iter_mut().find(|entry| entry.0 == effect) {
+            Some(entry) => entry.1 += count,
+            None => self.counts.push((effect, count)),
         }
     }
 }

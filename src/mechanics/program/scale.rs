@@ -18,7 +18,7 @@ pub struct Scale {
 impl Scale {
     /// The scale of an assembly: its L, and its heaviest load.
     pub fn from_assembly(assembly: &Assembly) -> Scale {
-        Scale::new(assembly.length, assembly.heaviest())
+        Scale::new(assembly.length, assembly.heaviest_load())
     }
 
     /// The heaviest load of a frame in pure units.

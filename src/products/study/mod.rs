@@ -150,7 +150,7 @@ impl Task {
         let programs = assembly
             .components()
             .iter()
-            .filter(|component| component.heaviest() > 0.0)
+            .filter(|component| component.heaviest_load() > 0.0)
             .map(|component| Program::new(component, Scale::from_assembly(component)))
             .collect();
         Task { scene, programs }

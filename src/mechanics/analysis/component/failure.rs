@@ -2,7 +2,7 @@
 
 use super::Case;
 use crate::analysis::Failure;
-use crate::assembly::{Assembly, about};
+use crate::assembly::{Assembly, load_about};
 use crate::geometry::{Point, Vector};
 use crate::proof::{Forces, gross_load};
 use crate::solve::Amounts;
@@ -92,7 +92,7 @@ impl Case<'_> {
         held.load_factor = 1.0;
         let mut act = |body: usize, at: Point, force: Vector, torque: f64| {
             let body = &mut held.bodies[body];
-            body.listed = body.listed.and(about(body.centroid, at, force, torque));
+            body.listed = body.listed.plus(load_about(body.centroid, at, force, torque));
         };
         for (k, contact) in self.assembly.contacts.iter().enumerate() {
             let pulls = contact.points.into_iter().zip(sticking.normal[k]);

@@ -87,7 +87,7 @@ impl Case<'_> {
     fn in_newtons(&self, amounts: &Amounts, noise: Noise) -> Forces {
         let unit = self.scale.force;
         let demand = 0.1 * self.demand.imbalance;
-        let heaviest = match self.assembly.heaviest() {
+        let heaviest = match self.assembly.heaviest_load() {
             0.0 => 1.0,
             heaviest => heaviest,
         };

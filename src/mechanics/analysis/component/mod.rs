@@ -67,7 +67,7 @@ pub(super) fn solved(assembly: &Assembly, options: Options) -> Findings {
     let case = Case::new(assembly, options);
     let program = Program::new(assembly, case.scale);
     let count = UnknownCounts::new(&program, &columns(&program))
-        .and(UnknownCounts::new(&program, &sticking_columns(&program)));
+        .plus(&UnknownCounts::new(&program, &sticking_columns(&program)));
     if let Some(found) = case.in_closed_form(&program) {
         return Findings { count, ..found };
     }
@@ -107,7 +107,7 @@ impl<'a> Case<'a> {
 
     /// What can be answered without a solver.
     fn in_closed_form(&self, program: &Program) -> Option<Findings> {
-        let found = if self.assembly.heaviest() == 0.0 {
+        let found = if self.assembly.heaviest_load() == 0.0 {
             self.stands(self.carried(&Amounts::none(program)))
         } else if let Some((mechanism, proof)) = self.falls_free() {
             Findings {

@@ -55,7 +55,7 @@ impl Case<'_> {
             .iter()
             .map(|m| m.velocity.norm() + m.spin.abs() * self.assembly.length)
             .sum();
-        let heaviest = self.assembly.heaviest();
+        let heaviest = self.assembly.heaviest_load();
         let load = proof::moving_load(self.assembly, motion);
         matches!(proof, Proof::Mechanism { power, .. } if power * load > 2.0 * Proof::IMBALANCE_TOL * heaviest * ways)
     }
@@ -66,8 +66,8 @@ impl Case<'_> {
             return None;
         }
         let loads = self.assembly.bodies.iter().map(|body| body.load);
-        let total = loads.fold(LoadVector::NONE, LoadVector::and).force;
-        if total.norm() <= Proof::IMBALANCE_TOL * self.assembly.heaviest() {
+        let total = loads.fold(LoadVector::NONE, LoadVector::plus).force;
+        if total.norm() <= Proof::IMBALANCE_TOL * self.assembly.heaviest_load() {
             return None;
         }
         let velocity = total.normalize();

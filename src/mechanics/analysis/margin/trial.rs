@@ -224,7 +224,7 @@ impl<'a> Trial<'a> {
     /// The program at one setting, and what must be added to its load vector for another.
     pub fn direction(&self, from: &Setting, to: &Setting) -> (Program, Vec<f64>) {
         let [here, there] = [from, to].map(|setting| self.changed(setting));
-        let heaviest = here.heaviest().max(there.heaviest());
+        let heaviest = here.heaviest_load().max(there.heaviest_load());
         let scale = Scale::new(self.given.length, heaviest);
         let [here, there] = [here, there].map(|assembly| Program::new(&assembly, scale));
         let toward = there.loads.iter().zip(&here.loads).map(|(a, b)| a - b);

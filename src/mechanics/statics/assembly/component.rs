@@ -1,12 +1,12 @@
-//! Components: bodies that can influence each other, found by following contacts that avoid the ground.
+//! [`Assembly::components`]: splits an assembly into parts that cannot influence each other.
 
 use super::{Assembly, AssemblyContact, AssemblyGrip};
 
 impl Assembly {
-    /// Parts the assembly into components, in the order of their first bodies.
+    /// The connected components of the assembly, in the order of their first bodies.
     ///
-    /// Two bodies are in one component when a chain of contacts leads from one to the other without passing the ground.
-    /// L stays that of the whole, so that torques weigh alike everywhere.
+    /// Two bodies are in one component if a chain of contacts connects them without passing through the ground. All
+    /// components keep the L of the whole assembly, so that torques have the same weight everywhere.
     pub fn components(&self) -> Vec<Assembly> {
         let mut sets = DisjointSets::new(self.bodies.len());
         for contact in &self.contacts {
@@ -15,7 +15,7 @@ impl Assembly {
             }
         }
         let mut parts: Vec<Assembly> = Vec::new();
-        // By root the component's number; by body its component and its number there.
+        // The component of each root; then, for each body, its component and its index there.
         let mut part_of_root: Vec<Option<usize>> = vec![None; self.bodies.len()];
         let mut place = Vec::with_capacity(self.bodies.len());
         for (number, body) in self.bodies.iter().enumerate() {
@@ -47,37 +47,39 @@ impl Assembly {
         parts
     }
 
-    /// Whether it touches no ground and nobody holds it.
+    /// Whether no body touches the ground and no robot holds one.
     pub fn is_unsupported(&self) -> bool {
         self.grips.is_empty() && self.contacts.iter().all(|c| c.from.is_some())
     }
 }
 
-/// Disjoint sets of numbers, each known by its least member.
+/// A partition of 0 … n − 1 into disjoint sets (union-find with path halving); each set is named by its least member.
+///
+/// Reference: Tarjan and van Leeuwen, Worst-Case Analysis of Set Union Algorithms, 1984.
 pub(crate) struct DisjointSets {
-    above: Vec<usize>,
+    parent: Vec<usize>,
 }
 
 impl DisjointSets {
-    /// So many numbers, each a set of its own.
+    /// The numbers 0 … `count` − 1, each in a set of its own.
     pub fn new(count: usize) -> DisjointSets {
         DisjointSets {
-            above: (0..count).collect(),
+            parent: (0..count).collect(),
         }
     }
 
-    /// The least member of a number's set.
+    /// The least member of the set that contains a number.
     pub fn find(&mut self, mut number: usize) -> usize {
-        while self.above[number] != number {
-            self.above[number] = self.above[self.above[number]];
-            number = self.above[number];
+        while self.parent[number] != number {
+            self.parent[number] = self.parent[self.parent[number]];
+            number = self.parent[number];
         }
         number
     }
 
-    /// Makes the sets of two numbers one.
+    /// Merges the sets of two numbers.
     pub fn union(&mut self, one: usize, other: usize) {
         let (one, other) = (self.find(one), self.find(other));
-        self.above[one.max(other)] = one.min(other);
+        self.parent[one.max(other)] = one.min(other);
     }
 }

@@ -1,32 +1,36 @@
-//! [`Assembly::merged`]: bodies that move as one, as one body.
+//! [`Assembly::merged`]: replaces groups of bodies that move together by one rigid body each.
 
-use super::{Assembly, AssemblyBody, AssemblyContact, AssemblyGrip, LoadVector, about};
+use super::{Assembly, AssemblyBody, AssemblyContact, AssemblyGrip, LoadVector, load_about};
 use crate::geometry::{Point, Vector};
 
 impl Assembly {
-    /// The assembly with the bodies of each piece as one, and those without a piece as ground.
+    /// The assembly with the bodies of each group merged into one body.
     ///
-    /// A piece's centroid is the mean of its bodies' centroids. Contacts within a piece are left out, and grips on ground.
-    pub fn merged(&self, piece: &[Option<usize>]) -> Assembly {
-        let count = piece.iter().flatten().max().map_or(0, |most| most + 1);
+    /// `group` holds the group of each body; a body without a group becomes part of the ground. The centroid of a merged
+    /// body is the mean of its members' centroids. Contacts within a group and grips on the ground are left out.
+    pub fn merged(&self, group: &[Option<usize>]) -> Assembly {
+        let count = group.iter().flatten().max().map_or(0, |last| last + 1);
         let mut members: Vec<Vec<&AssemblyBody>> = vec![Vec::new(); count];
-        for (body, piece) in self.bodies.iter().zip(piece) {
-            if let Some(piece) = piece {
-                members[*piece].push(body);
+        for (body, group) in self.bodies.iter().zip(group) {
+            if let Some(group) = group {
+                members[*group].push(body);
             }
         }
         let contacts = self.contacts.iter().filter_map(|contact| {
-            let from = contact.from.and_then(|body| piece[body]);
-            contact.between(piece[contact.on], from)
+            let from = contact.from.and_then(|body| group[body]);
+            contact.with_bodies(group[contact.on], from)
         });
         let grips = self.grips.iter().filter_map(|grip| {
             Some(AssemblyGrip {
-                body: piece[grip.body]?,
+                body: group[grip.body]?,
                 ..*grip
             })
         });
         Assembly {
-            bodies: members.iter().filter_map(|list| one_of(list)).collect(),
+            bodies: members
+                .iter()
+                .filter_map(|list| merged_body(list))
+                .collect(),
             contacts: contacts.collect(),
             grips: grips.collect(),
             ..*self
@@ -34,15 +38,16 @@ impl Assembly {
     }
 }
 
-/// Some bodies as one; `None` of none.
-fn one_of(members: &[&AssemblyBody]) -> Option<AssemblyBody> {
+/// One rigid body in place of several; `None` if there are none.
+fn merged_body(members: &[&AssemblyBody]) -> Option<AssemblyBody> {
     let first = members.first()?;
     let sum: Vector = members.iter().map(|body| body.centroid.coords).sum();
     let centroid = Point::from(sum / members.len() as f64);
-    let moved = |of: fn(&AssemblyBody) -> LoadVector| {
+    // Each member's load keeps its line of action: it gains a moment about the common centroid.
+    let summed = |load: fn(&AssemblyBody) -> LoadVector| {
         members.iter().fold(LoadVector::NONE, |sum, body| {
-            let own = of(body);
-            sum.and(about(centroid, body.centroid, own.force, own.moment))
+            let own = load(body);
+            sum.plus(load_about(centroid, body.centroid, own.force, own.moment))
         })
     };
     let corners = members.iter().flat_map(|body| body.corners.iter().copied());
@@ -51,14 +56,16 @@ fn one_of(members: &[&AssemblyBody]) -> Option<AssemblyBody> {
         centroid,
         corners: corners.collect(),
         weight: members.iter().map(|body| body.weight).sum(),
-        listed: moved(|body| body.listed),
-        load: moved(|body| body.load),
+        listed: summed(|body| body.listed),
+        load: summed(|body| body.load),
     })
 }
 
 impl AssemblyContact {
-    /// The contact with other numbers for its bodies, `None` for the ground; nothing where both are the same.
-    pub(super) fn between(
+    /// The contact between bodies with other numbers, `None` for the ground; no contact if both are the same.
+    ///
+    /// A contact whose first body becomes ground is turned round, because the first body is never the ground.
+    pub(super) fn with_bodies(
         &self,
         on: Option<usize>,
         from: Option<usize>,

@@ -1,11 +1,11 @@
-//! [`Assembly`]: one frame of a scene, resolved: what is balanced, by which forces, in metres and newtons.
+//! [`Assembly`]: one frame of a scene as free bodies, contacts and grips, in metres and newtons.
 //!
-//! An assembly knows bodies with their load vectors, contacts with their application points, and grips with their limits,
-//! and nothing of files, steps or materials. The effects of [`crate::effect`] put it together; [`Assembly::components`] parts it
-//! into components that cannot influence each other; the `with_…` functions make the changed assemblies that margins are
-//! found from, without touching the scene. Invariant: body, contact and grip numbers are indices into its own lists, every
-//! contact's first body is in it, and each load vector is the sum that [`Assembly::with_summed_loads`] makes of the weight and the
-//! listed loads.
+//! An assembly has bodies with load vectors, contacts with application points, and grips with limits; it knows nothing of
+//! files, steps or materials. The effects of [`crate::effect`] build it. [`Assembly::components`] splits it into components
+//! that cannot influence each other. The `with_…` functions return varied assemblies, from which margins are computed.
+//!
+//! Invariant: body, contact and grip numbers are indices into the assembly's own lists. The first body of a contact is
+//! never the ground. Each load vector is the sum of weight and listed loads ([`Assembly::with_summed_loads`]).
 
 mod component;
 mod merge;
@@ -21,24 +21,24 @@ use crate::geometry::{Point, Vector, cross, quarter_turn};
 use crate::interface::{ContactKind, Interface};
 use crate::scene::{BlockId, BodyId, Frame, Limits, RobotId, Scene};
 
-/// One frame of a scene, or a component of it, resolved.
+/// One frame of a scene, or a component of it, as a system of rigid bodies.
 #[derive(Clone, Debug)]
 pub struct Assembly {
     /// The free bodies, in the order of their blocks.
     pub bodies: Vec<AssemblyBody>,
-    /// Where they touch each other or the ground, in the order of the frame's interfaces.
+    /// The contacts between bodies, and between bodies and the ground, in the order of the frame's interfaces.
     pub contacts: Vec<AssemblyContact>,
-    /// Where robots hold them, in the order of the frame's holds.
+    /// The grips of robots on bodies, in the order of the frame's holds.
     pub grips: Vec<AssemblyGrip>,
-    /// The pull of gravity in newtons per newton of weight: a unit vector along gravity unless changed.
+    /// The direction of gravity, in newtons per newton of weight: a unit vector, unless a margin varies it.
     pub pull: Vector,
-    /// The factor on the listed loads: 1 unless changed.
+    /// The factor on the listed loads: 1, unless a margin varies it.
     pub load_factor: f64,
-    /// L in metres, by which torques are weighed against forces: the median length of the frame's interfaces.
+    /// The characteristic length L in metres: a torque M counts as the force M/L. The median length of the interfaces.
     pub length: f64,
 }
 
-/// Force and moment about the body's centroid.
+/// A force, and a moment about a body's centroid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadVector {
     /// Force, N.
@@ -54,8 +54,8 @@ impl LoadVector {
         moment: 0.0,
     };
 
-    /// The sum of two load vectors about one centroid.
-    pub fn and(self, other: LoadVector) -> LoadVector {
+    /// The sum of two load vectors about the same centroid.
+    pub fn plus(self, other: LoadVector) -> LoadVector {
         LoadVector {
             force: self.force + other.force,
             moment: self.moment + other.moment,
@@ -70,7 +70,7 @@ impl LoadVector {
         }
     }
 
-    /// Its size in newtons, a moment divided by `length` (m).
+    /// The larger of the force and of the moment divided by `length` metres, in newtons.
     pub fn size(&self, length: f64) -> f64 {
         self.force.norm().max(self.moment.abs() / length)
     }
@@ -87,14 +87,14 @@ pub struct AssemblyBody {
     pub corners: Arc<[Point]>,
     /// Weight, N; 0 where no gravity acts on it.
     pub weight: f64,
-    /// The sum of the loads that the scene lists for it, as listed.
+    /// The sum of the loads that the scene lists for the block, without the load factor.
     pub listed: LoadVector,
-    /// All that acts on it beside contacts and robots: pull · weight + factor · listed.
+    /// The total load, without contacts and robots: pull · weight + load factor · listed.
     pub load: LoadVector,
 }
 
 impl AssemblyBody {
-    /// Distance of the farthest corner from the centroid, metres.
+    /// The largest distance of a corner from the centroid, metres.
     pub fn radius(&self) -> f64 {
         let reach = self.corners.iter().map(|p| (p - self.centroid).norm());
         reach.fold(0.0, f64::max)
@@ -104,19 +104,19 @@ impl AssemblyBody {
 /// A contact between two bodies, or between a body and the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AssemblyContact {
-    /// Its number among the frame's interfaces.
+    /// The index of the interface among the frame's interfaces.
     pub interface: usize,
-    /// The two bodies of the scene, `on` first.
+    /// The two bodies in the scene, that of `on` first.
     pub bodies: [BodyId; 2],
-    /// The body whose forces are counted positive.
+    /// The body on which the contact force acts with positive sign; the partner receives the opposite force.
     pub on: usize,
-    /// Its partner, `None` for the ground.
+    /// The other body, `None` for the ground.
     pub from: Option<usize>,
     /// Edge or corner.
     pub kind: ContactKind,
     /// Ends of the stretch, metres, from the first to the second along (−n_y, n_x).
     pub ends: [Point; 2],
-    /// The application points, metres: the ends moved inward by the kernel.
+    /// The application points of the normal forces, metres: the ends, moved inward by the safety kernel.
     pub points: [Point; 2],
     /// Unit normal into `on`.
     pub normal: Vector,
@@ -130,7 +130,7 @@ impl AssemblyContact {
         quarter_turn(self.normal)
     }
 
-    /// How many application points carry force: 2, or 1 of a corner.
+    /// The number of application points that carry force: 2 for an edge, 1 for a corner.
     pub fn points_in_use(&self) -> usize {
         match self.kind {
             ContactKind::Edge => 2,
@@ -139,10 +139,10 @@ impl AssemblyContact {
     }
 }
 
-/// A robot's hold on a body.
+/// The grip of a robot on a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AssemblyGrip {
-    /// Its number among the frame's holds.
+    /// The index of the hold among the frame's holds.
     pub hold: usize,
     /// The robot.
     pub robot: RobotId,
@@ -150,12 +150,12 @@ pub struct AssemblyGrip {
     pub body: usize,
     /// The grip point, metres.
     pub at: Point,
-    /// Largest amounts it can give; 0 of a component that is not simulated.
+    /// The largest force components and torque; 0 for a component that is not simulated.
     pub limits: Limits,
 }
 
 impl Assembly {
-    /// The placed bodies of a frame with nothing that acts on them: what effects contribute to.
+    /// The bodies that are placed in a frame, without loads, contacts and grips: the effects add these.
     pub fn without_effects(scene: &Scene, frame: &Frame, interfaces: &[&Interface]) -> Assembly {
         let mut placed = frame.placed.clone();
         placed.sort();
@@ -176,33 +176,33 @@ impl Assembly {
             grips: Vec::new(),
             pull: Vector::zeros(),
             load_factor: 1.0,
-            length: length(scene, frame, interfaces),
+            length: characteristic_length(scene, frame, interfaces),
         }
     }
 
-    /// The number of each placed block among the bodies, by the block's number in the scene.
-    pub fn numbers(&self, blocks: usize) -> Vec<Option<usize>> {
-        let mut numbers = vec![None; blocks];
+    /// For each of the scene's `blocks` blocks the index of its body, `None` if it is not placed.
+    pub fn body_of_block(&self, blocks: usize) -> Vec<Option<usize>> {
+        let mut body_of_block = vec![None; blocks];
         for (number, body) in self.bodies.iter().enumerate() {
-            numbers[body.block.0] = Some(number);
+            body_of_block[body.block.0] = Some(number);
         }
-        numbers
+        body_of_block
     }
 
-    /// The assembly with every load vector summed anew from weight, pull and listed loads.
+    /// The assembly with the load vector of each body computed again from weight, gravity and listed loads.
     pub fn with_summed_loads(mut self) -> Assembly {
         for body in &mut self.bodies {
             let weight = LoadVector {
                 force: self.pull * body.weight,
                 moment: 0.0,
             };
-            body.load = weight.and(body.listed.times(self.load_factor));
+            body.load = weight.plus(body.listed.times(self.load_factor));
         }
         self
     }
 
-    /// The heaviest load: the largest force, moment over L, or weight as gravity pulls it, N.
-    pub fn heaviest(&self) -> f64 {
+    /// The largest load of all bodies in newtons: force, moment over L, or weight under the present gravity.
+    pub fn heaviest_load(&self) -> f64 {
         let pull = self.pull.norm();
         self.bodies
             .iter()
@@ -211,17 +211,19 @@ impl Assembly {
     }
 }
 
-/// The load vector of a force with its point and a torque, about a centroid.
-pub fn about(centroid: Point, at: Point, force: Vector, torque: f64) -> LoadVector {
+/// The load vector, about `centroid`, of a force at the point `at` and a torque.
+pub fn load_about(centroid: Point, at: Point, force: Vector, torque: f64) -> LoadVector {
     LoadVector {
         force,
         moment: cross(at - centroid, force) + torque,
     }
 }
 
-/// L: the median length of the frame's edge interfaces, or the median placed block's square root of area where none
-/// touches; metres. It depends on nothing that is placed later.
-fn length(scene: &Scene, frame: &Frame, interfaces: &[&Interface]) -> f64 {
+/// The characteristic length L of a frame in metres: the median length of its edge interfaces.
+///
+/// Without edge interfaces it is the median square root of the placed blocks' areas. It depends only on what is placed, so
+/// that an answer for a step does not change with later steps.
+fn characteristic_length(scene: &Scene, frame: &Frame, interfaces: &[&Interface]) -> f64 {
     let edges = interfaces.iter().filter(|i| i.kind == ContactKind::Edge);
     let area = |b: &BlockId| scene.blocks[b.0].body.polygon.area();
     median(edges.map(|i| i.length()).collect())
@@ -229,7 +231,7 @@ fn length(scene: &Scene, frame: &Frame, interfaces: &[&Interface]) -> f64 {
         .unwrap_or(1.0)
 }
 
-/// The lower median of a list, `None` of an empty one.
+/// The lower median of a list; `None` for an empty list.
 fn median(mut list: Vec<f64>) -> Option<f64> {
     list.sort_by(f64::total_cmp);
     list.get(list.len().saturating_sub(1) / 2).copied()

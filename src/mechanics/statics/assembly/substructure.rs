@@ -1,25 +1,25 @@
-//! Parts: some bodies of an assembly, all others held still.
+//! [`Substructure`]: some bodies of an assembly, with all others fixed.
 
 use super::{Assembly, AssemblyGrip};
 
-/// Some bodies of an assembly with all others held still, as if they were ground.
+/// Some bodies of an assembly, with all other bodies fixed as if they were ground.
 #[derive(Clone, Debug)]
 pub struct Substructure {
-    /// The bodies as an assembly of their own. L is the median length of its contacts.
+    /// The bodies as an assembly of their own. Its L is the median length of its own contacts.
     pub assembly: Assembly,
-    /// The number of each of its bodies in the whole.
+    /// For each of its bodies the index in the whole assembly.
     pub bodies: Vec<usize>,
-    /// The number of each of its contacts in the whole.
+    /// For each of its contacts the index in the whole assembly.
     ///
-    /// Forces are the same numbers in both, even where the part's contact is seen from the other side: what one body
-    /// gives to the other along the normal and along the tangent turns round together with them.
+    /// The forces N1, N2 and T are the same numbers in both, even if the contact is turned round here: normal and tangent
+    /// turn round with it.
     pub contacts: Vec<usize>,
-    /// The number of each of its grips in the whole.
+    /// For each of its grips the index in the whole assembly.
     pub grips: Vec<usize>,
 }
 
 impl Assembly {
-    /// The part of the bodies with these numbers, which are in ascending order.
+    /// The substructure of the bodies with these indices, which must be in ascending order.
     pub fn substructure(&self, bodies: &[usize]) -> Substructure {
         let mut place = vec![None; self.bodies.len()];
         for (number, body) in bodies.iter().enumerate() {
@@ -34,7 +34,7 @@ impl Assembly {
         };
         for (number, contact) in self.contacts.iter().enumerate() {
             let from = contact.from.and_then(|body| place[body]);
-            let Some(seen) = contact.between(place[contact.on], from) else {
+            let Some(seen) = contact.with_bodies(place[contact.on], from) else {
                 continue;
             };
             part.contacts.push(seen);
@@ -60,13 +60,13 @@ impl Assembly {
         }
     }
 
-    /// The connected sets of bodies for which `member` holds, each in ascending order.
+    /// The connected sets of those bodies for which `member` is true, each in ascending order.
     pub fn connected(&self, member: &[bool]) -> Vec<Vec<usize>> {
-        let mut beside: Vec<Vec<usize>> = vec![Vec::new(); self.bodies.len()];
+        let mut neighbours: Vec<Vec<usize>> = vec![Vec::new(); self.bodies.len()];
         for contact in &self.contacts {
             if let Some(from) = contact.from {
-                beside[contact.on].push(from);
-                beside[from].push(contact.on);
+                neighbours[contact.on].push(from);
+                neighbours[from].push(contact.on);
             }
         }
         let mut seen = vec![false; self.bodies.len()];
@@ -80,7 +80,7 @@ impl Assembly {
             let mut next = 0;
             while let Some(body) = set.get(next).copied() {
                 next += 1;
-                for other in &beside[body] {
+                for other in &neighbours[body] {
                     if member[*other] && !seen[*other] {
                         seen[*other] = true;
                         set.push(*other);

@@ -1,39 +1,45 @@
-//! Contact: two normal forces per edge interface, pressing only. Source: [Vallat23](crate::doc::references) §2.0.1–2.
+//! Contact: two normal forces per edge interface, one at each end; they press and never pull.
+//!
+//! Source: [Vallat23](crate::doc::references) §2.0.1–2.
 
-use super::{Applicability, EffectName, FrameContext, counted};
+use super::{Applicability, Effect, EffectName, FrameContext, counted};
 use crate::assembly::{Assembly, AssemblyContact};
 use crate::interface::{ContactKind, Interface};
 use crate::scene::BodyId;
 
-/// Name in results.
-pub const NAME: EffectName = EffectName::Contact;
+/// Normal forces between edges that touch. Applies if two bodies touch; contributes one smooth contact per edge interface.
+pub(super) struct Contact;
 
-/// Called for when two bodies touch.
-pub fn called_for(situation: &FrameContext) -> Applicability {
-    match situation.interfaces.len() {
-        0 => Applicability::not("no two bodies touch"),
-        n => Applicability::For(counted(n, "interface")),
+impl Effect for Contact {
+    fn name(&self) -> EffectName {
+        EffectName::Contact
+    }
+
+    fn applicability(&self, context: &FrameContext) -> Applicability {
+        match context.interfaces.len() {
+            0 => Applicability::skipped("no two bodies touch"),
+            n => Applicability::Applies(counted(n, "interface")),
+        }
+    }
+
+    fn contribute(&self, context: &FrameContext, assembly: &mut Assembly) {
+        add(context, assembly, ContactKind::Edge, |_| 0.0);
     }
 }
 
-/// Adds a smooth contact for every edge interface.
-pub fn contribute(situation: &FrameContext, assembly: &mut Assembly) {
-    add(situation, assembly, ContactKind::Edge, |_| 0.0);
-}
-
-/// Adds a contact for every interface of a kind, with the friction given for each.
+/// Adds one contact for each interface of a kind, with the friction coefficient that `friction` returns for it.
 pub(super) fn add(
-    situation: &FrameContext,
+    context: &FrameContext,
     assembly: &mut Assembly,
     kind: ContactKind,
     friction: impl Fn(&Interface) -> f64,
 ) {
-    let numbers = assembly.numbers(situation.scene.blocks.len());
+    let body_of_block = assembly.body_of_block(context.scene.blocks.len());
     let body = |id: BodyId| match id {
         BodyId::Ground(_) => None,
-        BodyId::Block(block) => numbers[block.0],
+        BodyId::Block(block) => body_of_block[block.0],
     };
-    for (number, interface) in situation.interfaces.iter().enumerate() {
+    for (number, interface) in context.interfaces.iter().enumerate() {
         let [on, from] = interface.bodies.map(body);
         if let (true, Some(on)) = (interface.kind == kind, on) {
             assembly.contacts.push(AssemblyContact {

@@ -1,28 +1,34 @@
-//! Corner contacts: tips that touch edges or tips carry force. The source leaves them out as unreliable
-//! ([Vallat23](crate::doc::references) §3).
+//! Corner contacts: a corner that touches an edge or another corner carries force, too.
+//!
+//! The source leaves them out as unreliable ([Vallat23](crate::doc::references) §3).
 
-use super::{Applicability, EffectName, FrameContext, contact};
+use super::{Applicability, Effect, EffectName, FrameContext, contact};
 use crate::assembly::Assembly;
 use crate::interface::ContactKind;
 
-/// Name in results.
-pub const NAME: EffectName = EffectName::CornerContacts;
+/// Forces at corners. Applies if the scene requests them and a corner touches something; contributes one contact with one
+/// application point for each such corner, with its friction.
+pub(super) struct CornerContacts;
 
-/// Called for when the scene asks for them and a tip touches something.
-pub fn called_for(situation: &FrameContext) -> Applicability {
-    let kinds = situation.interfaces.iter().map(|i| i.kind);
-    let count = kinds.filter(|kind| *kind == ContactKind::Corner).count();
-    match count {
-        _ if !situation.scene.corner_contacts => {
-            Applicability::not("not asked for; tips are unreliable")
-        }
-        0 => Applicability::not("no tip touches another body"),
-        1 => Applicability::For("1 tip touches another body".to_owned()),
-        n => Applicability::For(format!("{n} tips touch another body")),
+impl Effect for CornerContacts {
+    fn name(&self) -> EffectName {
+        EffectName::CornerContacts
     }
-}
 
-/// Adds a contact with one application point for every tip, friction included.
-pub fn contribute(situation: &FrameContext, assembly: &mut Assembly) {
-    contact::add(situation, assembly, ContactKind::Corner, |i| i.friction);
+    fn applicability(&self, context: &FrameContext) -> Applicability {
+        let kinds = context.interfaces.iter().map(|i| i.kind);
+        let count = kinds.filter(|kind| *kind == ContactKind::Corner).count();
+        match count {
+            _ if !context.scene.corner_contacts => {
+                Applicability::skipped("not asked for; tips are unreliable")
+            }
+            0 => Applicability::skipped("no tip touches another body"),
+            1 => Applicability::Applies("1 tip touches another body".to_owned()),
+            n => Applicability::Applies(format!("{n} tips touch another body")),
+        }
+    }
+
+    fn contribute(&self, context: &FrameContext, assembly: &mut Assembly) {
+        contact::add(context, assembly, ContactKind::Corner, |i| i.friction);
+    }
 }

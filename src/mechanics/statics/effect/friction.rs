@@ -1,29 +1,34 @@
-//! Friction: |T| ≤ μ (N1 + N2) on each interface. Source: [Vallat23](crate::doc::references) §2.0.3.
+//! Friction: |T| ≤ μ (N1 + N2) at each interface (Coulomb's law).
 //!
-//! Each application point of a rough interface gets two more unknowns: the normal force with full friction either way.
+//! It adds two unknowns per application point: the normal force together with full friction in either direction.
+//! Source: [Vallat23](crate::doc::references) §2.0.3.
 
-use super::{Applicability, EffectName, FrameContext, counted};
+use super::{Applicability, Effect, EffectName, FrameContext, counted};
 use crate::assembly::Assembly;
 
-/// Name in results.
-pub const NAME: EffectName = EffectName::Friction;
+/// Friction at interfaces. Applies if μ > 0 at some interface; contributes the coefficient of each contact.
+pub(super) struct Friction;
 
-/// Called for when some interface has μ > 0.
-pub fn called_for(situation: &FrameContext) -> Applicability {
-    let rough = situation.interfaces.iter().filter(|i| i.friction > 0.0);
-    let (rough, all) = (rough.count(), situation.interfaces.len());
-    match rough {
-        0 if all == 0 => Applicability::not("there is no interface"),
-        // Two directions at each of two application points.
-        0 => Applicability::Not("μ is 0 at every interface".to_owned(), 4 * all),
-        1 => Applicability::For("1 interface has friction".to_owned()),
-        n => Applicability::For(format!("{} have friction", counted(n, "interface"))),
+impl Effect for Friction {
+    fn name(&self) -> EffectName {
+        EffectName::Friction
     }
-}
 
-/// Gives every contact its interface's coefficient.
-pub fn contribute(situation: &FrameContext, assembly: &mut Assembly) {
-    for contact in &mut assembly.contacts {
-        contact.friction = situation.interfaces[contact.interface].friction;
+    fn applicability(&self, context: &FrameContext) -> Applicability {
+        let rough = context.interfaces.iter().filter(|i| i.friction > 0.0);
+        let (rough, all) = (rough.count(), context.interfaces.len());
+        match rough {
+            0 if all == 0 => Applicability::skipped("there is no interface"),
+            // Two directions at each of two application points.
+            0 => Applicability::skipped_saving("μ is 0 at every interface", 4 * all),
+            1 => Applicability::Applies("1 interface has friction".to_owned()),
+            n => Applicability::Applies(format!("{} have friction", counted(n, "interface"))),
+        }
+    }
+
+    fn contribute(&self, context: &FrameContext, assembly: &mut Assembly) {
+        for contact in &mut assembly.contacts {
+            contact.friction = context.interfaces[contact.interface].friction;
+        }
     }
 }

@@ -1,31 +1,36 @@
-//! Safety kernel: application points move inward by half the kernel of the stretch. Adds no unknown. Source:
-//! [Vallat23](crate::doc::references) §2.0.10.
+//! Safety kernel: each application point moves inward by kernel/2 of the interface's length. It adds no unknown.
+//!
+//! Source: [Vallat23](crate::doc::references) §2.0.10.
 
-use super::{Applicability, EffectName, FrameContext};
+use super::{Applicability, Effect, EffectName, FrameContext};
 use crate::assembly::Assembly;
 use crate::interface::application_points;
 
-/// Name in results.
-pub const NAME: EffectName = EffectName::Kernel;
+/// The safety kernel. Applies if it is above 0 and there is an interface; moves the application points of all contacts.
+pub(super) struct Kernel;
 
-/// Called for when the kernel is above 0 and there is an interface to shrink.
-pub fn called_for(situation: &FrameContext) -> Applicability {
-    let kernel = situation.scene.kernel;
-    if kernel == 0.0 {
-        Applicability::not("the kernel is 0")
-    } else if situation.interfaces.is_empty() {
-        Applicability::not("there is no interface")
-    } else {
-        Applicability::For(format!(
-            "forces keep {} of each stretch away from its ends",
-            kernel / 2.0
-        ))
+impl Effect for Kernel {
+    fn name(&self) -> EffectName {
+        EffectName::Kernel
     }
-}
 
-/// Moves the application points of every contact.
-pub fn contribute(situation: &FrameContext, assembly: &mut Assembly) {
-    for contact in &mut assembly.contacts {
-        contact.points = application_points(contact.ends, situation.scene.kernel);
+    fn applicability(&self, context: &FrameContext) -> Applicability {
+        let kernel = context.scene.kernel;
+        if kernel == 0.0 {
+            Applicability::skipped("the kernel is 0")
+        } else if context.interfaces.is_empty() {
+            Applicability::skipped("there is no interface")
+        } else {
+            Applicability::Applies(format!(
+                "forces keep {} of each stretch away from its ends",
+                kernel / 2.0
+            ))
+        }
+    }
+
+    fn contribute(&self, context: &FrameContext, assembly: &mut Assembly) {
+        for contact in &mut assembly.contacts {
+            contact.points = application_points(contact.ends, context.scene.kernel);
+        }
     }
 }

@@ -1,36 +1,40 @@
-//! Loads: forces and torques on blocks beside their weight. Add no unknown.
+//! Loads: forces and torques on blocks in addition to their weight. They add no unknown.
 
-use super::{Applicability, EffectName, FrameContext, counted};
-use crate::assembly::{Assembly, about};
+use super::{Applicability, Effect, EffectName, FrameContext, counted};
+use crate::assembly::{Assembly, load_about};
 
-/// Name in results.
-pub const NAME: EffectName = EffectName::Loads;
+/// The loads that the scene lists. Applies if one of them acts on a placed block; adds them to the load vectors of bodies.
+pub(super) struct Loads;
 
-/// Called for when the scene lists a load on a placed block.
-pub fn called_for(situation: &FrameContext) -> Applicability {
-    let scene = situation.scene;
-    if scene.loads.is_empty() {
-        return Applicability::not("the scene lists no loads");
+impl Effect for Loads {
+    fn name(&self) -> EffectName {
+        EffectName::Loads
     }
-    let mut placed = vec![false; scene.blocks.len()];
-    for block in &situation.frame.placed {
-        placed[block.0] = true;
-    }
-    match scene.loads.iter().filter(|l| placed[l.block.0]).count() {
-        0 => Applicability::not("no listed load acts on a placed block"),
-        1 => Applicability::For("1 load acts on a placed block".to_owned()),
-        n => Applicability::For(format!("{} act on placed blocks", counted(n, "load"))),
-    }
-}
 
-/// Adds the listed loads of every placed block to its body.
-pub fn contribute(situation: &FrameContext, assembly: &mut Assembly) {
-    let numbers = assembly.numbers(situation.scene.blocks.len());
-    for load in &situation.scene.loads {
-        if let Some(number) = numbers[load.block.0] {
-            let body = &mut assembly.bodies[number];
-            let more = about(body.centroid, load.at, load.force, load.torque);
-            body.listed = body.listed.and(more);
+    fn applicability(&self, context: &FrameContext) -> Applicability {
+        let scene = context.scene;
+        if scene.loads.is_empty() {
+            return Applicability::skipped("the scene lists no loads");
+        }
+        let mut placed = vec![false; scene.blocks.len()];
+        for block in &context.frame.placed {
+            placed[block.0] = true;
+        }
+        match scene.loads.iter().filter(|l| placed[l.block.0]).count() {
+            0 => Applicability::skipped("no listed load acts on a placed block"),
+            1 => Applicability::Applies("1 load acts on a placed block".to_owned()),
+            n => Applicability::Applies(format!("{} act on placed blocks", counted(n, "load"))),
+        }
+    }
+
+    fn contribute(&self, context: &FrameContext, assembly: &mut Assembly) {
+        let body_of_block = assembly.body_of_block(context.scene.blocks.len());
+        for load in &context.scene.loads {
+            if let Some(number) = body_of_block[load.block.0] {
+                let body = &mut assembly.bodies[number];
+                let more = load_about(body.centroid, load.at, load.force, load.torque);
+                body.listed = body.listed.plus(more);
+            }
         }
     }
 }

@@ -1,12 +1,15 @@
-//! Margins: how far a frame is from the edge of standing. They add no unknown to the frame's program; each poses
-//! programs of its own. Source: the load factor of limit analysis, Livesley 1978; Heyman 1966 for geometry.
+//! Margins: how far loads, friction, tilt and geometry may change before the verdict does.
+//!
+//! They add no unknown to the frame's program; each margin solves programs of its own. Sources: the load factor of limit
+//! analysis, Livesley 1978; the geometric safety factor, Heyman 1966.
 
 use super::{EffectName, EffectReport, counted};
 
-/// Name in results.
-pub const NAME: EffectName = EffectName::Margins;
+/// The effect that this file reports on.
+const NAME: EffectName = EffectName::Margins;
 
-/// Called for when asked for; `judged` is how many changed frames were judged for them.
+/// The report on margins; `judged` is the number of changed frames that were decided for them, `None` if margins were not
+/// requested.
 pub fn report(judged: Option<usize>) -> EffectReport {
     match judged {
         None => EffectReport::skipped(NAME, "not asked for", 0),

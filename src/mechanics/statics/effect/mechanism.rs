@@ -1,12 +1,14 @@
-//! Mechanism: how the blocks begin to move where a frame falls. It is the other half of the same solution (the dual
-//! unknowns of the balance are virtual velocities), so it adds none. Source: Livesley 1978 for the pair.
+//! Mechanism: the motion with which a frame begins to collapse.
+//!
+//! It adds no unknown: the dual variables of the balance are virtual velocities, so that the same solution contains it.
+//! Source: Livesley 1978, for the duality of balance and mechanism.
 
 use super::{EffectName, EffectReport};
 
-/// Name in results.
-pub const NAME: EffectName = EffectName::Mechanism;
+/// The effect that this file reports on.
+const NAME: EffectName = EffectName::Mechanism;
 
-/// Called for when the frame is unstable.
+/// The report on the mechanism: simulated if the frame is unstable.
 pub fn report(unstable: bool) -> EffectReport {
     if unstable {
         EffectReport::simulated(NAME, "the frame falls".to_string(), 0)

@@ -1,42 +1,102 @@
-//! Effects: what a frame calls for, decided one by one and contributed to its [`Assembly`].
+//! Effects: each thing that may be simulated in a frame, such as friction or robots, and whether the frame needs it.
 //!
-//! One file per effect, each with two functions and its source: `called_for` says whether the frame needs it, in words,
-//! and `contribute` adds what it brings to the assembly (loads, contacts, friction, grips). An effect that is not called
-//! for contributes nothing, so that no program has a row or a column of it. How many unknowns each added is counted from
-//! the programs that were posed. Sticking, mechanism, margins and wedging are called for by the outcome or by the user;
-//! they add to no assembly, and their reports are written after the solve.
+//! An effect that acts on the assembly is one file with a type that implements [`Effect`]: its
+//! [`applicability`](Effect::applicability) says whether the frame needs it, with a reason in words, and
+//! [`contribute`](Effect::contribute) adds its loads, contacts, friction or grips to the [`Assembly`]. An effect that is
+//! skipped contributes nothing, so that the linear program has no row or column for it. The number of unknowns of each
+//! effect is counted later, from the columns of the programs that were solved.
+//!
+//! Sticking, mechanism, margins and wedging depend on the verdict or on the user's options. They contribute to no
+//! assembly; the `report` functions of their files are called after the frame is solved.
+//!
+//! To add an effect, write its file, and add it to [`EffectName`] and to [`EFFECTS`] here and to `wording/effect.rs`.
 
-pub mod contact;
-pub mod corner_contact;
-pub mod friction;
-pub mod kernel;
-pub mod load;
+mod contact;
+mod corner_contact;
+mod friction;
+mod kernel;
+mod load;
 pub mod margin;
 pub mod mechanism;
-mod name;
-pub mod robot;
-pub mod robot_torque;
+mod robot;
+mod robot_torque;
 pub mod sticking;
 pub mod wedging;
-pub mod weight;
+mod weight;
 
-pub use name::EffectName;
+use std::fmt;
 
 use crate::assembly::Assembly;
 use crate::interface::Interface;
 use crate::scene::{Frame, Scene};
 
-/// One effect in one frame.
+/// The name of an effect. The order is that of reporting; `Display` writes [`EffectName::word`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
+pub enum EffectName {
+    /// Gravity acts on each block at its centroid.
+    Weight,
+    /// Blocks press on each other and on the ground where edges touch; they never pull.
+    Contact,
+    /// Contacts that are pressed resist sliding.
+    Friction,
+    /// Forces keep a distance from the ends of interfaces.
+    Kernel,
+    /// Robots hold blocks with a force.
+    Robots,
+    /// Robots also apply a torque to the blocks they hold.
+    RobotTorque,
+    /// Forces and torques that the scene lists.
+    Loads,
+    /// Corners that touch an edge or another corner carry force too.
+    CornerContacts,
+    /// The least adhesion that a falling frame would need to stand.
+    Sticking,
+    /// The motion with which a frame collapses.
+    Mechanism,
+    /// How far loads, friction and tilt may change before the verdict does.
+    Margins,
+    /// Whether a frame stands only by a self-stress that its loads do not build up.
+    Wedging,
+}
+
+impl EffectName {
+    /// Its word in results.
+    pub fn word(self) -> &'static str {
+        match self {
+            EffectName::Weight => "weight",
+            EffectName::Contact => "contact",
+            EffectName::Friction => "friction",
+            EffectName::Kernel => "kernel",
+            EffectName::Robots => "robots",
+            EffectName::RobotTorque => "robot torque",
+            EffectName::Loads => "loads",
+            EffectName::CornerContacts => "corner contacts",
+            EffectName::Sticking => "sticking",
+            EffectName::Mechanism => "mechanism",
+            EffectName::Margins => "margins",
+            EffectName::Wedging => "wedging",
+        }
+    }
+}
+
+impl fmt::Display for EffectName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.word())
+    }
+}
+
+/// What became of one effect in one frame.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct EffectReport {
-    /// Its name.
+    /// Which effect.
     pub effect: EffectName,
     /// Whether it was simulated.
     pub simulated: bool,
-    /// Why, in words.
+    /// Why it was simulated or skipped, in words.
     pub why: String,
-    /// Force unknowns it added to the programs posed, or would have added where it was skipped.
+    /// How many force unknowns it added to the programs, or would have added if it was skipped.
     pub unknowns: usize,
 }
 
@@ -60,99 +120,89 @@ impl EffectReport {
     }
 }
 
-/// What an effect looks at to decide.
+/// A frame, as the effects see it.
 #[derive(Clone, Copy, Debug)]
 pub struct FrameContext<'a> {
     /// The scene.
     pub scene: &'a Scene,
     /// The frame.
     pub frame: &'a Frame,
-    /// The interfaces between bodies that stand in the frame.
+    /// The interfaces between bodies that are present in the frame.
     pub interfaces: &'a [&'a Interface],
 }
 
-/// Whether a frame calls for an effect.
+/// Whether a frame needs an effect.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Applicability {
-    /// It does, for the reason given.
-    For(String),
-    /// It does not, for the reason given; so many unknowns are saved by leaving it out.
-    Not(String, usize),
+enum Applicability {
+    /// The effect is simulated, for this reason.
+    Applies(String),
+    /// The effect is skipped.
+    Skipped {
+        /// Why it is skipped, in words.
+        reason: String,
+        /// How many unknowns this saves.
+        saved_unknowns: usize,
+    },
 }
 
 impl Applicability {
-    fn not(why: &str) -> Applicability {
-        Applicability::Not(why.to_owned(), 0)
+    /// The effect is skipped, and would have had no unknowns.
+    fn skipped(reason: &str) -> Applicability {
+        Applicability::skipped_saving(reason, 0)
+    }
+
+    /// The effect is skipped, which saves some unknowns.
+    fn skipped_saving(reason: &str, saved_unknowns: usize) -> Applicability {
+        Applicability::Skipped {
+            reason: reason.to_owned(),
+            saved_unknowns,
+        }
     }
 }
 
-/// An effect that contributes to the assembly.
-struct Effect {
-    name: EffectName,
-    called_for: fn(&FrameContext) -> Applicability,
-    contribute: fn(&FrameContext, &mut Assembly),
+/// An effect that contributes to the assembly of a frame.
+trait Effect {
+    /// Its name in results.
+    fn name(&self) -> EffectName;
+
+    /// Whether the frame needs the effect, and why.
+    fn applicability(&self, context: &FrameContext) -> Applicability;
+
+    /// Adds to the assembly what the effect brings. Called only if the effect applies.
+    fn contribute(&self, context: &FrameContext, assembly: &mut Assembly);
 }
 
-/// In the order in which they are reported and contribute: friction and kernel change the contacts that are there.
-const EFFECTS: [Effect; 8] = [
-    Effect {
-        name: weight::NAME,
-        called_for: weight::called_for,
-        contribute: weight::contribute,
-    },
-    Effect {
-        name: contact::NAME,
-        called_for: contact::called_for,
-        contribute: contact::contribute,
-    },
-    Effect {
-        name: friction::NAME,
-        called_for: friction::called_for,
-        contribute: friction::contribute,
-    },
-    Effect {
-        name: kernel::NAME,
-        called_for: kernel::called_for,
-        contribute: kernel::contribute,
-    },
-    Effect {
-        name: robot::NAME,
-        called_for: robot::called_for,
-        contribute: robot::contribute,
-    },
-    Effect {
-        name: robot_torque::NAME,
-        called_for: robot_torque::called_for,
-        contribute: robot_torque::contribute,
-    },
-    Effect {
-        name: load::NAME,
-        called_for: load::called_for,
-        contribute: load::contribute,
-    },
-    Effect {
-        name: corner_contact::NAME,
-        called_for: corner_contact::called_for,
-        contribute: corner_contact::contribute,
-    },
+/// The effects in the order in which they contribute and are reported: friction and kernel change existing contacts.
+const EFFECTS: [&dyn Effect; 8] = [
+    &weight::Weight,
+    &contact::Contact,
+    &friction::Friction,
+    &kernel::Kernel,
+    &robot::Robots,
+    &robot_torque::RobotTorque,
+    &load::Loads,
+    &corner_contact::CornerContacts,
 ];
 
-/// Puts a frame's assembly together from the effects it calls for, and reports on each of them.
+/// Builds a frame's assembly from the effects that apply, and reports on each effect.
 ///
-/// The reports of simulated effects hold 0 unknowns until they are counted from the programs posed.
-pub fn assemble(situation: &FrameContext) -> (Assembly, Vec<EffectReport>) {
-    let mut assembly =
-        Assembly::without_effects(situation.scene, situation.frame, situation.interfaces);
+/// The reports of simulated effects hold 0 unknowns until these are counted from the programs.
+pub fn assemble(context: &FrameContext) -> (Assembly, Vec<EffectReport>) {
+    let mut assembly = Assembly::without_effects(context.scene, context.frame, context.interfaces);
     let mut reports = Vec::with_capacity(EFFECTS.len());
-    for effect in &EFFECTS {
-        reports.push(match (effect.called_for)(situation) {
-            Applicability::For(why) => {
-                (effect.contribute)(situation, &mut assembly);
-                EffectReport::simulated(effect.name, why, 0)
+    for effect in EFFECTS {
+        reports.push(match effect.applicability(context) {
+            Applicability::Applies(why) => {
+                effect.contribute(context, &mut assembly);
+                EffectReport::simulated(effect.name(), why, 0)
             }
-            Applicability::Not(why, saved) => EffectReport::skipped(effect.name, why, saved),
+            Applicability::Skipped {
+                reason,
+                saved_unknowns,
+            } => EffectReport::skipped(effect.name(), reason, saved_unknowns),
         });
     }
+    // Edge and corner contacts come from two effects; results list contacts in the order of the interfaces.
     assembly.contacts.sort_by_key(|contact| contact.interface);
     (assembly.with_summed_loads(), reports)
 }

@@ -1,30 +1,37 @@
-//! Robot torque: M± about the grip point, where a holding robot's torque limit is above 0. Source:
-//! [Vallat23](crate::doc::references) §2.0.6;
-//! its §3 sets every torque limit to 0, because real robots control torque badly.
+//! Robot torque: a torque about the grip point, within the robot's limit.
+//!
+//! Source: [Vallat23](crate::doc::references) §2.0.6. Its §3 sets every limit to 0, because real robots control torque
+//! badly.
 
-use super::{Applicability, EffectName, FrameContext, counted};
+use super::{Applicability, Effect, EffectName, FrameContext, counted};
 use crate::assembly::Assembly;
 
-/// Name in results.
-pub const NAME: EffectName = EffectName::RobotTorque;
+/// Torques of robots. Applies if the torque limit of a holding robot is above 0; sets the limits of the grips.
+pub(super) struct RobotTorque;
 
-/// Called for when a holding robot may give a torque.
-pub fn called_for(situation: &FrameContext) -> Applicability {
-    let (robots, holds) = (&situation.scene.robots, &situation.frame.holds);
-    let torques = holds.iter().map(|h| robots[h.robot.0].limits.torque);
-    match torques.filter(|torque| *torque > 0.0).count() {
-        _ if holds.is_empty() => Applicability::not("no robot holds a block"),
-        0 => Applicability::Not(
-            "every holding robot's torque limit is 0".to_owned(),
-            2 * holds.len(),
-        ),
-        n => Applicability::For(format!("{} may give a torque", counted(n, "holding robot"))),
+impl Effect for RobotTorque {
+    fn name(&self) -> EffectName {
+        EffectName::RobotTorque
     }
-}
 
-/// Gives every grip its robot's limit on torque.
-pub fn contribute(situation: &FrameContext, assembly: &mut Assembly) {
-    for grip in &mut assembly.grips {
-        grip.limits.torque = situation.scene.robots[grip.robot.0].limits.torque;
+    fn applicability(&self, context: &FrameContext) -> Applicability {
+        let (robots, holds) = (&context.scene.robots, &context.frame.holds);
+        let torques = holds.iter().map(|h| robots[h.robot.0].limits.torque);
+        match torques.filter(|torque| *torque > 0.0).count() {
+            _ if holds.is_empty() => Applicability::skipped("no robot holds a block"),
+            0 => Applicability::skipped_saving(
+                "every holding robot's torque limit is 0",
+                2 * holds.len(),
+            ),
+            n => {
+                Applicability::Applies(format!("{} may give a torque", counted(n, "holding robot")))
+            }
+        }
+    }
+
+    fn contribute(&self, context: &FrameContext, assembly: &mut Assembly) {
+        for grip in &mut assembly.grips {
+            grip.limits.torque = context.scene.robots[grip.robot.0].limits.torque;
+        }
     }
 }

@@ -1,25 +1,26 @@
-//! Sticking: the forces a mortar, or a stronger robot, would have to give; they show where a structure fails.
-//! Source: [Vallat23](crate::doc::references) §2.0.8, posed lexicographically: first the least sticking, then the
-//! least force.
+//! Sticking: the forces that mortar, or stronger robots, would have to give; they show where a structure fails.
+//!
+//! Two objectives are minimised one after the other (lexicographically): first the sum of sticking forces, then the sum of
+//! all forces. Source: [Vallat23](crate::doc::references) §2.0.8, which adds both with a weight.
 
 use super::{EffectName, EffectReport, counted};
 
-/// Name in results.
-pub const NAME: EffectName = EffectName::Sticking;
+/// The effect that this file reports on.
+const NAME: EffectName = EffectName::Sticking;
 
-/// Whether sticking was sought.
+/// Whether the least sticking was computed, and the reason.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sought {
-    /// It was, and something would have to stick.
+    /// Computed: admissible forces alone balance no load.
     Found,
-    /// There was nothing to seek.
+    /// Not computed: the frame stands.
     NotNeeded,
-    /// The frame falls, and only its verdict was asked for.
+    /// Not computed: the frame falls, and only its verdict was requested.
     NotAsked,
 }
 
-/// Called for when the program without it has no solution, and more than the verdict is asked for. `blocks` counts the
-/// frame's; `unknowns` those of sticking, as posed or saved.
+/// The report on sticking. `blocks` is the number of blocks in the frame; `unknowns` is the number of sticking unknowns,
+/// whether they were needed or saved.
 pub fn report(blocks: usize, sought: Sought, unknowns: usize) -> EffectReport {
     match sought {
         Sought::Found => {

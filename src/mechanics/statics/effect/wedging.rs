@@ -1,33 +1,34 @@
-//! Wedging: whether a standing frame could have come to stand from an unstressed state. Pure statics accepts any
-//! self-stress; a block between two walls "stands" at any μ > 0, squeezed by a force that nothing ever built up. It adds
-//! no unknown to the frame's program and does not change the verdict. Source: Kao et al. 2022, Coupled Rigid-Block
-//! Analysis, for the question and its H and A models.
+//! Wedging: whether a frame stands only by a self-stress that its loads do not build up.
 //!
-//! The answer is about springs: one that only presses at every application point, one along every interface, all of one
-//! stiffness and without stress before the loads act, friction after Coulomb. "Only by wedging" says that no such springs
-//! come to rest.
+//! Pure statics accepts any self-stress: a block between two walls "stands" at any μ > 0, squeezed by a force that nothing
+//! produces. Wedging adds no unknown to the frame's program and does not change the verdict.
+//!
+//! The model has one spring that only presses at every application point and one along every interface. All have the same
+//! stiffness and no stress before the loads act; friction follows Coulomb's law. "Only by wedging" means that these
+//! springs have no state of rest. Source: Kao et al. 2022, Coupled Rigid-Block Analysis, for the question and its H and A
+//! models.
 
 use super::{EffectName, EffectReport};
 
-/// Name in results.
-pub const NAME: EffectName = EffectName::Wedging;
+/// The effect that this file reports on.
+const NAME: EffectName = EffectName::Wedging;
 
-/// What was found out.
+/// The answer of the check for wedging.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Wedging {
-    /// Nobody asked.
+    /// Not requested.
     NotAsked,
-    /// The frame does not stand, so it does not stand by wedging either.
+    /// The frame does not stand, so the question does not arise.
     Falls,
-    /// Neither a rest was found nor shown that there is none; why.
+    /// Undecided, for this reason: a state of rest was neither found nor ruled out.
     Open(String),
-    /// Springs come to rest.
+    /// The springs have a state of rest: the frame does not need wedging.
     FromRest,
-    /// None do; what was shown.
+    /// The springs have no state of rest; the text says how this was shown.
     Only(String),
 }
 
-/// Called for when asked for and the frame stands.
+/// The report on wedging: simulated if it was requested and the frame stands.
 pub fn report(wedging: Wedging) -> EffectReport {
     match wedging {
         Wedging::NotAsked => EffectReport::skipped(NAME, "not asked for", 0),

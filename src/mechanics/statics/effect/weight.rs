@@ -1,29 +1,35 @@
-//! Weight: each block's own weight at its centroid, along gravity. Adds no unknown. Source:
-//! [Vallat23](crate::doc::references) §2.0.1.
+//! Weight: gravity acts on each block at its centroid. It adds no unknown.
+//!
+//! Source: [Vallat23](crate::doc::references) §2.0.1.
 
-use super::{Applicability, EffectName, FrameContext, counted};
+use super::{Applicability, Effect, EffectName, FrameContext, counted};
 use crate::assembly::Assembly;
 
-/// Name in results.
-pub const NAME: EffectName = EffectName::Weight;
+/// The weight of the blocks. Applies if there is gravity and a placed block has weight; sets the weight of each body and
+/// the direction of gravity.
+pub(super) struct Weight;
 
-/// Called for when some placed block has weight and gravity has a direction.
-pub fn called_for(situation: &FrameContext) -> Applicability {
-    let scene = situation.scene;
-    let weights = situation.frame.placed.iter();
-    let weights = weights.map(|b| scene.blocks[b.0].weight);
-    match weights.filter(|weight| *weight > 0.0).count() {
-        _ if scene.gravity.norm() == 0.0 => Applicability::not("there is no gravity"),
-        0 => Applicability::not("no placed block has weight"),
-        1 => Applicability::For("1 block has weight".to_owned()),
-        n => Applicability::For(format!("{} have weight", counted(n, "block"))),
+impl Effect for Weight {
+    fn name(&self) -> EffectName {
+        EffectName::Weight
     }
-}
 
-/// Gives every body its weight, and the assembly the direction of gravity.
-pub fn contribute(situation: &FrameContext, assembly: &mut Assembly) {
-    assembly.pull = situation.scene.down();
-    for body in &mut assembly.bodies {
-        body.weight = situation.scene.blocks[body.block.0].weight;
+    fn applicability(&self, context: &FrameContext) -> Applicability {
+        let scene = context.scene;
+        let weights = context.frame.placed.iter();
+        let weights = weights.map(|b| scene.blocks[b.0].weight);
+        match weights.filter(|weight| *weight > 0.0).count() {
+            _ if scene.gravity.norm() == 0.0 => Applicability::skipped("there is no gravity"),
+            0 => Applicability::skipped("no placed block has weight"),
+            1 => Applicability::Applies("1 block has weight".to_owned()),
+            n => Applicability::Applies(format!("{} have weight", counted(n, "block"))),
+        }
+    }
+
+    fn contribute(&self, context: &FrameContext, assembly: &mut Assembly) {
+        assembly.pull = context.scene.down();
+        for body in &mut assembly.bodies {
+            body.weight = context.scene.blocks[body.block.0].weight;
+        }
     }
 }

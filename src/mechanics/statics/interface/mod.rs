@@ -1,13 +1,15 @@
-//! [`Interface`]: a stretch of edge that two bodies share, found for every pair of bodies of a scene.
+//! [`Interface`]: a stretch of edge that two bodies share; [`Interfaces`]: all of them in a scene, for all frames.
 //!
-//! Makes [`Interfaces`], everything that touches in a scene, once for all its frames. Invariant: the first body of an
-//! interface is a block, the normal points into it, and no contact is dropped in silence: what is too short or too far
-//! apart to count is reported in [`Interfaces::notices`].
+//! Invariant: the first body of an interface is a block, and the normal points into it. Edges that are too short or too
+//! far apart for an interface are reported in [`Interfaces::notices`], so that none is dropped silently.
 
 mod corner;
 mod edge;
+mod join;
 mod pinned;
 mod lattice;
+mod notice;
+mod open_stretch;
 #[cfg(test)]
 mod tests;
 
@@ -23,18 +25,18 @@ use crate::scene::{BlockId, BodyId, Frame, Scene};
 pub enum ContactKind {
     /// Two edges share a stretch.
     Edge,
-    /// A tip touches an edge or another tip: one point that carries force.
+    /// A corner touches an edge or another corner: one point carries force.
     Corner,
 }
 
-/// A stretch of edge shared by two bodies.
+/// A contact of two bodies: a common stretch of their edges, or a point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Interface {
-    /// The two bodies; the first is always a block, the later one in the file.
+    /// The two bodies. The first is always a block; of two blocks it is the later one in the file.
     pub bodies: [BodyId; 2],
     /// Edge or corner.
     pub kind: ContactKind,
-    /// Ends of the stretch, from the first to the second along (−n_y, n_x); equal for a corner.
+    /// Ends of the stretch, metres; (−n_y, n_x) points from the first to the second. Equal for a corner.
     pub ends: [Point; 2],
     /// Unit normal into `bodies[0]`.
     pub normal: Vector,
@@ -43,7 +45,7 @@ pub struct Interface {
 }
 
 impl Interface {
-    /// The tangent (−n_y, n_x) along which friction is counted positive.
+    /// The unit tangent (−n_y, n_x): friction on the first body is positive in this direction.
     pub fn tangent(&self) -> Vector {
         quarter_turn(self.normal)
     }
@@ -83,56 +85,56 @@ pub fn application_points(ends: [Point; 2], kernel: f64) -> [Point; 2] {
     [ends[0] + inward, ends[1] - inward]
 }
 
-/// Two edges that face each other with less than a hundredth of the smaller block's size between them, and do not touch.
+/// Two edges that face each other without touching, with a gap of less than a hundredth of the smaller block's size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NearMiss {
-    /// The two bodies, as an interface would name them.
+    /// The two bodies, in the order in which an interface would list them.
     pub bodies: [BodyId; 2],
-    /// Around where.
+    /// The middle of the stretch along which they face each other.
     pub at: Point,
     /// The widest gap along the stretch, metres.
     pub distance: f64,
 }
 
-/// Where a stone keeps two bodies apart that would touch within the tolerance: it is as high as the gap is wide.
+/// A gap within the tolerance that a stone of the same height keeps open: the two bodies do not touch there.
 #[derive(Clone, Debug)]
 pub(crate) struct PinnedGap {
-    /// The two bodies and the gap.
+    /// The two bodies, the place and the width of the gap.
     gap: NearMiss,
     /// The stone.
     stone: BlockId,
 }
 
 impl PinnedGap {
-    /// Whether an interface lies in the gap.
-    fn parts(&self, interface: &Interface) -> bool {
-        let off = self.gap.at - interface.middle();
+    /// Whether an interface lies in the gap, so that it does not exist while the stone is present.
+    fn contains(&self, interface: &Interface) -> bool {
+        let offset = self.gap.at - interface.middle();
         interface.bodies == self.gap.bodies
-            && off.dot(&interface.normal).abs() <= self.gap.distance
-            && off.norm() <= interface.length()
+            && offset.dot(&interface.normal).abs() <= self.gap.distance
+            && offset.norm() <= interface.length()
     }
 }
 
-/// Everything that touches in a scene.
+/// All contacts of a scene, and everything that nearly is one.
 #[derive(Clone, Debug)]
 pub struct Interfaces {
-    /// In the order of the bodies' numbers, then of the place along them.
+    /// The contacts, in the order of the bodies' numbers and then of their ends.
     pub all: Vec<Interface>,
-    /// What nearly touches; a verdict may hinge on it.
+    /// Edges that nearly touch: the verdict may depend on them.
     pub near_misses: Vec<NearMiss>,
-    /// Stretches of long edges that are too short to count, and longer than rounding; a verdict may hinge on them.
+    /// Stretches that are too short for an interface, but longer than rounding: the verdict may depend on them.
     pub slivers: Vec<Interface>,
-    /// Two bodies, a place where they touch within the tolerance and no nearer, and a stone that keeps them apart there.
+    /// Gaps within the tolerance that stones keep open.
     pub(crate) pinned_gaps: Vec<PinnedGap>,
-    /// What was too short or too far apart to count, in words.
+    /// Sentences about edges that are too short or too far apart for an interface.
     pub notices: Vec<String>,
 }
 
 impl Interfaces {
-    /// Finds what touches, in whole numbers where the scene is made of lattice cells, else within its tolerance.
+    /// Finds all contacts of a scene: exactly if it is made of lattice cells, otherwise within its tolerance.
     ///
-    /// Edges make an interface where they are collinear, face each other and overlap. Corner contacts are looked for
-    /// only where the scene asks for them.
+    /// Two edges form an interface if they are collinear, face each other and overlap. Corner contacts are searched only
+    /// if the scene requests them.
     pub fn new(scene: &Scene) -> Interfaces {
         let mut found = match (&scene.lattice, scene.exact) {
             (Some(lattice), true) => Interfaces {
@@ -163,7 +165,7 @@ impl Interfaces {
         });
     }
 
-    /// The same with its slivers counted as interfaces.
+    /// A copy in which the slivers count as interfaces.
     pub(crate) fn with_slivers(&self) -> Interfaces {
         let mut all = self.clone();
         all.all.append(&mut all.slivers);
@@ -171,39 +173,49 @@ impl Interfaces {
         all
     }
 
-    /// The interfaces whose two bodies both stand in a frame, and are not kept apart by a stone in it.
+    /// The interfaces of a frame: both bodies are present, and no present stone keeps them apart.
     pub fn in_frame<'a>(&'a self, scene: &Scene, frame: &Frame) -> Vec<&'a Interface> {
         let mut placed = vec![false; scene.blocks.len()];
         for block in &frame.placed {
             placed[block.0] = true;
         }
-        let stands = |body: BodyId| match body {
+        let is_present = |body: BodyId| match body {
             BodyId::Ground(_) => true,
             BodyId::Block(id) => placed[id.0],
         };
         let is_open = |i: &Interface| {
             let mut pinned_gaps = self.pinned_gaps.iter();
-            pinned_gaps.any(|p| stands(BodyId::Block(p.stone)) && p.parts(i))
+            pinned_gaps.any(|p| is_present(BodyId::Block(p.stone)) && p.contains(i))
         };
         self.all
             .iter()
-            .filter(|i| stands(i.bodies[0]) && stands(i.bodies[1]))
+            .filter(|i| is_present(i.bodies[0]) && is_present(i.bodies[1]))
             .filter(|i| !is_open(i))
             .collect()
     }
 }
 
-/// The bodies of a scene, the ground's parts first.
+/// All bodies of a scene, the parts of the ground first.
 fn bodies(scene: &Scene) -> impl Iterator<Item = BodyId> + '_ {
     let ground = (0..scene.ground.len()).map(BodyId::Ground);
     ground.chain((0..scene.blocks.len()).map(|i| BodyId::Block(BlockId(i))))
 }
 
-/// The order in which an interface names two bodies: the later block first, ground last. `None` for two ground parts.
+/// Two bodies in the order in which an interface lists them: the later block first, the ground last.
+///
+/// `None` for two parts of the ground.
 fn ordered(a: BodyId, b: BodyId) -> Option<[BodyId; 2]> {
     match (a, b) {
         (BodyId::Ground(_), BodyId::Ground(_)) => None,
         _ if a > b => Some([a, b]),
         _ => Some([b, a]),
     }
+}
+
+/// The unit normal that is exactly perpendicular to a stretch whose ends lie along (−n_y, n_x).
+///
+/// Friction is one force per interface, and a program or proof may let it act at any point of the interface. They agree
+/// only if the line through the two ends is the line of friction.
+fn normal_across(ends: [Point; 2]) -> Vector {
+    quarter_turn((ends[0] - ends[1]).normalize())
 }

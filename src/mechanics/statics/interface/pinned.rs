@@ -1,78 +1,88 @@
-//! Gaps that a stone keeps open: a pinning stone is meant, and so is its gap, however narrow.
+//! Gaps that a pinning stone keeps open: they are meant to be open, however narrow they are.
 
 use std::collections::BTreeMap;
 
 use super::{Interface, NearMiss, PinnedGap};
 use crate::scene::{BlockId, BodyId, Scene, size};
 
-/// What touches each body.
+/// The interfaces of each body.
 pub(crate) struct ContactsByBody<'a>(BTreeMap<BodyId, Vec<&'a Interface>>);
 
 impl<'a> ContactsByBody<'a> {
-    /// Of these interfaces.
+    /// Groups interfaces by their bodies; each is listed under both.
     pub(crate) fn new(all: &'a [Interface]) -> ContactsByBody<'a> {
-        let mut touching: BTreeMap<BodyId, Vec<&Interface>> = BTreeMap::new();
+        let mut by_body: BTreeMap<BodyId, Vec<&Interface>> = BTreeMap::new();
         for interface in all {
             for body in interface.bodies {
-                touching.entry(body).or_default().push(interface);
+                by_body.entry(body).or_default().push(interface);
             }
         }
-        ContactsByBody(touching)
+        ContactsByBody(by_body)
     }
 
-    fn body(&self, body: BodyId) -> &[&'a Interface] {
+    fn of_body(&self, body: BodyId) -> &[&'a Interface] {
         self.0.get(&body).map_or(&[][..], |list| &list[..])
     }
 }
 
-/// The stone that stands between the two bodies and keeps the gap open.
+/// The stone that stands between the two bodies of a gap and keeps it open; `None` if there is none.
 ///
-/// Such a stone touches both, on opposite sides, and is as high between them as the gap is wide, give or take a tenth and
-/// `tolerance` metres.
+/// Such a stone touches both bodies on opposite sides, and is as high between them as the gap is wide: at least half, at
+/// most 1.1 times and `tolerance` metres more. Only bodies for which `is_present` is true are considered.
 pub(crate) fn pinning_stone(
     gap: &NearMiss,
-    touching: &ContactsByBody,
-    stands: impl Fn(&BodyId) -> bool,
+    contacts: &ContactsByBody,
+    is_present: impl Fn(&BodyId) -> bool,
     tolerance: f64,
 ) -> Option<BlockId> {
     let [one, other] = gap.bodies;
-    touching.body(one).iter().find_map(|below| {
-        let stone = partner(below, one);
+    contacts.of_body(one).iter().find_map(|below| {
+        let stone = other_body(below, one);
         let BodyId::Block(id) = stone else {
             return None;
         };
-        let holds = stands(&stone)
-            && touching.body(stone).iter().any(|above| {
-                let across = (above.middle() - below.middle()).dot(&below.normal).abs();
-                let opposite = below.normal.dot(&above.normal).abs() > 0.99;
+        let pins = is_present(&stone)
+            && contacts.of_body(stone).iter().any(|above| {
+                let height = (above.middle() - below.middle()).dot(&below.normal).abs();
+                // Within 8° of parallel.
+                let is_opposite = below.normal.dot(&above.normal).abs() > 0.99;
                 above.bodies.contains(&other)
-                    && opposite
-                    && across > 0.5 * gap.distance
-                    && across <= 1.1 * gap.distance + tolerance
+                    && is_opposite
+                    && height > 0.5 * gap.distance
+                    && height <= 1.1 * gap.distance + tolerance
             });
-        holds.then_some(id)
+        pins.then_some(id)
     })
 }
 
-/// A stone is at most so many gaps large (four times its area over its circumference) that keeps a gap open within the
-/// tolerance: of a stone as high as the gap that is two at most, and what is larger touches both bodies at a step.
-pub(super) const FLAT: f64 = 4.0;
+/// A stone that keeps a gap open within the tolerance is at most this many times as large as the gap is wide.
+///
+/// The size of a stone is four times its area over its circumference, which is less than twice its height. A larger stone
+/// touches the two bodies at a step instead. A tenth would recognise no stone; ten times as much would only cost time.
+pub(super) const MAX_PINNED_SIZE_PER_GAP: f64 = 4.0;
 
-/// Which of some gaps within the tolerance a stone keeps open.
-pub(super) fn pinned_gaps(scene: &Scene, all: &[Interface], narrow: &[NearMiss]) -> Vec<PinnedGap> {
-    if narrow.is_empty() {
+/// Those joints within the tolerance that a stone keeps open.
+pub(super) fn pinned_gaps(
+    scene: &Scene,
+    all: &[Interface],
+    open_joints: &[NearMiss],
+) -> Vec<PinnedGap> {
+    if open_joints.is_empty() {
         return Vec::new();
     }
-    let touching = ContactsByBody::new(all);
-    let held = narrow.iter().filter_map(|gap| {
-        let flat = |body: &BodyId| size(&scene.body(*body).polygon) <= FLAT * gap.distance;
-        let stone = pinning_stone(gap, &touching, flat, 0.0)?;
+    let contacts = ContactsByBody::new(all);
+    let pinned = open_joints.iter().filter_map(|gap| {
+        let is_small_enough = |body: &BodyId| {
+            size(&scene.body(*body).polygon) <= MAX_PINNED_SIZE_PER_GAP * gap.distance
+        };
+        let stone = pinning_stone(gap, &contacts, is_small_enough, 0.0)?;
         Some(PinnedGap { gap: *gap, stone })
     });
-    held.collect()
+    pinned.collect()
 }
 
-fn partner(interface: &Interface, body: BodyId) -> BodyId {
+/// The body of an interface that is not `body`.
+fn other_body(interface: &Interface, body: BodyId) -> BodyId {
     let [a, b] = interface.bodies;
     if a == body { b } else { a }
 }

@@ -1,29 +1,28 @@
-//! [`Resultant`]: the one force that stands for both corners of an interface.
+//! [`Resultant`]: the single force that is equivalent to all forces at an interface.
 //!
-//! Source: [Vallat23](crate::doc::references) §2.0.9 and its footnote: the moment-equivalent point is the
-//! amplitude-weighted average of the
-//! application points.
+//! Source: [Vallat23](crate::doc::references) §2.0.9 with its footnote. The resultant acts at the average of the
+//! application points, weighted by their normal forces.
 
 use crate::geometry::{Point, Vector};
 use crate::interface::Interface;
 use crate::scene::BodyId;
 
-/// The one force that stands for both corners of an interface.
+/// The single force that is equivalent to the normal forces and the friction of an interface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Resultant {
-    /// The body it acts on; its partner gets the opposite.
+    /// The body on which it acts; the other body receives the opposite force.
     pub on: BodyId,
-    /// The moment-equivalent point Σ N_k p_k / Σ N_k, metres (the middle where there is no force).
+    /// The point of action Σ N_k p_k / Σ N_k, metres; the middle of the interface if there is no normal force.
     pub at: Point,
-    /// Normal and friction force together, N.
+    /// The sum of normal and friction forces, N.
     pub force: Vector,
 }
 
-/// Sums the corner forces of an interface.
+/// The resultant of the normal forces N1 and N2 at the application points and of the friction force, in newtons.
 ///
-/// Friction acts along the interface, so it has the same moment wherever on it it is placed: at Σ N_k p_k / Σ N_k the sum
-/// has the moment of all corner forces together.
+/// Friction acts along the line of the interface and has the same moment at each of its points. The resultant at
+/// Σ N_k p_k / Σ N_k therefore has the moment of all forces together.
 ///
 /// ```
 /// # use drystone::{internals::{interface::*, resultant}, scene::*};
@@ -59,7 +58,7 @@ pub fn from_corner_forces(
     }
 }
 
-/// |T| / (μ (N1 + N2)): the share of the available friction that is used; 0 where there is no force.
+/// The share of the available friction that is used, |T| / (μ (N1 + N2)); 0 if no friction is available.
 pub fn friction_used(interface: &Interface, normal: [f64; 2], friction: f64) -> f64 {
     let available = interface.friction * (normal[0] + normal[1]);
     if available > 0.0 {

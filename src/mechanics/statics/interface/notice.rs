@@ -1,0 +1,55 @@
+//! [`Notices`]: sentences about edges that nearly are interfaces, each written once for the whole scene.
+
+use crate::geometry::Tolerance;
+use crate::scene::{BodyId, Scene};
+
+/// Counts what does not count as an interface.
+#[derive(Default)]
+pub(super) struct Notices {
+    /// Number of stretches that are too short.
+    short_count: usize,
+    /// The longest of them, metres.
+    longest_short: f64,
+    /// The largest length that was required, metres.
+    required_length: f64,
+    /// Two bodies that nearly touch, in words, and their distance in metres.
+    apart: Vec<(String, f64)>,
+}
+
+impl Notices {
+    /// Records a stretch of `length` metres that is too short for an interface.
+    pub(super) fn add_short(&mut self, length: f64, tolerance: Tolerance) {
+        self.short_count += 1;
+        self.longest_short = self.longest_short.max(length);
+        self.required_length = self.required_length.max(tolerance.min_length);
+    }
+
+    /// Records two bodies with edges `distance` metres apart, slightly more than the tolerance.
+    pub(super) fn add_apart(&mut self, scene: &Scene, bodies: [BodyId; 2], distance: f64) {
+        let names = bodies.map(|body| scene.name(body));
+        self.apart
+            .push((format!("{} and {}", names[0], names[1]), distance));
+    }
+
+    /// The notices as sentences, at most one of each kind.
+    pub(super) fn into_sentences(self, tolerance: Tolerance) -> Vec<String> {
+        let mut sentences = Vec::new();
+        if self.short_count > 0 {
+            sentences.push(format!(
+                "{} contact(s) up to {:.1e} m long are shorter than {:.1e} m and count as touching corners, which carry no force",
+                self.short_count, self.longest_short, self.required_length
+            ));
+        }
+        if let Some((names, distance)) = self.apart.first() {
+            let others = match self.apart.len() - 1 {
+                0 => String::new(),
+                n => format!(", and so do {n} other pair(s) of edges"),
+            };
+            sentences.push(format!(
+                "{names} nearly touch, {distance:.1e} m apart, more than the {:.1e} m that count as contact{others}",
+                tolerance.gap
+            ));
+        }
+        sentences
+    }
+}
