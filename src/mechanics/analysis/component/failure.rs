@@ -92,7 +92,9 @@ impl Case<'_> {
         held.load_factor = 1.0;
         let mut act = |body: usize, at: Point, force: Vector, torque: f64| {
             let body = &mut held.bodies[body];
-            body.listed = body.listed.plus(load_about(body.centroid, at, force, torque));
+            body.listed = body
+                .listed
+                .plus(load_about(body.centroid, at, force, torque));
         };
         for (k, contact) in self.assembly.contacts.iter().enumerate() {
             let pulls = contact.points.into_iter().zip(sticking.normal[k]);
