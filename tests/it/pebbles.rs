@@ -316,3 +316,66 @@ fn hardly_any_pebble_is_undecided() {
     );
     assert!(refused.len() as u64 <= count / 10, "{}", few(&refused));
 }
+
+/// Circles and pebbles in all digits, turned with gravity, mirrored, and a million times as large or as small: the verdict
+/// stays, and no more of them are undecided.
+#[test]
+fn a_stone_turned_mirrored_or_scaled_keeps_its_verdict() {
+    let mut stones: Vec<(String, Outline)> = [20, 200, 2000]
+        .into_iter()
+        .map(|corners| (format!("circle of {corners}"), circle(0.1, corners)))
+        .collect();
+    stones.extend((0..60).map(|number| {
+        let mut chance = Chance::new(number);
+        let corners = chance.whole(20, 80) as usize;
+        let stone = pebble(&mut chance, 0.1, corners, 0.0);
+        (format!("pebble {number}"), laid_down(&mut chance, &stone))
+    }));
+    let moves: [(&str, [f64; 4]); 6] = [
+        ("mirrored", [-1.0, 0.0, 0.0, 1.0]),
+        ("upright", [0.0, -1.0, 1.0, 0.0]),
+        ("turned by 36.9°", [0.8, -0.6, 0.6, 0.8]),
+        ("turned by 100°", {
+            let (sin, cos) = libm::sincos(100_f64.to_radians());
+            [cos, -sin, sin, cos]
+        }),
+        ("a million times as large", [1e6, 0.0, 0.0, 1e6]),
+        ("a million times as small", [1e-6, 0.0, 0.0, 1e-6]),
+    ];
+    let wrong: Vec<String> = stones
+        .par_iter()
+        .flat_map_iter(|(name, stone)| {
+            let moved = |m: &[f64; 4]| {
+                let place = |p: &[f64; 2]| [m[0] * p[0] + m[1] * p[1], m[2] * p[0] + m[3] * p[1]];
+                let is_mirrored = m[0] * m[3] - m[1] * m[2] < 0.0;
+                let ring = |ring: &Outline| {
+                    let mut ring: Outline = ring.iter().map(place).collect();
+                    if is_mirrored {
+                        ring.reverse();
+                    }
+                    ring
+                };
+                let down = place(&[0.0, -1.0]);
+                let length = libm::hypot(down[0], down[1]);
+                let ground = vec![[-1.0, -1.0], [1.0, -1.0], [1.0, 0.0], [-1.0, 0.0]];
+                let file = json!({
+                    "drystone": 1,
+                    "gravity": down.map(|d| 9.81 * d / length),
+                    "ground": [{ "polygon": ring(&ground) }],
+                    "blocks": [{ "id": "stone", "polygon": ring(stone), "weight": 1.0 }],
+                });
+                verdict(&file)
+            };
+            let plain = moved(&[1.0, 0.0, 0.0, 1.0]).expect("sound").0;
+            let mut wrong = Vec::new();
+            for (word, by) in &moves {
+                match moved(by) {
+                    Ok((verdict, _)) if verdict == plain => {}
+                    other => wrong.push(format!("{name} {word}: {plain:?}, then {other:?}")),
+                }
+            }
+            wrong
+        })
+        .collect();
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}

@@ -4,6 +4,7 @@ mod accuracy;
 mod batch;
 mod broken;
 mod check;
+mod fault;
 mod figures;
 mod import;
 mod readme;

@@ -277,6 +277,7 @@ fn snapshots_are_told_in_words_whatever_their_names() {
                 findings: vec![finding],
             }],
             orphans: vec![(hostile.into(), "delete it".into())],
+            ..CheckOutcome::default()
         };
         let xml = ci::junit(&report);
         silent(&xml, hostile);

@@ -5,7 +5,6 @@ mod output;
 mod pace;
 mod resume;
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::thread;
@@ -27,7 +26,7 @@ use crate::figure;
 use crate::output::file::Existing;
 use crate::output::fonts::Fonts;
 use crate::result::{Fields, Origin, PictureOutcome, line_of, problem_line, verdict_line};
-use crate::scene::{Code, Problem, Scene};
+use crate::scene::{Code, Problem, Scene, isolate};
 use crate::text;
 use output::{Output, Target};
 use pace::Pace;
@@ -234,19 +233,9 @@ impl Work {
         let origin = input::origin(&record);
         let name = input::picture_name(&record);
         let scene = resume::record_hash(&record);
-        let caught = catch_unwind(AssertUnwindSafe(|| self.examined(&origin, &name, &record)));
-        let (line, ending) = caught.unwrap_or_else(|_| {
-            let fault =
-                "the program failed on this scene; that is its own fault and no fault of the scene";
-            Ok(refused(
-                &origin,
-                &[problem(
-                    Code::InternalFault,
-                    fault,
-                    "please report it with the scene",
-                )],
-            ))
-        })?;
+        let shown = input::shown(&record);
+        let caught = isolate(&shown, || self.examined(&origin, &name, &record));
+        let (line, ending) = caught.unwrap_or_else(|fault| Ok(refused(&origin, &fault.list)))?;
         Ok(Answer {
             line,
             ending,

@@ -12,7 +12,7 @@ use crate::cli::level::AnalysisArgs;
 use crate::cli::margins::MarginArgs;
 use crate::cli::page::Page;
 use crate::cli::progress::{Progress, Shown};
-use crate::cli::source::{self, FrameChoice};
+use crate::cli::source::{self, FrameChoice, Source};
 use crate::cli::table;
 use crate::cli::terminal::Terminal;
 use crate::result::{Layout, Timing, refusal, to_json_of};
@@ -62,11 +62,14 @@ impl Check {
         let mut refused = Vec::new();
         for (number, (path, outcome)) in outcomes.into_iter().enumerate() {
             match outcome {
-                Ok(source) => sources.push(source),
+                Ok(source) => sources.push((number, source)),
                 Err(complaint) => refused.push((number, path, complaint)),
             }
         }
-        if !self.json && !refused.is_empty() {
+        // A fault of the program is no reason to leave the other scenes without an answer.
+        let is_wrong =
+            |(.., complaint): &(usize, PathBuf, CliError)| !complaint.is_internal_fault();
+        if !self.json && refused.iter().any(is_wrong) {
             return Err(refused
                 .into_iter()
                 .map(|(.., complaint)| complaint)
@@ -82,46 +85,59 @@ impl Check {
             verdict_only: self.verdict_only,
             ..self.margins.add_to(self.level.options())
         };
-        let analyses: Vec<Analysis> = sources
-            .par_iter()
-            .map(|source| {
-                progress.doing(&source.name());
-                let mut analysis = Analysis::with(&source.scene, &options);
-                if self.no_notes {
-                    analysis.notes.clear();
-                }
-                progress.step();
-                analysis
-            })
-            .collect();
-        drop(progress);
-
         let timing = if self.no_timing {
             Timing::LeftOut
         } else {
             Timing::Included
         };
+        let width = terminal.width();
+        let answer = |source: &Source| {
+            let mut analysis = Analysis::with(&source.scene, &options);
+            if self.no_notes {
+                analysis.notes.clear();
+            }
+            let ending = ExitStatus::from_analysis(&analysis);
+            if self.json {
+                let file = source.path.to_string_lossy();
+                let json = to_json_of(&file, &analysis, timing, layout);
+                return (ending, json, Page::default());
+            }
+            let mut page = table::of(&source.name(), &analysis, timing, width);
+            page.append(&noted(&analysis.notes));
+            page.end();
+            (ending, String::new(), page)
+        };
+        let answers: Vec<Result<(ExitStatus, String, Page), CliError>> = sources
+            .par_iter()
+            .map(|(_, source)| {
+                progress.doing(&source.name());
+                let answer = source::isolated(&source.path, || answer(source));
+                progress.step();
+                answer
+            })
+            .collect();
+        drop(progress);
+
+        let mut done = Vec::new();
+        for ((number, source), answer) in sources.into_iter().zip(answers) {
+            match answer {
+                Ok(answer) => done.push(answer),
+                Err(complaint) => refused.push((number, source.path, complaint)),
+            }
+        }
+        refused.sort_by_key(|(number, ..)| *number);
         let printed = if self.json {
-            let mut objects: Vec<String> = (sources.iter().zip(&analyses))
-                .map(|(source, analysis)| {
-                    let file = source.path.to_string_lossy();
-                    to_json_of(&file, analysis, timing, layout)
-                })
-                .collect();
+            let mut objects: Vec<String> = done.iter().map(|(_, json, _)| json.clone()).collect();
             for (number, path, complaint) in &refused {
                 let file = path.to_string_lossy();
                 objects.insert(*number, refusal(&file, &complaint.problems(), layout));
-                terminal.refuse(complaint);
             }
             terminal.print_bytes(objects.concat().as_bytes())
         } else {
             let mut page = Page::default();
-            let width = terminal.width();
             if !terminal.is_quiet() {
-                for (source, analysis) in sources.iter().zip(&analyses) {
-                    page.append(&table::of(&source.name(), analysis, timing, width));
-                    page.append(&noted(&analysis.notes));
-                    page.end();
+                for (.., table) in &done {
+                    page.append(table);
                 }
                 if self.explain {
                     page.append(&table::explained(width));
@@ -129,9 +145,12 @@ impl Check {
             }
             terminal.print(&page)
         };
+        for (.., complaint) in &refused {
+            terminal.refuse(complaint);
+        }
         printed.map_err(|c| vec![c])?;
         let wrong = refused.iter().map(|(.., complaint)| complaint.ending());
-        Ok((analyses.iter().map(ExitStatus::from_analysis))
+        Ok((done.iter().map(|(ending, ..)| *ending))
             .chain(wrong)
             .max()
             .unwrap_or(ExitStatus::Done))

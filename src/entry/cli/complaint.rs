@@ -79,6 +79,16 @@ impl CliError {
         }
     }
 
+    /// Whether this is the program's own fault on one scene. The other scenes are answered then.
+    pub(crate) fn is_internal_fault(&self) -> bool {
+        match self {
+            CliError::Scene { problems, .. } => {
+                (problems.list.iter()).any(|problem| problem.code == Code::InternalFault)
+            }
+            _ => false,
+        }
+    }
+
     /// What a program reads of a scene that cannot be read.
     pub(crate) fn problems(&self) -> Vec<Problem> {
         let alone = |code, message: String, help: &str| {

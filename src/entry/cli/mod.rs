@@ -8,7 +8,7 @@
 //! |---|---|
 //! | 0 | done; with `check`, or `render --strict`: everything is stable |
 //! | 1 | done, and something is unstable |
-//! | 2 | the input or the command line is wrong; nothing was written, except by `batch` and `report`, which answer the sound scenes and list the others |
+//! | 2 | the input or the command line is wrong; nothing was written, except by `batch` and `report`, which answer the sound scenes and list the others; or the program failed on a scene by its own fault, and every command answered the others |
 //! | 3 | done, nothing is unstable, and something is undecided |
 //! | 4 | the output could not be written |
 //!

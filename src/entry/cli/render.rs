@@ -135,6 +135,28 @@ struct Rendered {
     summary: String,
 }
 
+/// The results and the paths they are written to, where the program did not fail; its faults go to `faults`.
+fn without_faults(
+    rendered: Vec<Result<Rendered, CliError>>,
+    paths: Vec<PathBuf>,
+    faults: &mut Vec<CliError>,
+) -> (Vec<Result<Rendered, CliError>>, Vec<PathBuf>) {
+    let (mut results, mut targets) = (Vec::new(), Vec::new());
+    let mut paths = paths.into_iter();
+    for result in rendered {
+        // On standard output there is no path.
+        let path = paths.next();
+        match result {
+            Err(complaint) if complaint.is_internal_fault() => faults.push(complaint),
+            other => {
+                results.push(other);
+                targets.extend(path);
+            }
+        }
+    }
+    (results, targets)
+}
+
 fn seconds(typed: &str) -> Result<f64, String> {
     match typed.parse::<f64>() {
         Ok(seconds) if (0.01..=600.0).contains(&seconds) => Ok(seconds),
@@ -191,9 +213,9 @@ impl Render {
         if self.broken {
             return self.sketched(&scenes, &destination, format, &fonts, terminal);
         }
-        let (theme, sources) = match (
+        let (theme, (sources, mut faults)) = match (
             self.look.theme(),
-            source::read(&scenes, self.frame, self.level.contact_tolerance),
+            source::read_apart_from_faults(&scenes, self.frame, self.level.contact_tolerance),
         ) {
             (Ok(theme), Ok(sources)) => (theme, sources),
             (theme, sources) => {
@@ -202,7 +224,11 @@ impl Render {
             }
         };
         let options = self.options(theme);
-        let read: Vec<&Path> = scenes.iter().map(PathBuf::as_path).collect();
+        let joins = self.joins(scenes.len(), &destination);
+        if sources.is_empty() || (joins && !faults.is_empty()) {
+            return Err(faults);
+        }
+        let read: Vec<&Path> = sources.iter().map(|source| source.path.as_path()).collect();
         let paths = paths(&destination, &read, format).map_err(|c| vec![c])?;
         let inputs: Vec<&Path> = read.into_iter().chain(self.look.file()).collect();
         destination::apart(&paths, &inputs).map_err(|c| vec![c])?;
@@ -218,15 +244,23 @@ impl Render {
             asked.margins = true;
         }
         let rendered: Vec<Result<Rendered, CliError>> = match &sources[..] {
-            [before, after] if self.joins(scenes.len(), &destination) => {
-                vec![self.compared([before, after], &asked, &options, format, &fonts)]
+            [before, after] if joins => {
+                let work = || self.compared([before, after], &asked, &options, format, &fonts);
+                vec![source::isolated(&after.path, work).flatten()]
             }
-            sources => sources
-                .par_iter()
-                .map(|source| self.render(source, &asked, &options, format, &fonts, &progress))
-                .collect(),
+            sources => {
+                let one = |source: &Source| {
+                    let work = || self.render(source, &asked, &options, format, &fonts, &progress);
+                    source::isolated(&source.path, work).flatten()
+                };
+                sources.par_iter().map(one).collect()
+            }
         };
         drop(progress);
+        let (rendered, paths) = without_faults(rendered, paths, &mut faults);
+        if rendered.is_empty() {
+            return Err(faults);
+        }
         let rendered = all(rendered)?;
 
         let ending = rendered
@@ -267,10 +301,13 @@ impl Render {
                 terminal.note(&format!("{}: {summary}", path.display()));
             }
         }
-        Ok(if self.strict {
-            ending
-        } else {
-            ExitStatus::Done
+        for fault in &faults {
+            terminal.refuse(fault);
+        }
+        Ok(match (faults.is_empty(), self.strict) {
+            (false, _) => ExitStatus::WrongInput,
+            (true, true) => ending,
+            (true, false) => ExitStatus::Done,
         })
     }
 

@@ -104,9 +104,13 @@ impl Report {
         let numbered: Vec<(usize, &Task)> = tasks.iter().enumerate().collect();
         let one = |(number, task): &(usize, &Task)| {
             progress.doing(&task.name());
-            let made = self.made(task, number + 1, form, &wanted, &options);
+            let first = task.paths()[0];
+            let made = source::isolated(first, || {
+                self.made(task, number + 1, form, &wanted, &options)
+            });
             progress.step();
-            made
+            // The overview lists a fault of the program like a file that is no scene.
+            made.unwrap_or_else(|fault| Ok(Err(vec![(refused(first, &fault), fault)])))
         };
         let made: Vec<Result<Made, CliError>> = if self.accuracy_study {
             // Scenes beside each other would take each other's time.

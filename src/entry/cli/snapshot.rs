@@ -56,7 +56,7 @@ impl Snapshot {
         let accepts = self.accept || self.accept_in_ci;
         self.sound(asks, accepts).map_err(|c| vec![c])?;
         let found = discover(&self.folders, self.only.as_deref()).map_err(complaints)?;
-        if found.jobs.is_empty() && found.orphans.is_empty() {
+        if found.jobs.is_empty() && found.orphans.is_empty() && found.faults.is_empty() {
             return Err(vec![self.nothing()]);
         }
         let shown = if terminal.shows_progress() {
@@ -206,7 +206,9 @@ impl Snapshot {
 }
 
 fn ending(report: &CheckOutcome) -> ExitStatus {
-    if report.holds() {
+    if !report.faults.is_empty() {
+        ExitStatus::WrongInput
+    } else if report.holds() {
         ExitStatus::Done
     } else {
         ExitStatus::Unstable

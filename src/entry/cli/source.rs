@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use crate::cli::complaint::CliError;
-use crate::scene::Scene;
+use crate::scene::{Scene, isolate};
 
 /// A scene and where it came from.
 #[derive(Debug)]
@@ -109,6 +109,18 @@ pub(crate) fn read(
     frame: Option<FrameChoice>,
     tolerance: Option<f64>,
 ) -> Result<Vec<Source>, Vec<CliError>> {
+    match read_apart_from_faults(paths, frame, tolerance)? {
+        (sources, faults) if faults.is_empty() => Ok(sources),
+        (_, faults) => Err(faults),
+    }
+}
+
+/// All the scenes, and apart from them the faults of the program in reading some; or everything that is wrong with any of them.
+pub(crate) fn read_apart_from_faults(
+    paths: &[PathBuf],
+    frame: Option<FrameChoice>,
+    tolerance: Option<f64>,
+) -> Result<(Vec<Source>, Vec<CliError>), Vec<CliError>> {
     let mut sources = Vec::new();
     let mut complaints = Vec::new();
     for (_, source) in read_each(paths, frame, tolerance).map_err(|c| vec![c])? {
@@ -117,10 +129,9 @@ pub(crate) fn read(
             Err(complaint) => complaints.push(complaint),
         }
     }
-    if complaints.is_empty() {
-        Ok(sources)
-    } else {
-        Err(complaints)
+    match complaints.iter().all(CliError::is_internal_fault) {
+        true => Ok((sources, complaints)),
+        false => Err(complaints),
     }
 }
 
@@ -196,17 +207,23 @@ pub(crate) fn with_text(path: &Path, tolerance: Option<f64>) -> Result<(Source, 
         what: name(path),
         why: error.to_string(),
     })?;
-    let scene =
-        Scene::from_slice_within(&bytes, tolerance).map_err(|problems| CliError::Scene {
-            name: name(path),
-            problems,
-        })?;
+    let scene = isolated(path, || Scene::from_slice_within(&bytes, tolerance))?;
+    let scene = scene.map_err(|problems| CliError::Scene {
+        name: name(path),
+        problems,
+    })?;
     let source = Source {
         path: path.to_owned(),
         scene,
     };
     let text = String::from_utf8_lossy(&bytes);
     Ok((source, text.trim_start_matches('\u{feff}').to_owned()))
+}
+
+/// Runs the work on one scene file; an internal fault is a problem of that file.
+pub(crate) fn isolated<R>(path: &Path, work: impl FnOnce() -> R) -> Result<R, CliError> {
+    let name = name(path);
+    isolate(&name, work).map_err(|problems| CliError::Scene { name, problems })
 }
 
 /// A file's name without folders and ending; `scene` for standard input.

@@ -5,6 +5,7 @@
 
 mod body;
 mod collision;
+mod fault;
 mod finding;
 pub mod format;
 mod frame;
@@ -30,6 +31,7 @@ pub use body::{
     Block, BlockId, Body, BodyId, Grip, Ground, Limits, Load, Material, Rgb, Robot, RobotId,
 };
 pub use collision::Penetration;
+pub(crate) use fault::isolate;
 #[cfg(feature = "schema")]
 pub use format::schema;
 pub use frame::{Frame, Hold, Plan};

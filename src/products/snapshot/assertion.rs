@@ -139,7 +139,7 @@ pub fn figure(crate_folder: &Path, name: &Path, drawing: &Drawing) {
     };
     let report = CheckOutcome {
         snapshots: vec![snapshot],
-        orphans: Vec::new(),
+        ..CheckOutcome::default()
     };
     settle(report, &format!("the figure {}", name.display()));
     drop(turn);
@@ -196,7 +196,7 @@ fn scenes_at(places: &[PathBuf], what: &str) {
                 .collect::<Vec<_>>(),
         ),
     };
-    if found.jobs.is_empty() {
+    if found.jobs.is_empty() && found.faults.is_empty() {
         fail(&[format!("there is no scene at {what}")]);
     }
     let files = found.jobs.iter().flat_map(|j| &j.parts).map(|p| &p.file);

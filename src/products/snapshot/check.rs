@@ -19,6 +19,7 @@ use crate::figure::{self, Options};
 use crate::output::file::WriteError;
 use crate::output::png;
 use crate::output::svg;
+use crate::scene::{Problem, SceneError, isolate};
 
 /// So many changes of one file are described in words.
 const MOST_LISTED: usize = 12;
@@ -125,6 +126,8 @@ pub struct CheckOutcome {
     pub snapshots: Vec<Snapshot>,
     /// References without a scene, each with what to do.
     pub orphans: Vec<(PathBuf, String)>,
+    /// Scenes on which the program failed by its own fault.
+    pub faults: Vec<(PathBuf, SceneError)>,
 }
 
 /// What becomes of what was found.
@@ -139,19 +142,32 @@ pub enum Acceptance {
 /// Checks scenes against their references, in parallel. `done` is called after each.
 pub fn check(found: Found, done: &(dyn Fn(&str) + Sync)) -> CheckOutcome {
     let one = |job: &Job| {
-        let snapshot = Snapshot {
-            name: job.name.clone(),
-            scene: Some(job.path.clone()),
-            references: job.parts.iter().map(|p| p.file.clone()).collect(),
-            findings: of_scene(job),
-        };
+        let findings = isolate(&shown(&job.path), || of_scene(job));
         done(&job.name);
-        snapshot
+        match findings {
+            Ok(findings) => Ok(Snapshot {
+                name: job.name.clone(),
+                scene: Some(job.path.clone()),
+                references: job.parts.iter().map(|p| p.file.clone()).collect(),
+                findings,
+            }),
+            Err(fault) => Err((job.path.clone(), fault)),
+        }
     };
-    CheckOutcome {
-        snapshots: found.jobs.par_iter().map(one).collect(),
+    let all: Vec<Result<Snapshot, (PathBuf, SceneError)>> =
+        found.jobs.par_iter().map(one).collect();
+    let mut outcome = CheckOutcome {
         orphans: found.orphans,
+        faults: found.faults,
+        ..CheckOutcome::default()
+    };
+    for one in all {
+        match one {
+            Ok(snapshot) => outcome.snapshots.push(snapshot),
+            Err(fault) => outcome.faults.push(fault),
+        }
     }
+    outcome
 }
 
 fn of_scene(job: &Job) -> Vec<Finding> {
@@ -414,7 +430,21 @@ impl Snapshot {
 impl CheckOutcome {
     /// Whether everything is as its references say.
     pub fn holds(&self) -> bool {
-        self.orphans.is_empty() && self.failing().next().is_none()
+        self.faults.is_empty() && self.orphans.is_empty() && self.failing().next().is_none()
+    }
+
+    /// References without a scene and scenes on which the program failed, each with what is the matter.
+    pub(crate) fn others(&self) -> impl Iterator<Item = (&Path, String)> {
+        let orphans = self.orphans.iter().map(|(path, words)| {
+            let words = format!("a reference without a scene: {words}");
+            (path.as_path(), words)
+        });
+        let faults = self.faults.iter().map(|(path, fault)| {
+            let of = |p: &Problem| format!("{}; {}", p.message, p.help);
+            let words: Vec<String> = fault.list.iter().map(of).collect();
+            (path.as_path(), words.join("; "))
+        });
+        orphans.chain(faults)
     }
 
     /// The snapshots that do not hold.
@@ -429,11 +459,8 @@ impl CheckOutcome {
             lines.push(snapshot.name.clone());
             lines.extend(snapshot.lines());
         }
-        for (path, words) in &self.orphans {
-            lines.push(format!(
-                "{}: a reference without a scene: {words}",
-                shown(path)
-            ));
+        for (path, words) in self.others() {
+            lines.push(format!("{}: {words}", shown(path)));
         }
         lines
     }
@@ -459,6 +486,11 @@ impl CheckOutcome {
         match self.orphans.len() {
             0 => {}
             n => words.push_str(&format!(", {n} references without a scene")),
+        }
+        match self.faults.len() {
+            0 => {}
+            1 => words.push_str(", 1 scene on which the program failed"),
+            n => words.push_str(&format!(", {n} scenes on which the program failed")),
         }
         words
     }

@@ -11,13 +11,10 @@ pub fn junit(report: &CheckOutcome) -> String {
     for snapshot in &report.snapshots {
         cases.push(case(&snapshot.name, &snapshot.lines()));
     }
-    for (path, words) in &report.orphans {
-        cases.push(case(
-            &shown(path),
-            &[format!("a reference without a scene: {words}")],
-        ));
+    for (path, words) in report.others() {
+        cases.push(case(&shown(path), &[words]));
     }
-    let failures = report.failing().count() + report.orphans.len();
+    let failures = report.failing().count() + report.others().count();
     let counts = format!("tests=\"{}\" failures=\"{failures}\"", cases.len());
     format!(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites {counts}>\n<testsuite name=\"drystone snapshot\" {counts}>\n\
@@ -48,11 +45,9 @@ fn case(name: &str, lines: &[String]) -> String {
 /// repository for GitHub to show them at their files.
 pub fn annotations(report: &CheckOutcome) -> Vec<String> {
     let failing = report.failing().map(annotation);
-    let orphans = report.orphans.iter().map(|(path, words)| {
-        let words = format!("a reference without a scene: {words}");
-        error(&shown(path), "drystone snapshot", &words)
-    });
-    failing.chain(orphans).collect()
+    let others = report.others();
+    let others = others.map(|(path, words)| error(&shown(path), "drystone snapshot", &words));
+    failing.chain(others).collect()
 }
 
 fn annotation(snapshot: &Snapshot) -> String {

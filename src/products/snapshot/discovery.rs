@@ -9,7 +9,7 @@ use super::check::Layer;
 use super::setting::{self, FILE, Settings, fits};
 use super::store;
 use crate::figure::Kind;
-use crate::scene::{Scene, SceneError};
+use crate::scene::{Scene, SceneError, isolate};
 
 /// Input that is wrong.
 #[derive(Debug, thiserror::Error)]
@@ -80,6 +80,8 @@ pub struct Found {
     pub jobs: Vec<Job>,
     /// References whose scene is gone, or that the settings no longer ask for, each with what to do.
     pub orphans: Vec<(PathBuf, String)>,
+    /// Scenes on which the program failed by its own fault.
+    pub faults: Vec<(PathBuf, SceneError)>,
 }
 
 /// The references of a scene or figure: `base` with the endings that the settings ask for.
@@ -189,6 +191,7 @@ pub fn discover(places: &[PathBuf], only: Option<&str>) -> Result<Found, Vec<Dis
     search.candidates.sort();
     search.candidates.dedup();
     let mut jobs = Vec::new();
+    let mut faults = Vec::new();
     let mut expected: BTreeMap<PathBuf, PathBuf> = BTreeMap::new();
     for (path, base) in std::mem::take(&mut search.candidates) {
         let Some(settings) = search.settings_of(base.parent().unwrap_or(Path::new(""))) else {
@@ -206,7 +209,14 @@ pub fn discover(places: &[PathBuf], only: Option<&str>) -> Result<Found, Vec<Dis
         if !wanted(&name) {
             continue;
         }
-        match Scene::from_slice(&bytes) {
+        let read = match isolate(&shown(&path), || Scene::from_slice(&bytes)) {
+            Ok(read) => read,
+            Err(fault) => {
+                faults.push((path, fault));
+                continue;
+            }
+        };
+        match read {
             Ok(scene) => jobs.push(Job {
                 path,
                 name,
@@ -225,6 +235,7 @@ pub fn discover(places: &[PathBuf], only: Option<&str>) -> Result<Found, Vec<Dis
     Ok(Found {
         orphans: orphans.collect(),
         jobs,
+        faults,
     })
 }
 

@@ -70,6 +70,18 @@ pub(super) fn origin(record: &Record) -> Origin {
     }
 }
 
+/// How a person is shown which record is meant.
+pub(super) fn shown(record: &Record) -> String {
+    let file = match &record.file {
+        Some(file) => file.display().to_string(),
+        None => "standard input".to_owned(),
+    };
+    match record.line {
+        Some(line) => format!("{file}, line {line}"),
+        None => file,
+    }
+}
+
 /// The name of a record's picture, without its ending.
 pub(super) fn picture_name(record: &Record) -> String {
     let stem = record.file.as_deref().map(stem);

@@ -10,7 +10,7 @@ use crate::cli::complaint::CliError;
 use crate::cli::destination::{self, Destination};
 use crate::cli::ending::ExitStatus;
 use crate::cli::picture::Format;
-use crate::cli::source::name;
+use crate::cli::source::{isolated, name};
 use crate::cli::terminal::Terminal;
 use crate::figure;
 use crate::output::file::Existing;
@@ -36,16 +36,28 @@ impl Render {
 
         let mut pictures = Vec::new();
         let mut complaints = Vec::new();
-        for path in scenes {
+        let mut drawn: Vec<PathBuf> = Vec::new();
+        for (path, target) in scenes.iter().zip(&targets_of(&paths, scenes.len())) {
             let bytes = read(path).map_err(|error| {
                 one(CliError::NotRead {
                     what: name(path),
                     why: error.to_string(),
                 })
             })?;
-            let sketch = Sketch::from_bytes(&bytes, self.level.contact_tolerance);
-            let drawing = figure::broken(&sketch, &options);
-            let picture = self.picture.bytes(drawing, format, fonts).map_err(one)?;
+            let sketched = isolated(path, || {
+                let sketch = Sketch::from_bytes(&bytes, self.level.contact_tolerance);
+                let drawing = figure::broken(&sketch, &options);
+                let picture = self.picture.bytes(drawing, format, fonts)?;
+                Ok((sketch, picture))
+            });
+            let (sketch, picture) = match sketched {
+                Ok(sketched) => sketched.map_err(one)?,
+                Err(fault) => {
+                    complaints.push(fault);
+                    continue;
+                }
+            };
+            drawn.push(target.clone());
             pictures.push(picture);
             if !sketch.problems.list.is_empty() {
                 complaints.push(CliError::Scene {
@@ -62,9 +74,9 @@ impl Render {
             if let Destination::Folder(folder) = destination {
                 destination::make_folder(folder).map_err(one)?;
             }
-            let files: Vec<(PathBuf, Vec<u8>)> = paths.iter().cloned().zip(pictures).collect();
+            let files: Vec<(PathBuf, Vec<u8>)> = drawn.iter().cloned().zip(pictures).collect();
             destination::write(&files, Existing::Replace).map_err(one)?;
-            for path in &paths {
+            for path in &drawn {
                 terminal.note(&format!("{}: outlines and problems", path.display()));
             }
         }
@@ -74,6 +86,13 @@ impl Render {
             Err(complaints)
         }
     }
+}
+
+/// A path for each scene; an empty one on standard output.
+fn targets_of(paths: &[PathBuf], count: usize) -> Vec<PathBuf> {
+    let mut paths = paths.to_vec();
+    paths.resize(count, PathBuf::new());
+    paths
 }
 
 fn read(path: &Path) -> io::Result<Vec<u8>> {
