@@ -95,7 +95,7 @@ fn of_every_body(
     let (loads, columns) = (&whole.loads, &whole.columns);
     let optimum = refined_optimum(loads, columns, |c| c.cost, solved, light, effort)?;
     let face = whole.narrowed(&optimum, 1.0);
-    let (forces, _) = with_least_squares(face, settings, effort).gathered(program);
+    let (forces, _) = with_least_squares(face, light, settings, effort).gathered(program);
     Some(Balance {
         forces: Some(forces),
         motion: None,

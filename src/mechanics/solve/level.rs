@@ -37,7 +37,9 @@ const BASIC_SLACK: f64 = 1e-6;
 const DIGITS_OF_LEVEL: f64 = 1e2;
 
 /// A body balances where no more than this part of its own load is left, or the rounding of what acts on it.
+/// What is left must not change the digits of the forces that are wanted either.
 const BALANCED: f64 = 1e-10;
+const SHARE_OF_WANTED: f64 = 1e-8;
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// A limit beyond this many loads of a level cannot bind there; one below the second value allows nothing there.
@@ -58,8 +60,8 @@ pub(super) fn lightest(loads: &[f64]) -> f64 {
     own.fold(f64::INFINITY, f64::min)
 }
 
-/// Whether amounts balance every body, measured by the body's own load.
-pub(super) fn balances_every_body(loads: &[f64], columns: &[Column], amounts: &[f64]) -> bool {
+/// Whether amounts balance every body, measured by its own load and by the size of force that is wanted.
+fn balances_every_body(loads: &[f64], columns: &[Column], amounts: &[f64], wanted: f64) -> bool {
     let rest = residual(loads, columns, amounts);
     let mut acting = own_loads(loads);
     for (column, amount) in columns.iter().zip(amounts) {
@@ -69,7 +71,10 @@ pub(super) fn balances_every_body(loads: &[f64], columns: &[Column], amounts: &[
     }
     let own = own_loads(loads);
     let mut bodies = rest.chunks_exact(3).zip(own.iter().zip(&acting));
-    bodies.all(|(rest, (own, acting))| largest(rest) <= (BALANCED * own).max(ROUNDING * acting))
+    bodies.all(|(rest, (own, acting))| {
+        let allowed = (BALANCED * own).min(SHARE_OF_WANTED * wanted);
+        largest(rest) <= allowed.max(ROUNDING * acting)
+    })
 }
 
 /// loads − Σ amount·column, summed with twice the digits.
@@ -103,7 +108,8 @@ pub(super) fn refined_optimum(
         let level = Level::new(loads, columns, &costs, &at)?;
         let size = level.size;
         at = level.solved(columns, &costs, at, effort)?;
-        if size <= DIGITS_OF_LEVEL * wanted && balances_every_body(loads, columns, &at.amounts) {
+        let balanced = balances_every_body(loads, columns, &at.amounts, wanted);
+        if size <= DIGITS_OF_LEVEL * wanted && balanced {
             return Some(at);
         }
     }
@@ -113,11 +119,12 @@ pub(super) fn refined_optimum(
 /// A face with the amounts of least Σ force² on it, where these balance every body; else as it is.
 pub(super) fn with_least_squares(
     face: Face,
+    wanted: f64,
     settings: SolverSettings,
     effort: &mut Effort,
 ) -> Face {
     let (loads, columns) = (&face.loads, &face.columns);
-    let balances = |amounts: &Vec<f64>| balances_every_body(loads, columns, amounts);
+    let balances = |amounts: &Vec<f64>| balances_every_body(loads, columns, amounts, wanted);
     let found = least_squares_amounts(loads, columns, settings, effort);
     let found = found.map(|amounts| match balances(&amounts) {
         true => amounts,

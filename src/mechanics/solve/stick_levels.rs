@@ -41,7 +41,7 @@ pub(super) fn chosen(
         face = face.narrowed(&second, 1.0);
     }
     let face = concentrated(face, wanted, settings, effort);
-    with_least_squares(face, settings, effort)
+    with_least_squares(face, wanted, settings, effort)
 }
 
 /// The optimum of a face for given costs, every body with its own digits.
