@@ -23,6 +23,7 @@ mod hard;
 mod healing;
 mod import;
 mod labels;
+mod intervals;
 mod keys;
 mod kinds;
 mod laws;

@@ -148,7 +148,13 @@ fn along(program: &Program, toward: &[f64], extremum: Extremum) -> Extreme {
                 };
             }
             (Status::Infeasible, _) => return Limit::Unbounded.into(),
-            (Status::Unbounded, _) => return Limit::Never.into(),
+            // Along this motion the loads do work whatever λ is.
+            (Status::Unbounded, _) => {
+                return Extreme {
+                    motion: Some(answer.x[..loads.len()].iter().map(|v| -v).collect()),
+                    ..Limit::Never.into()
+                };
+            }
             _ => {}
         }
     }

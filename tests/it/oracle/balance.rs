@@ -328,7 +328,7 @@ impl<'a> Balance<'a> {
     }
 
     /// The source's hard program: three rows per block first, then friction and limits.
-    fn admissible(&self) -> LinearProgram {
+    pub(super) fn admissible(&self) -> LinearProgram {
         let mut program = LinearProgram::default();
         for block in &self.blocks {
             for load in self.load(*block) {
@@ -385,12 +385,8 @@ impl<'a> Balance<'a> {
     }
 
     /// Load on a block about its centroid: force x, force y, moment.
-    fn load(&self, block: usize) -> [RBig; 3] {
-        let gravity = self.scene.gravity();
-        let size = libm::hypot(gravity.x, gravity.y);
-        let down = if size > 0.0 { gravity / size } else { gravity };
-        let weight = exact(self.scene.blocks()[block].weight);
-        let mut load = [&weight * exact(down.x), &weight * exact(down.y), RBig::ZERO];
+    pub(super) fn load(&self, block: usize) -> [RBig; 3] {
+        let mut load = self.weight(block);
         for listed in self.scene.loads().iter().filter(|l| l.block.0 == block) {
             let force = pair(listed.force.x, listed.force.y);
             let at = pair(listed.at.x, listed.at.y);
@@ -400,6 +396,15 @@ impl<'a> Balance<'a> {
             load[1] += y;
         }
         load
+    }
+
+    /// A block's weight, along gravity.
+    pub(super) fn weight(&self, block: usize) -> [RBig; 3] {
+        let gravity = self.scene.gravity();
+        let size = libm::hypot(gravity.x, gravity.y);
+        let down = if size > 0.0 { gravity / size } else { gravity };
+        let weight = exact(self.scene.blocks()[block].weight);
+        [&weight * exact(down.x), &weight * exact(down.y), RBig::ZERO]
     }
 
     /// Both ends of the stretch, each moved inward by half the kernel's share.

@@ -5,13 +5,14 @@
 //! `DRYSTONE_ORACLE_SCENES=10000` looks at more scenes than the few hundred of an everyday run; `DRYSTONE_ORACLE_FIRST`
 //! is the number of the first.
 
-mod balance;
+pub mod balance;
+pub mod factor;
 pub mod random;
 mod shape;
 mod simplex;
 mod small;
 mod sums;
-mod touch;
+pub mod touch;
 mod wedge;
 
 use dashu_ratio::RBig;

@@ -1,8 +1,7 @@
 //! [`Threshold`]: between a value at which a component stands and one at which it falls.
 //!
-//! A value from elsewhere is confirmed by judging just inside and just beyond it; without one, the edge is searched for:
-//! by Newton's steps where only the contacts change with the value, else by halving, to nine digits. A value that no verdict
-//! confirms on either side is withheld.
+//! Newton's steps find the edge; verdicts just inside and just beyond confirm it. Where these are too far apart, or Newton's
+//! steps lead nowhere, the stretch between them is halved. A value that no verdicts confirm on both sides is withheld.
 
 use super::interval::{End, Interval};
 use super::trial::{Setting, Trial};
@@ -64,38 +63,12 @@ impl Threshold {
 
     /// How far inside an edge it must stand, and from how far beyond it may be shown to fall; relative.
     const NEAR: f64 = 1e-6;
-    /// A motion found so far beyond an edge at most is near enough to confirm it.
-    const SURE: f64 = 256e-6;
+    /// Newton's steps are believed where verdicts no farther apart than this agree with them; relative.
+    const SURE: f64 = 512e-6;
     /// Steps away from an edge grow by this factor up to [`Threshold::FAR`], as long as no proof convinces so close to it.
     const WIDER: f64 = 16.0;
     /// The largest step away from an edge within which it may stay undecided.
-    const FAR: f64 = 5e-3;
-
-    /// A value, if the component stands just inside it and falls just beyond.
-    pub fn confirmed(
-        &self,
-        trial: &mut Trial,
-        setting: &dyn Fn(f64) -> Setting,
-        at: f64,
-    ) -> Option<End> {
-        let at = if at < 1e-9 * self.natural { 0.0 } else { at };
-        let guessed = self
-            .steps(at, Side::Inside)
-            .any(|inside| trial.guess(&setting(inside)).0 == Verdict::Stable);
-        if !guessed {
-            let mut verdicts = self
-                .steps(at, Side::Inside)
-                .map(|inside| trial.judge_at(&setting(inside), Place::AtEdge).0);
-            if verdicts.find(|v| *v != Verdict::Undecided) != Some(Verdict::Stable) {
-                return None;
-            }
-        }
-        let mechanism = self.beyond(trial, setting, at)?;
-        Some(End::At {
-            value: at,
-            mechanism,
-        })
-    }
+    const FAR: f64 = 256e-6;
 
     /// The interval whose end lies between 0 and `most`, found by Newton's steps or else by halving.
     ///
@@ -121,33 +94,100 @@ impl Threshold {
             (near, far) = (far, (far * 10.0).min(self.most));
             verdict = trial.judge(&setting(far)).0;
         }
-        let (mut inside, mut outside) = match self.way {
+        let (inside, outside) = match self.way {
             Way::Most => (near, far),
             Way::Least => (far, near),
         };
-        let found = self.stepped(trial, setting, [inside, outside]);
-        if let Some(found) = found.and_then(|at| self.confirmed(trial, setting, at)) {
-            return self.interval(found);
+        let root = self.stepped(trial, setting, [inside, outside]);
+        let mut bracket = Bracket {
+            inside,
+            outside,
+            mechanism: None,
+        };
+        if let Some(root) = root {
+            self.enclose(trial, setting, &mut bracket, root);
         }
-        while (inside - outside).abs() > 1e-9 * inside.max(outside) + 1e-11 * self.natural {
-            let next = 0.5 * (inside + outside);
-            match trial.judge(&setting(next)).0 {
-                Verdict::Stable => inside = next,
-                Verdict::Unstable => outside = next,
-                Verdict::Undecided => break,
+        self.interval(self.closed_in(trial, setting, bracket, root))
+    }
+
+    /// Verdicts on either side of where Newton's steps ended, as close to it as there are any.
+    fn enclose(
+        &self,
+        trial: &mut Trial,
+        setting: &dyn Fn(f64) -> Setting,
+        bracket: &mut Bracket,
+        root: f64,
+    ) {
+        let within = |value: &f64, bracket: &Bracket| {
+            (value - bracket.inside) * (value - bracket.outside) < 0.0
+        };
+        for value in self.steps(root, Side::Inside) {
+            if within(&value, bracket) && bracket.take(trial, setting, value) == Verdict::Stable {
+                break;
             }
         }
-        // What is left of the band around 0 is 0.
-        let at = if inside < 1e-6 * self.natural {
-            0.0
-        } else {
-            inside
+        // Within the band of the proofs it may be called standing beyond the edge: only a fall says something there.
+        for value in self.steps(root, Side::Beyond) {
+            if !within(&value, bracket) {
+                continue;
+            }
+            let (verdict, motion) = trial.judge_at(&setting(value), Place::AtEdge);
+            if verdict == Verdict::Unstable {
+                (bracket.outside, bracket.mechanism) = (value, Some(motion));
+                break;
+            }
+        }
+    }
+
+    /// The end within a bracket: halved until both verdicts are close, or as close as they come around `root`.
+    fn closed_in(
+        &self,
+        trial: &mut Trial,
+        setting: &dyn Fn(f64) -> Setting,
+        mut bracket: Bracket,
+        root: Option<f64>,
+    ) -> End {
+        let is_none = |value: f64| value < Self::NEAR * self.natural;
+        let width = |bracket: &Bracket| {
+            (bracket.inside - bracket.outside).abs() / bracket.inside.max(bracket.outside)
         };
-        let found = self.confirmed(trial, setting, at);
-        self.interval(found.unwrap_or(End::Unconfirmed {
-            stands: inside,
-            beyond: outside,
-        }))
+        let is_around = |bracket: &Bracket, root: &f64| {
+            (root - bracket.inside) * (root - bracket.outside) <= 0.0
+        };
+        let is_enough = |bracket: &Bracket| match root.filter(|root| is_around(bracket, root)) {
+            Some(_) => width(bracket) <= Self::SURE,
+            None => width(bracket) <= Self::NEAR,
+        };
+        let mut is_decided = true;
+        while is_decided && !is_enough(&bracket) && !is_none(bracket.inside.max(bracket.outside)) {
+            let middle = 0.5 * (bracket.inside + bracket.outside);
+            is_decided = bracket.take(trial, setting, middle) != Verdict::Undecided;
+        }
+        // What is left of the band around 0 is 0.
+        if self.way == Way::Least && is_none(bracket.inside) {
+            return End::natural(0.0);
+        }
+        let root = root.filter(|root| is_around(&bracket, root));
+        let is_close = width(&bracket)
+            <= if root.is_some() {
+                Self::SURE
+            } else {
+                2.0 * Self::NEAR
+            };
+        let is_confirmed = is_close || is_none(bracket.inside.max(bracket.outside));
+        match bracket.mechanism.filter(|_| is_confirmed) {
+            Some(mechanism) => {
+                let value = root.unwrap_or(bracket.inside);
+                End::At {
+                    value: if is_none(value) { 0.0 } else { value },
+                    mechanism,
+                }
+            }
+            None => End::Unconfirmed {
+                stands: bracket.inside,
+                beyond: bracket.outside,
+            },
+        }
     }
 
     /// The edge from Newton's steps on the least that forces leave unbalanced, seen from where it falls; `None` where they
@@ -209,7 +249,7 @@ impl Threshold {
         let near = falling
             .into_iter()
             .rev()
-            .find(|(value, _)| (2.0 * Self::NEAR..0.9 * Self::SURE).contains(&away(*value)));
+            .find(|(value, _)| (2.0 * Self::NEAR..0.45 * Self::SURE).contains(&away(*value)));
         let falls = near.or_else(|| {
             let value = self.steps(at, Side::Beyond).nth(1)?;
             Some((value, trial.tangent(&setting(value))?))
@@ -225,27 +265,6 @@ impl Threshold {
             }
         }
         Some(at)
-    }
-
-    /// The mechanism just beyond an edge: at the nearest of growing steps where there is a proved one. Empty at a least
-    /// value of 0.
-    fn beyond(
-        &self,
-        trial: &mut Trial,
-        setting: &dyn Fn(f64) -> Setting,
-        at: f64,
-    ) -> Option<Vec<Motion>> {
-        if at == 0.0 && self.way == Way::Least {
-            return Some(Vec::new());
-        }
-        let motion = |(verdict, motion)| (verdict == Verdict::Unstable).then_some(motion);
-        let guessed = self
-            .steps(at, Side::Beyond)
-            .find_map(|outside| motion(trial.guess(&setting(outside))));
-        guessed.or_else(|| {
-            self.steps(at, Side::Beyond)
-                .find_map(|outside| motion(trial.judge_at(&setting(outside), Place::AtEdge)))
-        })
     }
 
     /// Values at growing steps from an edge.
@@ -279,6 +298,29 @@ const CLOSE: f64 = 1e-6;
 
 /// What forces may leave unbalanced, in parts of the largest load, of what stands as far as the solver can tell.
 const LEFT: f64 = 1e-8;
+
+/// Two values between which an edge lies.
+struct Bracket {
+    /// Here the component stands.
+    inside: f64,
+    /// Here it falls, or is undecided.
+    outside: f64,
+    /// How it begins to move at the latest value at which it was shown to fall.
+    mechanism: Option<Vec<Motion>>,
+}
+
+impl Bracket {
+    /// Judges the component at a value within, first by what is remembered, and narrows the bracket.
+    fn take(&mut self, trial: &mut Trial, setting: &dyn Fn(f64) -> Setting, value: f64) -> Verdict {
+        let (verdict, motion) = trial.judge_at(&setting(value), Place::AtEdge);
+        match verdict {
+            Verdict::Stable => self.inside = value,
+            Verdict::Unstable => (self.outside, self.mechanism) = (value, Some(motion)),
+            Verdict::Undecided => {}
+        }
+        verdict
+    }
+}
 
 /// Which side of an edge is looked at.
 #[derive(Clone, Copy)]

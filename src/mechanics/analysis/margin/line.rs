@@ -47,7 +47,7 @@ const MAX_STEPS: usize = 60;
 /// The largest value that is tried, in natural sizes.
 const MAX_VALUE: f64 = 1e6;
 /// A mechanism that would end beyond this, in natural sizes, shows that nothing stands.
-const MAX_REACH: f64 = 1e9;
+const MAX_REACH: f64 = 1e6;
 
 impl Line<'_> {
     /// The end of the interval in one direction, seen from a value at which the component stands.
@@ -58,10 +58,11 @@ impl Line<'_> {
             .map(|hint| self.rounded(hint))
             .filter(|hint| (hint - from) * outward >= 0.0);
         let is_natural = outward < 0.0 && self.least.is_finite();
-        if is_natural && hint.is_none_or(|hint| hint <= self.least) {
-            if from <= self.least || self.judge(trial, self.least).0 == Verdict::Stable {
-                return End::natural(self.least);
-            }
+        if is_natural
+            && hint.is_none_or(|hint| hint <= self.least)
+            && (from <= self.least || self.judge(trial, self.least).0 == Verdict::Stable)
+        {
+            return End::natural(self.least);
         }
         let mut bracket = Bracket {
             inside: from,

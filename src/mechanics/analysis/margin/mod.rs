@@ -80,7 +80,14 @@ pub(super) fn of(
     kinds: MarginKinds,
     known: &mut BTreeMap<Key, ComponentIntervals>,
 ) -> (Margins, usize) {
-    let fresh = parts.iter().filter(|part| !known.contains_key(part.key));
+    // Where some component falls, the nearest tilt at which all stand is sought for the whole frame.
+    let all_stand = parts.iter().all(Part::stands);
+    let with_tilt = kinds.has(MarginKind::Tilt) && all_stand;
+    let is_known = |key: &Key| {
+        let found = known.get(key);
+        found.is_some_and(|found| found.tilt.is_some() || !with_tilt)
+    };
+    let fresh = parts.iter().filter(|part| !is_known(part.key));
     let fresh: Vec<&Part> = fresh.collect();
     #[cfg(feature = "parallel")]
     let each = fresh.par_iter();
@@ -92,7 +99,7 @@ pub(super) fn of(
         .map(|part| {
             let _guard = DeadlineGuard::new(deadline);
             let mut trial = part.trial();
-            let intervals = parameter::intervals(&mut trial, part.stands(), kinds);
+            let intervals = parameter::intervals(&mut trial, part.stands(), kinds, with_tilt);
             (part.key.clone(), intervals, trial.judged)
         })
         .collect();
@@ -143,6 +150,11 @@ pub(super) fn of(
                     .map(|whole| whole.intersection(unloaded));
             }
         }
+    }
+    if kinds.has(MarginKind::Tilt) && !all_stand {
+        let mut trials: Vec<Trial> = parts.iter().map(Part::trial).collect();
+        intervals.tilt = Some(tilt::nearest(&mut trials));
+        judged += trials.iter().map(|trial| trial.judged).sum::<usize>();
     }
     let is_cone =
         |part: &Part| !trial::is_loaded(part.component) && !trial::is_limited(part.component);

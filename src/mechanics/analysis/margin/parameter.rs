@@ -11,8 +11,14 @@ use crate::analysis::Verdict;
 use crate::program::Scale;
 use crate::solve::{Limit, least, most, nearest_factor};
 
-/// All intervals of a component that were requested. `stands` is whether it does as it is.
-pub(super) fn intervals(trial: &mut Trial, stands: bool, kinds: MarginKinds) -> ComponentIntervals {
+/// All intervals of a component that were requested. `stands` is whether it does as it is; `with_tilt` whether all
+/// components of its frame do, so that the tilts around 0 are wanted.
+pub(super) fn intervals(
+    trial: &mut Trial,
+    stands: bool,
+    kinds: MarginKinds,
+    with_tilt: bool,
+) -> ComponentIntervals {
     let grips = match kinds.has(MarginKind::Robots) {
         true => trial.holds(),
         false => Vec::new(),
@@ -33,8 +39,8 @@ pub(super) fn intervals(trial: &mut Trial, stands: bool, kinds: MarginKinds) -> 
         .iter()
         .any(|kind| kinds.has(*kind))
         .then(|| horizontal_load(trial, stands));
-    let tilt =
-        (kinds.has(MarginKind::Tilt)).then(|| tilt::tilt(trial, stands, horizontal_load.as_ref()));
+    let tilt = horizontal_load.as_ref().filter(|_| with_tilt);
+    let tilt = tilt.map(|horizontal| tilt::around_present(trial, horizontal));
     ComponentIntervals {
         friction: kinds.has(MarginKind::Friction).then(|| friction(trial)),
         tilt,
@@ -115,17 +121,18 @@ pub(super) fn linear(
         let (program, toward) =
             trial.direction(&(line.setting)(present), &(line.setting)(present + 1.0));
         let found = nearest_factor(&program, &toward);
-        if let Limit::At(change) = found.limit {
-            let at = (present + change).max(line.least);
-            trial.learn_edge(
-                &program,
-                &found,
-                line.around(at, -change.signum()),
-                line.setting,
-                None,
-            );
-            nearest = Some(at);
-        }
+        let at = match found.limit {
+            Limit::At(change) => (present + change).max(line.least),
+            _ => present,
+        };
+        let toward_present = (present - at).signum();
+        // Of a motion that no value stops, the present one is well beyond.
+        let beyond = match found.limit {
+            Limit::Never => [present; 3],
+            _ => line.around(at, toward_present),
+        };
+        trial.learn_edge(&program, &found, beyond, line.setting, None);
+        nearest = matches!(found.limit, Limit::At(_)).then_some(at);
         start = match line.nearest(trial, present, nearest) {
             Ok(start) => start,
             Err(interval) => return interval,

@@ -1,68 +1,314 @@
-//! How far gravity may turn: exact from one linear program where all forces grow with the loads, else by judging.
+//! The turns of gravity at which a frame stands.
+//!
+//! The weights' directions and sizes that are carried form a convex set in the plane of (share along gravity, share across
+//! it); turns are a circle in this plane. Where only weights act and no limit cuts a force the set is a cone, and the turns
+//! follow from the horizontal shares: one linear program. Else the circle may enter and leave the set several times. The
+//! power along a mechanism at one turn is A cos θ + B sin θ + C, so it cuts a whole arc off; the ends of these arcs are
+//! the values to try next.
 
-use std::f64::consts::{FRAC_PI_2, PI};
-
-use super::edge::Threshold;
 use super::interval::{End, Interval};
 use super::line::Line;
 use super::parameter::linear;
 use super::trial::{Setting, Trial};
 use crate::analysis::Verdict;
+use crate::analysis::component::Place;
+use crate::proof::Motion;
 
-/// The turns of gravity at which a component stands, degrees, seen from where it is.
-pub(super) fn tilt(trial: &mut Trial, stands: bool, horizontal: Option<&Interval>) -> Interval {
-    if !stands {
-        return Interval::Empty;
+/// How near an end a component must stand, relative to the turn.
+const NEAR: f64 = 1e-6;
+/// Steps away from an end grow by this factor where verdicts stay undecided.
+const WIDER: f64 = 16.0;
+/// The largest of these steps, relative to the turn.
+const FAR: f64 = 256e-6;
+/// A stretch of fewer degrees between two turns at which a component stands is not searched any further.
+const MIN_GAP: f64 = 1e-6;
+/// How far the first look goes at a time, degrees: no part of a right angle, at which much lies on the edge of standing.
+const STRIDE: f64 = 77.7;
+/// The most cuts of one search.
+const MAX_CUTS: usize = 200;
+
+/// The turns around 0 of a component that stands unturned. `horizontal` are the horizontal shares that it bears.
+pub(super) fn around_present(trial: &mut Trial, horizontal: &Interval) -> Interval {
+    match horizontal {
+        Interval::Between { low, high } if !trial.is_loaded() && !trial.is_limited() => {
+            let low = of_weights(trial, -1.0, low);
+            let high = of_weights(trial, 1.0, high);
+            Interval::Between { low, high }
+        }
+        _ => around(trial, 0.0),
     }
-    let [low, high] = [-1.0, 1.0].map(|side| end(trial, side, horizontal));
+}
+
+/// The turns at which a frame stands that are nearest to 0, where it falls unturned.
+pub(super) fn nearest(trials: &mut [Trial]) -> Interval {
+    match first_standing(trials) {
+        Err(interval) => interval,
+        Ok(turn) => {
+            let each = trials.iter_mut().map(|trial| around(trial, turn));
+            each.fold(Interval::UNBOUNDED, Interval::intersection)
+        }
+    }
+}
+
+/// The turn nearest to 0 at which all components stand: each mechanism cuts an arc around 0 off, until one end of what is
+/// cut off stands.
+fn first_standing(trials: &mut [Trial]) -> Result<f64, Interval> {
+    let (mut low, mut high) = (0.0_f64, 0.0_f64);
+    let mut turn = 0.0;
+    'cuts: for _ in 0..MAX_CUTS {
+        let outward = if turn < 0.0 { -1.0 } else { 1.0 };
+        // At the very end of what is cut off a verdict may be open.
+        let far = std::iter::successors(Some(0.01), |step| Some(step * 4.0));
+        let steps = std::iter::once(0.0)
+            .chain(steps())
+            .chain(far.take_while(|step| *step < 1.0))
+            .map(|step| turn + outward * step * size(turn));
+        let mut standing = None;
+        for at in steps {
+            match judged_together(trials, at) {
+                (Verdict::Stable, _) => {
+                    standing = Some(at);
+                    break;
+                }
+                (Verdict::Undecided, _) => {}
+                (Verdict::Unstable, None) => return Err(Interval::Empty),
+                (Verdict::Unstable, Some([from, to])) => {
+                    // What is cut off meets what was cut off before, up to what no verdict tells apart.
+                    low = low.min(from);
+                    high = high.max(to);
+                    // A cut that gains nothing is stepped over.
+                    if outward > 0.0 {
+                        high = high.max(at + MIN_GAP)
+                    } else {
+                        low = low.min(at - MIN_GAP)
+                    }
+                    if high - low >= 360.0 {
+                        return Err(Interval::Empty);
+                    }
+                    turn = if high <= -low { high } else { low };
+                    continue 'cuts;
+                }
+            }
+        }
+        return standing.ok_or(Interval::Undecided);
+    }
+    Err(Interval::Undecided)
+}
+
+/// The verdict of a whole frame, and the arc that a mechanism cuts off where it falls; all turns where there is no arc.
+fn judged_together(trials: &mut [Trial], turn: f64) -> (Verdict, Option<[f64; 2]>) {
+    let mut verdict = Verdict::Stable;
+    for trial in trials {
+        let (found, motion) = trial.judge_at(&turned(turn, 1.0), Place::AtEdge);
+        match found {
+            Verdict::Stable => {}
+            Verdict::Undecided => verdict = found,
+            Verdict::Unstable => return (found, cut(trial, turn, &motion)),
+        }
+    }
+    (verdict, None)
+}
+
+/// The turns of a component around one at which it stands.
+fn around(trial: &mut Trial, from: f64) -> Interval {
+    let [low, high] = [-1.0, 1.0].map(|outward| {
+        let mut arc = Arc {
+            trial: &mut *trial,
+            from,
+            outward,
+        };
+        arc.end()
+    });
     Interval::Between { low, high }
 }
 
-/// The largest turn of gravity to one side.
-fn end(trial: &mut Trial, side: f64, horizontal: Option<&Interval>) -> End {
-    if let Some(Interval::Between { low, high }) = horizontal
-        && !trial.is_loaded()
-        && !trial.is_limited()
-    {
-        return of_weights(trial, side, if side < 0.0 { low } else { high });
-    }
-    let quarters = [(0.0, FRAC_PI_2), (FRAC_PI_2, PI)];
-    let exit = quarters
-        .into_iter()
-        .find_map(|(from, to)| first_exit(trial, side, [from, to], false));
-    let setting = |degrees: f64| turned(degrees.to_radians(), 1.0, side);
-    let edge = Threshold::most(180.0);
-    let found = match exit.map(f64::to_degrees) {
-        None => return End::Unbounded,
-        Some(at) => {
-            let at = if at < 1e-5 { 0.0 } else { at };
-            edge.confirmed(trial, &setting, at)
-                .unwrap_or(End::Unconfirmed {
-                    stands: at,
-                    beyond: 180.0,
-                })
+/// The way from a turn at which a component stands, in one direction. Ways along it are degrees from 0 to 360.
+struct Arc<'t, 'a> {
+    trial: &'t mut Trial<'a>,
+    from: f64,
+    outward: f64,
+}
+
+/// Where a component first falls on a way.
+enum Exit {
+    At(f64, Vec<Motion>),
+    /// It stands at the first way; at the second it falls or is undecided.
+    Unconfirmed(f64, f64),
+}
+
+impl Arc<'_, '_> {
+    fn end(&mut self) -> End {
+        let mut reached = 0.0;
+        // A turn of 0 is where other parts of the frame may fall: the first look ends there.
+        let to_zero = -self.outward * self.from;
+        let mut next = if to_zero > 0.0 { to_zero } else { STRIDE };
+        loop {
+            let exit = match self.judge(next) {
+                (Verdict::Unstable, motion) => Some(self.edge(reached, next, motion)),
+                (Verdict::Stable, _) => self.gap(reached, next),
+                (Verdict::Undecided, _) => {
+                    // Another place says more.
+                    let other = 0.5 * (reached + next) + 0.137 * (next - reached);
+                    match self.judge(other) {
+                        (Verdict::Unstable, motion) => Some(self.edge(reached, other, motion)),
+                        (Verdict::Stable, _) => {
+                            let exit = self.gap(reached, other);
+                            exit.or(Some(Exit::Unconfirmed(other, next)))
+                        }
+                        (Verdict::Undecided, _) => Some(Exit::Unconfirmed(reached, other)),
+                    }
+                }
+            };
+            match exit {
+                Some(exit) => return self.reported(exit),
+                None if next >= 360.0 => return End::Unbounded,
+                None => (reached, next) = (next, (next + STRIDE).min(360.0)),
+            }
         }
-    };
-    match found {
-        End::At { value, mechanism } => End::At {
-            value: side * value + 0.0,
-            mechanism,
-        },
-        End::Unconfirmed { stands, beyond } => End::Unconfirmed {
-            stands: side * stands + 0.0,
-            beyond: side * beyond,
-        },
-        End::Unbounded => End::Unbounded,
+    }
+
+    fn reported(&self, exit: Exit) -> End {
+        let turn = |way: f64| {
+            let turn = self.from + self.outward * way;
+            if turn.abs() < 1e-9 { 0.0 } else { turn }
+        };
+        match exit {
+            Exit::At(way, mechanism) => End::At {
+                value: turn(way),
+                mechanism,
+            },
+            Exit::Unconfirmed(stands, beyond) => End::Unconfirmed {
+                stands: turn(stands),
+                beyond: turn(beyond),
+            },
+        }
+    }
+
+    /// Where it first falls between a way at which it stands and one at which it falls by a mechanism.
+    fn edge(&mut self, stands: f64, falls: f64, motion: Vec<Motion>) -> Exit {
+        let (mut stands, mut falls, mut motion) = (stands, falls, motion);
+        // Where a mechanism gains next to nothing, halving the stretch comes next.
+        let mut is_slow = false;
+        for _ in 0..MAX_CUTS {
+            // The mechanism rules out every way from here to where it was found.
+            let arc = cut(self.trial, self.from + self.outward * falls, &motion);
+            let bound = arc.map_or(stands, |[low, high]| {
+                let turn = if self.outward > 0.0 { low } else { high };
+                ((turn - self.from) * self.outward).clamp(stands, falls)
+            });
+            if bound - stands <= MIN_GAP {
+                return Exit::At(bound, motion);
+            }
+            let size = size(self.from + self.outward * bound);
+            let near = steps().map(|step| (bound - step * size).max(0.5 * (stands + bound)));
+            // Where verdicts close to the end are open, one farther away narrows the search.
+            let far = [0.5, 0.75, 0.25].map(|share| stands + share * (bound - stands));
+            let mut ways: Vec<(f64, bool)> = near.map(|way| (way, true)).collect();
+            let first_far = if is_slow { 0 } else { ways.len() };
+            ways.splice(first_far..first_far, far.map(|way| (way, false)));
+            let mut inside = None;
+            for (way, is_near) in ways {
+                match self.judge(way) {
+                    (Verdict::Undecided, _) => {}
+                    (verdict, found) => {
+                        inside = Some((way, is_near, verdict, found));
+                        break;
+                    }
+                }
+            }
+            match inside {
+                None => return Exit::Unconfirmed(stands, bound),
+                Some((way, is_near, Verdict::Stable, _)) => match self.gap(stands, way) {
+                    Some(exit) => return exit,
+                    None if is_near => return Exit::At(bound, motion),
+                    None => (stands, is_slow) = (way, false),
+                },
+                Some((way, is_near, _, found)) => {
+                    (falls, motion) = (way, found);
+                    is_slow = is_near;
+                }
+            }
+        }
+        Exit::Unconfirmed(stands, falls)
+    }
+
+    /// Where it first falls between two ways at which it stands, if it does.
+    ///
+    /// The loads that are carried form a convex set. If it holds both ends of an arc and the point where the tangents at
+    /// them meet, it holds the triangle of the three and so the whole arc. If it is a cone, it holds every arc of less
+    /// than half a turn between two of its directions. Otherwise the arc is halved.
+    fn gap(&mut self, from: f64, to: f64) -> Option<Exit> {
+        let width = to - from;
+        let is_cone = !self.trial.is_loaded() && !self.trial.is_limited();
+        if width <= MIN_GAP || (is_cone && width < 179.0) {
+            return None;
+        }
+        let middle = 0.5 * (from + to);
+        if width < 170.0 {
+            let beyond_the_arc = 1.0 / libm::cos(0.5 * width.to_radians());
+            let turn = self.from + self.outward * middle;
+            let apex = self.trial.judge(&turned(turn, beyond_the_arc)).0;
+            if apex == Verdict::Stable {
+                return None;
+            }
+        }
+        match self.judge(middle) {
+            (Verdict::Stable, _) => self.gap(from, middle).or_else(|| self.gap(middle, to)),
+            (Verdict::Unstable, motion) => Some(self.edge(from, middle, motion)),
+            (Verdict::Undecided, _) => Some(Exit::Unconfirmed(from, middle)),
+        }
+    }
+
+    fn judge(&mut self, way: f64) -> (Verdict, Vec<Motion>) {
+        let turn = self.from + self.outward * way;
+        self.trial.judge_at(&turned(turn, 1.0), Place::AtEdge)
     }
 }
 
-/// Gravity turned by an angle, `stretch` times as strong.
-fn turned(angle: f64, stretch: f64, side: f64) -> Setting {
+/// Gravity turned by an angle in degrees, positive to the right, `stretch` times as strong.
+fn turned(degrees: f64, stretch: f64) -> Setting {
+    let angle = degrees.to_radians();
     Setting {
         along: stretch * libm::cos(angle),
-        across: stretch * side * libm::sin(angle),
+        across: stretch * libm::sin(angle),
         ..Setting::default()
     }
+}
+
+/// The arc around a turn at which a component falls by a motion, in degrees; `None` where it falls at every turn.
+fn cut(trial: &Trial, turn: f64, motion: &[Motion]) -> Option<[f64; 2]> {
+    let power = |along: f64, across: f64| {
+        let setting = Setting {
+            along,
+            across,
+            ..Setting::default()
+        };
+        trial.power(&setting, motion)
+    };
+    let constant = power(0.0, 0.0);
+    let [along, across] = [power(1.0, 0.0) - constant, power(0.0, 1.0) - constant];
+    let size = libm::hypot(along, across);
+    // size · cos(θ − middle) + constant > 0.
+    if constant >= size {
+        return None;
+    }
+    let middle = libm::atan2(across, along).to_degrees();
+    let half = libm::acos((-constant / size).clamp(-1.0, 1.0)).to_degrees();
+    let off = turn - middle;
+    let off = off - 360.0 * (off / 360.0).round();
+    let half = half.max(off.abs());
+    Some([turn - off - half, turn - off + half])
+}
+
+/// Growing steps away from an end, in parts of its size.
+fn steps() -> impl Iterator<Item = f64> {
+    std::iter::successors(Some(0.5 * NEAR), |step| Some(step * WIDER))
+        .take_while(|step| *step <= FAR)
+}
+
+/// What distances from a turn are measured in, degrees.
+fn size(turn: f64) -> f64 {
+    turn.abs().max(1.0)
 }
 
 /// The largest turn where only weights act and no limit cuts a force: what is carried is a cone then, and the turn's
@@ -110,32 +356,5 @@ fn of_weights(trial: &mut Trial, side: f64, horizontal: &End) -> End {
                 },
             }
         }
-    }
-}
-
-/// The first turn between `from`, where it stands, and `to` at which it ceases to stand.
-///
-/// The loads that are carried form a convex set. If it holds both ends of an arc and the point where the tangents at
-/// them meet, it holds the triangle of the three and so the whole arc; otherwise the arc is halved.
-///
-/// That it does not stand at `to` may be `known`. It is not asked again then: as close to the edge as halving comes,
-/// forces that are remembered from just inside pass for a balance at `to`, too.
-fn first_exit(trial: &mut Trial, side: f64, [from, to]: [f64; 2], known: bool) -> Option<f64> {
-    let mut judge = |angle: f64, stretch: f64| trial.judge(&turned(angle, stretch, side)).0;
-    let (width, middle) = (to - from, 0.5 * (from + to));
-    let is_beyond = known || judge(to, 1.0) != Verdict::Stable;
-    if width < 1e-9 {
-        return is_beyond.then_some(from);
-    }
-    let beyond_the_arc = 1.0 / libm::cos(0.5 * width);
-    if !is_beyond && judge(middle, beyond_the_arc) == Verdict::Stable {
-        return None;
-    }
-    match judge(middle, 1.0) {
-        Verdict::Stable => first_exit(trial, side, [from, middle], false)
-            .or_else(|| first_exit(trial, side, [middle, to], is_beyond)),
-        // The edge lies there, within what can be decided.
-        Verdict::Undecided if width < 1e-2 => Some(from),
-        _ => first_exit(trial, side, [from, middle], true),
     }
 }
