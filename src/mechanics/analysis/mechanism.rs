@@ -215,7 +215,7 @@ impl<'a> Fall<'a> {
             .iter()
             .flat_map(|m| [m.velocity.x, m.velocity.y, m.spin * self.length])
             .collect();
-        let y = extreme_ray::extreme(&self.rows(&start), &self.power(&start), &start)?;
+        let y = extreme_ray::extreme_ray(&self.rows(&start), &self.power(&start), &start)?;
         let sliding = self.along_joints(&y);
         let motions = self.motions_of(&sliding.unwrap_or(y));
         (!motions.is_empty()).then_some(motions)
@@ -363,7 +363,7 @@ impl<'a> Fall<'a> {
                 kept.push(row);
             }
         }
-        let flat = extreme_ray::nearest(&kept, y);
+        let flat = extreme_ray::project_onto_null_space(&kept, y);
         let size = |y: &[f64]| y.iter().map(|v| v * v).sum::<f64>();
         let like = size(&flat) >= KEPT * KEPT * size(y);
         let falls = value(&self.power(y), &flat) > 0.0;

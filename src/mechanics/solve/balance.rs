@@ -1,4 +1,11 @@
-//! The hard program: admissible forces of least sum that balance every block, or a motion that none can stop.
+//! The program of least force: admissible forces of least sum that balance every block, or a motion that nothing opposes.
+//!
+//! [Vallat23](crate::doc::references) §2.0.7, solved through its kinematic dual. Steps:
+//!
+//! 1. solve the dual ([`Dual`]); an unbounded dual is the motion;
+//! 2. find the face of optima from the basic columns ([`Face::narrowed`]);
+//! 3. on the face, find the forces of least Σ force², which are unique;
+//! 4. accept them if they balance and cost as much as the optimum; else try the face of another margin.
 
 use super::level::{WIDE, lightest, refined_optimum, with_least_squares};
 use super::{
@@ -6,69 +13,65 @@ use super::{
     least_squares_amounts, of_velocities, once_within, refined, remainder, settled,
     solved_with_retry,
 };
-use crate::program::{Program, columns, kinematic_dual};
+use crate::program::{Program, QuadraticProgram, columns, kinematic_dual};
 
-/// What the hard program gave.
+/// The result of the program of least force.
 #[derive(Clone, Debug)]
 pub struct Balance {
-    /// Forces that balance, where it found some.
+    /// Forces that balance, if there are any.
     pub forces: Option<Amounts>,
-    /// A motion along which the loads work and no contact objects, where it found one: three velocities per block.
+    /// Else a motion along which the loads work and no contact does: three velocities for each block.
     pub motion: Option<Vec<f64>>,
-    /// Where it found forces: the motion against which no contact works by more than its force costs, which says how small
-    /// their sum can be.
+    /// With forces: a motion along which no force takes more work than it costs. Its power is a lower bound of their sum.
     pub witness: Option<Vec<f64>>,
     /// The work it took.
     pub effort: Effort,
 }
 
-/// Slack may outweigh the amount so many times before a column is left out of the face of optima.
+/// Margins of [`Dual::active`] that are tried for the face of optima.
 ///
-/// The first value is the plain rule. A column whose slack and amount are both next to nothing may be in by chance, which
-/// shows in the cost; near the edge of standing one may be out by chance, and then nothing balances.
+/// The first is the plain rule. A column whose slack and amount are both nearly 0 may be in by chance, which shows in the
+/// cost: then a smaller margin helps. Near the limit of standing one may be out by chance, and nothing balances: then a larger
+/// one does.
 const MARGINS: [f64; 5] = [1.0, 1e-3, 1e3, 1e-6, 1e6];
 
-/// On the true face every balance costs the same, up to the solver's digits; a dearer one means a column too many.
-const SAME_COST: f64 = 2e-8;
+/// On the true face every balance has the same cost, up to the solver's digits. A larger relative difference means that
+/// there is a column too many. Ten times larger, such a column would be accepted; a tenth is the solver's own error.
+const COST_TOL: f64 = 2e-8;
 
-/// Very rough contacts cost the solver digits; within this share the cheapest balance is nearer the truth than its
-/// objective.
-const NEAR_COST: f64 = 1e-6;
+/// With very rough contacts the solver loses digits. Within this relative difference the cheapest balance is taken, which is
+/// nearer the truth than the solver's objective.
+const ROUGH_COST_TOL: f64 = 1e-6;
 
-/// The least squares may leave so much unbalanced, in parts of the largest load: half of what a proof lets pass.
-const BALANCED: f64 = 5e-8;
+/// The least squares may leave this unbalanced, relative to the largest load: half of what a proof allows.
+const BALANCE_TOL: f64 = 5e-8;
 
-/// From so many blocks on the quick way is given up early, and not tried again with full conditioning.
+/// From this number of blocks on plain conditioning is given up early, and full conditioning is not tried.
 const MANY_BLOCKS: usize = 200;
 
-/// Iterations after which it is given up.
+/// Iterations after which a program of many blocks is given up.
 ///
-/// Walls of 400 to 2 000 bricks take 6 to 60 where they stand or fall by more than a thousandth. Nearer to the edge the
-/// least force ends without a status after 100, in either way, where the program without cost is solved in 30.
-const SHORT: usize = 60;
+/// Walls of 400 to 2 000 bricks take 6 to 60 if they stand or fall by more than a thousandth. Nearer to the limit the least
+/// force ends without a status after 100, with either conditioning; the program without cost is solved in 30.
+const MAX_ITERATIONS_MANY: usize = 60;
 
-/// Iterations after which a first look at many blocks is given up.
+/// Iterations after which the first attempt at many blocks is given up.
 ///
-/// Walls of 400 to 900 bricks take 6 where they stand upright and 7 to 9 where they fall by far; arches of 1 000 and 10 000
-/// stones take 11 and 13. What takes more is near the edge, where the program without cost is solved in 12 to 20.
-const FIRST_LOOK: usize = 15;
+/// Walls of 400 to 900 bricks take 6 if they stand upright and 7 to 9 if they fall by far; arches of 1 000 and 10 000 stones
+/// take 11 and 13. What takes more is near the limit, where the program without cost is solved in 12 to 20.
+const MAX_ITERATIONS_FIRST_LOOK: usize = 15;
 
-/// Of many blocks, when so large a share of the columns in use may as well not be, the optimum is sought more sharply first.
+/// With many blocks, the program is solved to a finer tolerance if a larger share of the basic columns is doubtful.
 ///
-/// In walls of coordinates with 4 decimals thousands of columns have an amount and a slack of the same size, 10⁻⁴ of the
-/// others': the faces taken for the optimum's have no balance, which the least squares take long to find out.
-const VAGUE: f64 = 0.05;
+/// In walls whose coordinates have 4 decimals thousands of columns have an amount and a slack of the same size, 10⁻⁴ of the
+/// others'. The faces found then have no balance, and the least squares take long to find that out.
+const MAX_DOUBTFUL_SHARE: f64 = 0.05;
 
-/// By so much more sharply.
-const SHARP: f64 = 1e-3;
+/// The finer tolerance, as a fraction of the normal one.
+const FINE_TOLERANCE_FACTOR: f64 = 1e-3;
 
-/// Whether of many columns it is not clear that they belong to the optimum.
-fn is_vague(solved: &Dual) -> bool {
-    vagueness(solved) > VAGUE
-}
-
-/// What share of the columns in use may as well not be.
-fn vagueness(solved: &Dual) -> f64 {
+/// The share of the basic columns that may as well be non-basic: amount and slack within a factor of 1000.
+fn doubtful_share(solved: &Dual) -> f64 {
     let count = |margin: f64| {
         let active = solved.active(margin).into_iter();
         active.filter(|active| *active).count() as f64
@@ -79,8 +82,75 @@ fn vagueness(solved: &Dual) -> f64 {
     }
 }
 
-/// The least force of few blocks whose loads span many sizes, each with its own digits; `None` of others.
-fn of_every_body(
+/// Solves the program of least force.
+pub fn balance(program: &Program, conditioning: Conditioning) -> Balance {
+    balance_in(program, conditioning.into())
+}
+
+/// Solves the program of least force with given settings.
+pub fn balance_in(program: &Program, settings: SolverSettings) -> Balance {
+    balance_within(program, settings, MAX_ITERATIONS_MANY)
+}
+
+/// As [`balance_in`], but a program of many blocks is given up after a few iterations.
+pub fn balance_at_first_look(program: &Program, settings: SolverSettings) -> Balance {
+    balance_within(program, settings, MAX_ITERATIONS_FIRST_LOOK)
+}
+
+fn balance_within(program: &Program, settings: SolverSettings, max_iterations: usize) -> Balance {
+    let mut effort = Effort::default();
+    let whole = Face::whole(&program.loads, columns(program));
+    let (solved, face_settings) =
+        solve_dual(program, &whole, settings, max_iterations, &mut effort);
+    let mut found = Balance {
+        forces: None,
+        motion: None,
+        witness: None,
+        effort,
+    };
+    let motion = || Some(solved.y.iter().map(|v| -v).collect());
+    match solved.status {
+        Status::Solved => {
+            let effort = &mut found.effort;
+            if let Some(balance) = balance_by_levels(program, &whole, &solved, settings, effort) {
+                return balance;
+            }
+            found.witness = motion();
+            let effort = &mut found.effort;
+            let best = match settings.choice {
+                Choice::Any => None,
+                Choice::Unique => least_squares_balance(
+                    program,
+                    &whole,
+                    &solved,
+                    [settings, face_settings],
+                    effort,
+                ),
+            };
+            let mut face = match (best, settings.choice) {
+                (Some(best), _) => best,
+                (None, Choice::Unique) => whole.with(solved.amounts),
+                // One system of equations is cheaper than repairs block by block.
+                (None, Choice::Any) => {
+                    let (loads, amounts) = (&whole.loads, solved.amounts);
+                    let amounts = settled(loads, &whole.columns, amounts, settings, effort);
+                    whole.with(amounts)
+                }
+            };
+            if settings.conditioning == Conditioning::Full {
+                face.amounts = refined(&face.loads, &face.columns, face.amounts, effort);
+            }
+            found.forces = Some(face.gathered(program).0);
+        }
+        // The dual's velocities are those against which the loads work; the blocks move the other way.
+        Status::Unbounded => found.motion = motion(),
+        _ => {}
+    }
+    found
+}
+
+/// The least force of few blocks whose loads span many sizes, right to the digits of each block; `None` for other programs.
+fn balance_by_levels(
     program: &Program,
     whole: &Face,
     solved: &Dual,
@@ -88,8 +158,8 @@ fn of_every_body(
     effort: &mut Effort,
 ) -> Option<Balance> {
     let light = lightest(&whole.loads);
-    let wide = light < WIDE * largest(&whole.loads);
-    if !wide || program.blocks >= MANY_BLOCKS || settings.choice == Choice::Any {
+    let has_wide_range = light < WIDE * largest(&whole.loads);
+    if !has_wide_range || program.blocks >= MANY_BLOCKS || settings.choice == Choice::Any {
         return None;
     }
     let (loads, columns) = (&whole.loads, &whole.columns);
@@ -104,120 +174,90 @@ fn of_every_body(
     })
 }
 
-/// Solves the hard program of [Vallat23](crate::doc::references) §2.0.7 through its kinematic dual.
-pub fn balance(program: &Program, conditioning: Conditioning) -> Balance {
-    balance_in(program, conditioning.into())
-}
-
-/// Solves it with given settings.
-pub fn balance_in(program: &Program, settings: SolverSettings) -> Balance {
-    balance_within(program, settings, SHORT)
-}
-
-/// Solves it as a first look at many blocks: given up early where it is not solved soon.
-pub fn balance_at_first_look(program: &Program, settings: SolverSettings) -> Balance {
-    balance_within(program, settings, FIRST_LOOK)
-}
-
-fn balance_within(program: &Program, settings: SolverSettings, short: usize) -> Balance {
-    let mut effort = Effort::default();
-    let whole = Face::whole(&program.loads, columns(program));
-    let (conic, row_of) = kinematic_dual(&whole.loads, &whole.columns, |c| c.cost);
-    let answer = if settings.conditioning == Conditioning::Plain && program.blocks >= MANY_BLOCKS {
-        once_within(&conic, settings, short, &mut effort)
-    } else {
-        solved_with_retry(&conic, settings, &mut effort)
+/// Step 1: the dual, and the settings for the least squares on its face.
+fn solve_dual(
+    program: &Program,
+    whole: &Face,
+    settings: SolverSettings,
+    max_iterations: usize,
+    effort: &mut Effort,
+) -> (Dual, SolverSettings) {
+    let (dual, row_of) = kinematic_dual(&whole.loads, &whole.columns, |c| c.cost);
+    let read = |dual: &QuadraticProgram, answer| {
+        of_velocities(&whole.loads, &whole.columns, dual, &row_of, answer)
     };
-    let mut solved = of_velocities(&whole.loads, &whole.columns, &conic, &row_of, &answer);
-    let mut face_settings = settings;
-    if program.blocks >= MANY_BLOCKS && settings.choice == Choice::Unique && is_vague(&solved) {
-        let sharp = SolverSettings {
-            tolerance: SHARP * settings.tolerance,
+    let has_many_blocks = program.blocks >= MANY_BLOCKS;
+    let answer = if settings.conditioning == Conditioning::Plain && has_many_blocks {
+        once_within(&dual, settings, max_iterations, effort)
+    } else {
+        solved_with_retry(&dual, settings, effort)
+    };
+    let solved = read(&dual, &answer);
+    if has_many_blocks
+        && settings.choice == Choice::Unique
+        && doubtful_share(&solved) > MAX_DOUBTFUL_SHARE
+    {
+        let fine = SolverSettings {
+            tolerance: FINE_TOLERANCE_FACTOR * settings.tolerance,
             ..settings
         };
-        let answer = once_within(&conic, sharp, SHORT, &mut effort);
+        let answer = once_within(&dual, fine, MAX_ITERATIONS_MANY, effort);
         if answer.status == Status::Solved {
-            solved = of_velocities(&whole.loads, &whole.columns, &conic, &row_of, &answer);
-            face_settings.conditioning = Conditioning::Full;
+            let full = SolverSettings {
+                conditioning: Conditioning::Full,
+                ..settings
+            };
+            return (read(&dual, &answer), full);
         }
     }
-    match solved.status {
-        Status::Solved => {
-            if let Some(found) = of_every_body(program, &whole, &solved, settings, &mut effort) {
-                return found;
-            }
-            let size = largest(&program.loads);
-            let mut found: Option<(f64, Face)> = None;
-            let margins = match settings.choice {
-                Choice::Any => &[][..],
-                Choice::Unique => &MARGINS[..],
-            };
-            let mut sizes = Vec::with_capacity(margins.len());
-            for margin in margins {
-                let face = whole.narrowed(&solved, *margin);
-                // Margins order the columns, so a face of as many columns and full ones is one that was tried.
-                let of = (face.columns.len(), face.at_limit.len());
-                if sizes.contains(&of) {
-                    continue;
-                }
-                sizes.push(of);
-                let Some(mut amounts) =
-                    least_squares_amounts(&face.loads, &face.columns, face_settings, &mut effort)
-                else {
-                    continue;
-                };
-                let cost = face.cost(&amounts);
-                let off = (cost - solved.objective).abs() / solved.objective.abs();
-                let balanced = |amounts: &[f64]| {
-                    largest(&remainder(&face.loads, &face.columns, amounts)) <= BALANCED * size
-                };
-                if off <= NEAR_COST && !balanced(&amounts) {
-                    // The right columns, but long arches add up more rounding than a proof lets pass.
-                    amounts = settled(&face.loads, &face.columns, amounts, settings, &mut effort);
-                }
-                if off > NEAR_COST || !balanced(&amounts) {
-                    continue;
-                }
-                if found.as_ref().is_none_or(|best| cost < best.0) {
-                    found = Some((cost, face.with(amounts)));
-                }
-                if off <= SAME_COST {
-                    break;
-                }
-            }
-            let mut face = match (found, settings.choice) {
-                (Some(best), _) => best.1,
-                (None, Choice::Unique) => whole.with(solved.amounts),
-                // One system of equations is cheaper than making good what the solver leaves, block by block.
-                (None, Choice::Any) => {
-                    let (loads, amounts) = (&whole.loads, solved.amounts);
-                    let amounts = settled(loads, &whole.columns, amounts, settings, &mut effort);
-                    whole.with(amounts)
-                }
-            };
-            if settings.conditioning == Conditioning::Full {
-                face.amounts = refined(&face.loads, &face.columns, face.amounts, &mut effort);
-            }
-            let (forces, _) = face.gathered(program);
-            Balance {
-                forces: Some(forces),
-                motion: None,
-                witness: Some(solved.y.iter().map(|v| -v).collect()),
-                effort,
-            }
+    (solved, settings)
+}
+
+/// Steps 2 to 4: the balance of least Σ force² among those of least cost; `None` if no margin gives one.
+///
+/// `settings` are those of the repair of a balance, and of the least squares.
+fn least_squares_balance(
+    program: &Program,
+    whole: &Face,
+    solved: &Dual,
+    settings: [SolverSettings; 2],
+    effort: &mut Effort,
+) -> Option<Face> {
+    let [repair_settings, face_settings] = settings;
+    let size = largest(&program.loads);
+    let mut best: Option<(f64, Face)> = None;
+    let mut tried = Vec::with_capacity(MARGINS.len());
+    for margin in MARGINS {
+        let face = whole.narrowed(solved, margin);
+        // The faces of increasing margins contain each other, so one with as many columns was tried already.
+        let counts = (face.columns.len(), face.at_limit.len());
+        if tried.contains(&counts) {
+            continue;
         }
-        // The dual's velocities are those against which loads work; the blocks move the other way.
-        Status::Unbounded => Balance {
-            forces: None,
-            motion: Some(solved.y.iter().map(|v| -v).collect()),
-            witness: None,
-            effort,
-        },
-        _ => Balance {
-            forces: None,
-            motion: None,
-            witness: None,
-            effort,
-        },
+        tried.push(counts);
+        let Some(mut amounts) =
+            least_squares_amounts(&face.loads, &face.columns, face_settings, effort)
+        else {
+            continue;
+        };
+        let cost = face.cost(&amounts);
+        let difference = (cost - solved.objective).abs() / solved.objective.abs();
+        let is_balanced = |amounts: &[f64]| {
+            largest(&remainder(&face.loads, &face.columns, amounts)) <= BALANCE_TOL * size
+        };
+        if difference <= ROUGH_COST_TOL && !is_balanced(&amounts) {
+            // The right columns, but in long arches rounding adds up to more than a proof allows.
+            amounts = settled(&face.loads, &face.columns, amounts, repair_settings, effort);
+        }
+        if difference > ROUGH_COST_TOL || !is_balanced(&amounts) {
+            continue;
+        }
+        if best.as_ref().is_none_or(|best| cost < best.0) {
+            best = Some((cost, face.with(amounts)));
+        }
+        if difference <= COST_TOL {
+            break;
+        }
     }
+    best.map(|(_, face)| face)
 }

@@ -1,326 +1,397 @@
-//! The balance nearest to given loads: admissible amounts that leave least unbalanced, min ½|A·x − loads|² s.t. 0 ≤ x ≤
-//! limit.
+//! [`BoundedNnls`]: least squares with bounds, min ½|A·x − loads|² s.t. 0 ≤ x ≤ limit.
 //!
-//! It tells both stories at once. Where nothing is left the amounts are forces that balance; where something is, what is
-//! left, r = loads − A·x, is a motion that no admissible force can object to and along which the loads do work: for the
-//! nearest point of a cone Aᵀr ≤ 0 and loadsᵀr = |r|² (Moreau's two polar cones). No cost enters, so the forces are some
-//! that balance and not the least.
+//! The residual r = loads − A·x answers both questions of statics. If r = 0, the amounts are forces that balance. Else r
+//! is a motion that no admissible force opposes and along which the loads do work: at the nearest point of a cone
+//! Aᵀr ≤ 0 and loadsᵀr = |r|² (Moreau's two polar cones). No cost enters, so the forces are some that balance, not the
+//! least. Nothing here is believed without its proof.
 //!
-//! Solved by the active-set method of [LawsonHanson74](crate::doc::references), chapter 23: a set of used columns, grown by
-//! the one that most wants in and shrunk where an amount would leave its bounds, with the Cholesky factor of their Gram
-//! matrix kept up to date. A used set is a first guess for a changed program at hardly any cost, since the factor does not
-//! depend on the loads, nor on rows and columns that are new. Nothing here is believed without its proof.
+//! The active-set method NNLS of [LawsonHanson74](crate::doc::references), chapter 23, with upper bounds. Steps:
+//!
+//! 1. gradient Aᵀr: columns at a bound whose gradient points inwards are candidates;
+//! 2. candidates enter the passive set;
+//! 3. least squares on the passive set, by the Cholesky factor of its Gram matrix, which is kept up to date;
+//! 4. if an amount would leave its bounds, a ratio test: move until the first bound is met, remove that column, back to 3;
+//! 5. without candidates, the optimum is found.
+//!
+//! The passive set is a warm start for a changed program: the factor does not depend on the loads, nor on other columns.
 
-use super::Amounts;
-use super::incremental_cholesky::Factor;
+use super::amounts::Amounts;
+use super::incremental_cholesky::IncrementalCholesky;
 use crate::program::{Column, Force, Program, columns};
 
-/// A column wants in where it gains more than this share of its own size times what is left.
-const WANTS: f64 = 1e-11;
+/// A column may enter the passive set if its gradient exceeds this fraction of |column|·|residual|.
+///
+/// The gradient of a passive column is 0 up to some 1e-13 of that. At 1e-12 rounding would bring columns in; at 1e-10 small
+/// contributions would be missed that the proof needs.
+const DUAL_TOL: f64 = 1e-11;
 
-/// What is left below this share of the loads is nothing: far less than a proof asks for, and more than the rounding of the
-/// amounts of some hundred bodies, which would keep columns changing places for ever.
-const NOTHING: f64 = 1e-12;
+/// A residual below this fraction of the loads counts as 0.
+///
+/// Far less than a proof asks for (1e-7), and more than the rounding of the amounts of some hundred bodies. At a tenth
+/// columns would enter and leave for ever on that rounding.
+const RESIDUAL_TOL: f64 = 1e-12;
 
-/// And what wants in with less than this share of the loads does so for that rounding.
-const ROUNDING: f64 = 1e-13;
+/// A gradient below this fraction of the loads, per unit of |column|, is rounding.
+const GRADIENT_FLOOR: f64 = 1e-13;
 
-/// A column whose part across the used ones is smaller than this share of it is a sum of them.
-const ACROSS: f64 = 1e-11;
+/// A column depends linearly on the passive ones if the square of its part orthogonal to them is at most this fraction of
+/// its own square. That square then has some five digits left. Ten times larger, columns would be refused that are needed
+/// next to nearly parallel ones; a tenth, the factor would lose one more digit.
+const DEPENDENCE_TOL: f64 = 1e-11;
 
-/// So many changes of the used set per column are allowed.
-const CHANGES: usize = 4;
+/// The passive set may change at most this many times the number of columns.
+const MAX_PIVOTS_PER_COLUMN: usize = 4;
 
-/// The used columns of a program and what was found with them.
+/// The passive set of a program, and the amounts found with it.
 #[derive(Clone, Debug, Default)]
 pub struct BoundedNnls {
-    /// The numbers of the used columns, in the order of the factor's rows, and their amounts.
-    used: Vec<usize>,
+    /// The passive columns, which lie between their bounds, in the order of the factor's rows.
+    passive: Vec<usize>,
+    /// The amounts of the passive columns.
     amounts: Vec<f64>,
-    /// Of the Gram matrix of the used columns.
-    factor: Factor,
-    /// Columns at their limits.
-    full: Vec<usize>,
+    /// Of the Gram matrix of the passive columns.
+    factor: IncrementalCholesky,
+    /// The columns at their upper bounds.
+    at_limit: Vec<usize>,
 }
 
-/// The columns that are looked at: where there is friction, the normal force alone is the sum of two others.
+/// The columns of a program without those that others generate: with friction, a normal force alone is the sum of the two
+/// rays of the cone.
 pub fn generators(program: &Program) -> Vec<Column> {
-    let needless = |column: &Column| match column.force {
+    let is_redundant = |column: &Column| match column.force {
         Force::Ray {
             contact, friction, ..
         } => friction == 0.0 && program.contacts[contact].friction > 0.0,
         _ => false,
     };
     let mut list = columns(program);
-    list.retain(|column| !needless(column));
+    list.retain(|column| !is_redundant(column));
     list
 }
 
 impl BoundedNnls {
-    /// The same set where columns have other numbers now; those that are gone, of which `number` is `None`, go.
+    /// Renumbers the columns, for a changed program. Columns for which `number` is `None` are removed.
     pub fn renumber(&mut self, number: impl Fn(usize) -> Option<usize>) {
-        for place in (0..self.used.len()).rev() {
-            match number(self.used[place]) {
-                Some(new) => self.used[place] = new,
-                None => self.drop_at(place),
+        for place in (0..self.passive.len()).rev() {
+            match number(self.passive[place]) {
+                Some(new) => self.passive[place] = new,
+                None => self.remove_at(place),
             }
         }
-        self.full = self.full.iter().filter_map(|k| number(*k)).collect();
+        self.at_limit = self.at_limit.iter().filter_map(|k| number(*k)).collect();
     }
 
-    /// Finds the nearest balance, starting from the set at hand. Returns what is left of the loads, or `None` where it does
-    /// not come to an end.
+    /// Finds the nearest balance, starting from the passive set. Returns the residual loads − A·x, or `None` after too many
+    /// pivots.
     ///
-    /// The columns must be those from which the set was made, up to their numbers and up to new ones.
+    /// The columns must be those from which the set was made, apart from their numbers and from new ones.
     pub fn find(&mut self, loads: &[f64], columns: &[Column]) -> Option<Vec<f64>> {
         let size = loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-        let norms: Vec<f64> = columns.iter().map(norm).collect();
-        // Columns that were tried and found to be sums of the used ones, until the set changes.
-        let mut barred = vec![false; columns.len()];
-        let mut place = vec![State::Out; columns.len()];
-        self.used.iter().for_each(|k| place[*k] = State::Used);
-        self.full.iter().for_each(|k| place[*k] = State::Full);
-        let budget = CHANGES * columns.len() + 16;
-        let mut changes = budget;
-        // What was known may be all that it takes.
-        let (mut entry, mut digits) = (Entry::Several, Digits::All);
-        let mut wanting = Vec::new();
-        if !self.used.is_empty() {
-            self.settle(loads, columns, &mut place, digits, &mut changes)?;
+        let mut search = Search::new(self, loads, columns);
+        if !self.passive.is_empty() {
+            // The warm start may be the optimum already.
+            self.solve_passive(&mut search, Digits::All)?;
         }
+        let (mut entry, mut digits) = (Entry::Several, Digits::All);
         loop {
-            let rest = self.rest(loads, columns);
-            let left = rest.iter().map(|v| v * v).sum::<f64>().sqrt();
-            let enough = (WANTS * left).max(ROUNDING * size);
-            wanting.clear();
-            for (k, column) in columns.iter().enumerate() {
-                let gain = match place[k] {
-                    State::Out => column.dot(&rest),
-                    State::Full => -column.dot(&rest),
-                    State::Used => continue,
-                };
-                let gain = gain / norms[k];
-                if gain > enough && !barred[k] && left > NOTHING * size {
-                    wanting.push((gain, k));
-                }
+            // Step 1: the gradient, and the candidates.
+            let residual = self.residual(loads, columns);
+            let length = residual.iter().map(|v| v * v).sum::<f64>().sqrt();
+            let is_balanced = !(length > RESIDUAL_TOL * size);
+            search.find_candidates(&residual, (DUAL_TOL * length).max(GRADIENT_FLOOR * size));
+            if is_balanced {
+                search.candidates.clear();
             }
-            if wanting.is_empty() {
-                if entry == Entry::Several && left > NOTHING * size {
-                    // What went straight back may have done so for what came with it.
+            if search.candidates.is_empty() {
+                if entry == Entry::Several && !is_balanced {
+                    // A column that left at once may have done so because of the others that entered with it.
                     entry = Entry::One;
-                    barred.fill(false);
+                    search.rejected.fill(false);
                 } else if digits == Digits::All {
-                    return Some(rest);
+                    return Some(residual);
                 } else {
                     digits = Digits::All;
-                    self.settle(loads, columns, &mut place, digits, &mut changes)?;
+                    self.solve_passive(&mut search, digits)?;
                 }
                 continue;
             }
-            if 2 * changes < budget {
+            // Entering one at a time is slower, but cannot cycle.
+            if 2 * search.pivots_left < search.max_pivots {
                 entry = Entry::One;
             }
             digits = Digits::Some;
-            let mut entered = Vec::new();
-            for k in entry.chosen(&mut wanting, columns, loads.len()) {
-                changes = changes.checked_sub(1)?;
-                let amount = match place[k] {
-                    State::Full => columns[k].limit,
-                    _ => 0.0,
-                };
-                if self.append(columns, k, amount) {
-                    entered.push((k, place[k]));
-                    self.full.retain(|f| *f != k);
-                    place[k] = State::Used;
-                } else {
-                    barred[k] = true;
-                }
-            }
+            // Steps 2 to 4.
+            let entered = self.enter(&mut search, entry)?;
             if entered.is_empty() {
                 continue;
             }
-            let settled = self.settle(loads, columns, &mut place, digits, &mut changes)?;
-            let stays = |(k, _): &(usize, State)| place[*k] == State::Used;
-            if settled == Settled::Moved || entered.iter().any(stays) {
-                barred.fill(false);
+            let progress = self.solve_passive(&mut search, digits)?;
+            let stays = |(k, _): &(usize, State)| search.state[*k] == State::Passive;
+            if progress == Progress::Moved || entered.iter().any(stays) {
+                search.rejected.fill(false);
             }
-            // One that wanted to move and went straight back did so for rounding, which is no reason to try it for ever.
-            for (k, before) in entered {
-                barred[k] = place[k] == before;
+            // A column that left at once entered because of rounding: it must not try for ever.
+            for (k, former) in entered {
+                search.rejected[k] = search.state[k] == former;
             }
         }
     }
 
-    /// The amounts by what they stand for.
+    /// The amounts, as the forces they stand for.
     pub fn gathered(&self, program: &Program, columns: &[Column]) -> Amounts {
         let mut amounts = Amounts::none(program);
-        for (k, amount) in self.used.iter().zip(&self.amounts) {
+        for (k, amount) in self.passive.iter().zip(&self.amounts) {
             amounts.add(columns[*k].force, *amount);
         }
-        for k in &self.full {
+        for k in &self.at_limit {
             amounts.add(columns[*k].force, columns[*k].limit);
         }
         amounts
     }
 
-    /// The numbers of the columns in use, at their limits too.
+    /// The columns with an amount above 0: the passive ones, and those at their limits.
     pub fn numbers(&self) -> impl Iterator<Item = usize> + '_ {
-        self.used.iter().chain(&self.full).copied()
+        self.passive.iter().chain(&self.at_limit).copied()
     }
 
-    /// Moves the amounts to the least squares of the used set, taking columns out whose amounts meet a bound on the way.
-    fn settle(
-        &mut self,
-        loads: &[f64],
-        columns: &[Column],
-        place: &mut [State],
-        digits: Digits,
-        changes: &mut usize,
-    ) -> Option<Settled> {
-        let mut settled = Settled::Stayed;
-        loop {
-            let wanted = self.least_squares(loads, columns, digits);
-            // How far towards it every amount stays within its bounds, and the one that meets its own first.
-            let mut step: Option<(f64, usize)> = None;
-            for (place, (now, then)) in self.amounts.iter().zip(&wanted).enumerate() {
-                let limit = columns[self.used[place]].limit;
-                let part = if *then < 0.0 {
-                    now.max(0.0) / (now.max(0.0) - then)
-                } else if *then > limit {
-                    (limit - now.min(limit)) / (then - now.min(limit))
-                } else {
-                    continue;
-                };
-                if step.is_none_or(|(least, _)| part < least) {
-                    step = Some((part, place));
-                }
-            }
-            let Some((part, first)) = step else {
-                self.amounts = wanted;
-                return Some(settled);
+    /// Moves candidates into the passive set, unless they depend on it. Returns those that entered, with their former
+    /// states; `None` after too many pivots.
+    fn enter(&mut self, search: &mut Search, entry: Entry) -> Option<Vec<(usize, State)>> {
+        let mut entered = Vec::new();
+        for k in entry.choose(&mut search.candidates, search.columns, search.loads.len()) {
+            search.count_pivot()?;
+            let amount = match search.state[k] {
+                State::AtLimit => search.columns[k].limit,
+                _ => 0.0,
             };
-            *changes = changes.checked_sub(1)?;
-            if part > 0.0 {
-                settled = Settled::Moved;
+            if self.append(search.columns, k, amount) {
+                entered.push((k, search.state[k]));
+                self.at_limit.retain(|f| *f != k);
+                search.state[k] = State::Passive;
+            } else {
+                search.rejected[k] = true;
             }
-            let at_limit = wanted[first] > 0.0;
-            for (now, then) in self.amounts.iter_mut().zip(&wanted) {
-                *now += part * (then - *now);
+        }
+        Some(entered)
+    }
+
+    /// Moves the amounts to the least squares of the passive set, and removes columns that meet a bound on the way.
+    fn solve_passive(&mut self, search: &mut Search, digits: Digits) -> Option<Progress> {
+        let (loads, columns) = (search.loads, search.columns);
+        let mut progress = Progress::Stayed;
+        loop {
+            let optimum = self.least_squares(loads, columns, digits);
+            let Some((step, first)) = self.ratio_test(&optimum, columns) else {
+                self.amounts = optimum;
+                return Some(progress);
+            };
+            search.count_pivot()?;
+            if step > 0.0 {
+                progress = Progress::Moved;
             }
-            let k = self.used[first];
-            self.drop_at(first);
-            place[k] = State::Out;
-            if at_limit {
-                place[k] = State::Full;
-                self.full.push(k);
+            let meets_limit = optimum[first] > 0.0;
+            for (now, then) in self.amounts.iter_mut().zip(&optimum) {
+                *now += step * (then - *now);
             }
-            // The others may have come to the same bound.
+            let k = self.passive[first];
+            self.remove_at(first);
+            search.state[k] = State::AtZero;
+            if meets_limit {
+                search.state[k] = State::AtLimit;
+                self.at_limit.push(k);
+            }
+            // Others may have met 0 in the same step, up to rounding.
             for now in &mut self.amounts {
                 *now = now.max(0.0);
             }
         }
     }
 
-    /// The amounts of the used set, of either sign, that leave least; to all digits where they are refined once.
-    fn least_squares(&self, loads: &[f64], columns: &[Column], digits: Digits) -> Vec<f64> {
-        let mut rest = loads.to_vec();
-        for k in &self.full {
-            columns[*k].add_to(&mut rest, -columns[*k].limit);
+    /// The longest step towards the optimum of the passive set that keeps all bounds, and the place of the column that meets its
+    /// bound; `None` if the whole step does.
+    fn ratio_test(&self, optimum: &[f64], columns: &[Column]) -> Option<(f64, usize)> {
+        let mut shortest: Option<(f64, usize)> = None;
+        for (place, (now, then)) in self.amounts.iter().zip(optimum).enumerate() {
+            let limit = columns[self.passive[place]].limit;
+            let step = if *then < 0.0 {
+                now.max(0.0) / (now.max(0.0) - then)
+            } else if *then > limit {
+                (limit - now.min(limit)) / (then - now.min(limit))
+            } else {
+                continue;
+            };
+            if shortest.is_none_or(|(least, _)| step < least) {
+                shortest = Some((step, place));
+            }
         }
-        let mut amounts = vec![0.0; self.used.len()];
-        let rounds = match digits {
+        shortest
+    }
+
+    /// The amounts of the passive set of least residual, of either sign. Refined once for all digits, since the normal
+    /// equations have half of them only.
+    fn least_squares(&self, loads: &[f64], columns: &[Column], digits: Digits) -> Vec<f64> {
+        let mut residual = loads.to_vec();
+        for k in &self.at_limit {
+            columns[*k].add_to(&mut residual, -columns[*k].limit);
+        }
+        let mut amounts = vec![0.0; self.passive.len()];
+        let solves = match digits {
             Digits::Some => 1,
             Digits::All => 2,
         };
-        for _ in 0..rounds {
-            let mut change: Vec<f64> = self.used.iter().map(|k| columns[*k].dot(&rest)).collect();
+        for _ in 0..solves {
+            let gradient = self.passive.iter().map(|k| columns[*k].dot(&residual));
+            let mut change: Vec<f64> = gradient.collect();
             self.factor.forward(&mut change);
             self.factor.backward(&mut change);
-            for ((amount, by), k) in amounts.iter_mut().zip(&change).zip(&self.used) {
+            for ((amount, by), k) in amounts.iter_mut().zip(&change).zip(&self.passive) {
                 *amount += by;
-                columns[*k].add_to(&mut rest, -by);
+                columns[*k].add_to(&mut residual, -by);
             }
         }
         amounts
     }
 
-    fn rest(&self, loads: &[f64], columns: &[Column]) -> Vec<f64> {
-        let mut rest = loads.to_vec();
-        for (k, amount) in self.used.iter().zip(&self.amounts) {
-            columns[*k].add_to(&mut rest, -amount);
+    /// loads − A·x.
+    fn residual(&self, loads: &[f64], columns: &[Column]) -> Vec<f64> {
+        let mut residual = loads.to_vec();
+        for (k, amount) in self.passive.iter().zip(&self.amounts) {
+            columns[*k].add_to(&mut residual, -amount);
         }
-        for k in &self.full {
-            columns[*k].add_to(&mut rest, -columns[*k].limit);
+        for k in &self.at_limit {
+            columns[*k].add_to(&mut residual, -columns[*k].limit);
         }
-        rest
+        residual
     }
 
-    /// Takes a column in, unless it is a sum of the used ones.
+    /// Adds a column to the passive set; false if it depends on the columns there.
     fn append(&mut self, columns: &[Column], k: usize, amount: f64) -> bool {
         let new = &columns[k];
-        let products = self.used.iter().map(|u| columns[*u].times(new)).collect();
-        let own = new.times(new);
-        if !self.factor.append(products, own, ACROSS * own) {
+        let products = self
+            .passive
+            .iter()
+            .map(|u| columns[*u].times(new))
+            .collect();
+        let square = new.times(new);
+        if !self
+            .factor
+            .append(products, square, DEPENDENCE_TOL * square)
+        {
             return false;
         }
-        self.used.push(k);
+        self.passive.push(k);
         self.amounts.push(amount);
         true
     }
 
-    /// Takes a used column out.
-    fn drop_at(&mut self, place: usize) {
-        self.used.remove(place);
+    /// Removes a column from the passive set.
+    fn remove_at(&mut self, place: usize) {
+        self.passive.remove(place);
         self.amounts.remove(place);
         self.factor.remove(place);
     }
 }
 
-/// Where a column stands.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum State {
-    /// Its amount is 0.
-    Out,
-    /// Between its bounds.
-    Used,
-    /// At its limit.
-    Full,
+/// What one call of [`BoundedNnls::find`] keeps track of.
+struct Search<'a> {
+    loads: &'a [f64],
+    columns: &'a [Column],
+    /// |column| of each.
+    norms: Vec<f64>,
+    state: Vec<State>,
+    /// Columns that were tried in vain, until the passive set changes.
+    rejected: Vec<bool>,
+    /// (gradient per unit of |column|, column) of those that may enter.
+    candidates: Vec<(f64, usize)>,
+    max_pivots: usize,
+    pivots_left: usize,
 }
 
-/// How precisely amounts are sought: to the last digits only where nothing wants in any more.
+impl<'a> Search<'a> {
+    fn new(set: &BoundedNnls, loads: &'a [f64], columns: &'a [Column]) -> Search<'a> {
+        let mut state = vec![State::AtZero; columns.len()];
+        set.passive.iter().for_each(|k| state[*k] = State::Passive);
+        set.at_limit.iter().for_each(|k| state[*k] = State::AtLimit);
+        // Some more, so that small programs are not cut short.
+        let max_pivots = MAX_PIVOTS_PER_COLUMN * columns.len() + 16;
+        Search {
+            loads,
+            columns,
+            norms: columns.iter().map(norm).collect(),
+            state,
+            rejected: vec![false; columns.len()],
+            candidates: Vec::new(),
+            max_pivots,
+            pivots_left: max_pivots,
+        }
+    }
+
+    /// Collects the columns at a bound whose gradient points inwards by more than `threshold`.
+    fn find_candidates(&mut self, residual: &[f64], threshold: f64) {
+        self.candidates.clear();
+        for (k, column) in self.columns.iter().enumerate() {
+            let gradient = match self.state[k] {
+                State::AtZero => column.dot(residual),
+                State::AtLimit => -column.dot(residual),
+                State::Passive => continue,
+            };
+            let gradient = gradient / self.norms[k];
+            if gradient > threshold && !self.rejected[k] {
+                self.candidates.push((gradient, k));
+            }
+        }
+    }
+
+    /// Counts a change of the passive set; `None` if there were too many.
+    fn count_pivot(&mut self) -> Option<()> {
+        self.pivots_left = self.pivots_left.checked_sub(1)?;
+        Some(())
+    }
+}
+
+/// Where the amount of a column is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum State {
+    AtZero,
+    /// Between its bounds.
+    Passive,
+    AtLimit,
+}
+
+/// How precisely the least squares of the passive set are solved: to the last digits only when there are no candidates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Digits {
     Some,
     All,
 }
 
-/// How many columns come in at once.
+/// How many columns enter at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Entry {
-    /// The ones that gain most, no two on one block: one system of equations serves for all of them.
+    /// Those of largest gradient, no two at one block: one system of equations serves them all.
     Several,
-    /// The one that gains most, which leads to the end for certain.
+    /// The one of largest gradient, as Lawson and Hanson have it, which terminates for certain.
     One,
 }
 
 impl Entry {
-    /// Those of the columns that want in by their gains, of a problem of so many rows.
-    fn chosen(
+    /// Chooses from the candidates, and empties their list; `rows` is the number of rows of the problem.
+    fn choose(
         self,
-        wanting: &mut Vec<(f64, usize)>,
+        candidates: &mut Vec<(f64, usize)>,
         columns: &[Column],
         rows: usize,
     ) -> Vec<usize> {
-        wanting.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        candidates.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
         if self == Entry::One {
-            wanting.truncate(1);
+            candidates.truncate(1);
         }
-        let mut taken = vec![false; rows.div_ceil(3)];
+        let mut is_taken = vec![false; rows.div_ceil(3)];
         let mut chosen = Vec::new();
-        for (_, k) in wanting.drain(..) {
+        for (_, k) in candidates.drain(..) {
             let blocks = || columns[k].entries().map(|(row, _)| row / 3);
-            if blocks().all(|block| !taken[block]) {
-                blocks().for_each(|block| taken[block] = true);
+            if blocks().all(|block| !is_taken[block]) {
+                blocks().for_each(|block| is_taken[block] = true);
                 chosen.push(k);
             }
         }
@@ -328,9 +399,9 @@ impl Entry {
     }
 }
 
-/// Whether amounts were moved before a bound was met.
+/// Whether amounts changed before a bound was met.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Settled {
+enum Progress {
     Moved,
     Stayed,
 }
@@ -415,7 +486,7 @@ mod tests {
     }
 
     #[test]
-    fn a_set_that_lost_a_column_is_made_whole() {
+    fn a_passive_set_that_lost_a_column_is_completed() {
         let program = block(0.25, 1.0, vec![]);
         let columns = generators(&program);
         let mut nearest = BoundedNnls::default();

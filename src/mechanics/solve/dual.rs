@@ -99,6 +99,17 @@ pub(super) fn of_velocities(
     solved
 }
 
+/// The amounts of columns, the multipliers of their rows. `row_of` has the row of each, or `usize::MAX` for the second of a
+/// pair of opposite columns that share one equality: its amount is the multiplier with the other sign.
+pub(super) fn amounts_of_rows(answer: &Answer, row_of: &[usize]) -> Vec<f64> {
+    let rows = row_of.iter().enumerate();
+    rows.map(|(k, row)| match *row {
+        usize::MAX => (-answer.z[row_of[k - 1]]).max(0.0),
+        row => answer.z[row].max(0.0),
+    })
+    .collect()
+}
+
 /// Solves the same program with the forces as unknowns. The rows are the balance; their multipliers are the velocities.
 ///
 /// Near the limit of standing it takes about half the iterations of the kinematic form, and each is a third dearer. It

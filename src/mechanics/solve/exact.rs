@@ -1,22 +1,33 @@
-//! Small balances solved by elimination, to rounding: the one that leaves no choice, and the one of least squares.
+//! Small balances solved by elimination, right to rounding: the unique one, and the one of least squares.
 //!
-//! Where the interior-point method would give nine digits in many steps, elimination gives sixteen in one. What it cannot
-//! show to be the answer it leaves to the solver.
+//! An interior-point method gives nine digits in many steps; elimination gives sixteen in one. What elimination cannot show
+//! to be the answer is left to the solver.
 
+use super::residual_norm::largest;
 use crate::program::{Column, product};
 
-/// Larger systems go to the sparse solver: elimination here is dense and grows with the cube.
-const MOST_ROWS: usize = 120;
+/// Systems of more rows go to the sparse solver: elimination here is dense, and its work grows with the cube.
+const MAX_ROWS: usize = 120;
 
-/// Pivots below this mean that the columns depend on each other, so that there is a choice.
-const LEAST_PIVOT: f64 = 1e-7;
+/// A smaller pivot means that the columns are linearly dependent, so that the balance is not unique. Entries are near 1. At a
+/// tenth the amounts could lose one more digit; ten times larger, short contacts would be refused.
+const PIVOT_TOL: f64 = 1e-7;
 
-/// The only amounts of the columns that give `loads`, where the columns are independent and the amounts not negative.
-pub(super) fn only(loads: &[f64], columns: &[Column]) -> Option<Vec<f64>> {
+/// Residuals and negative amounts below this fraction of the largest load are rounding: the solver's own tolerance.
+const ROUNDING_TOL: f64 = 1e-9;
+
+/// As [`ROUNDING_TOL`], for the least squares, where each answer has its own proof.
+const STRICT_TOL: f64 = 1e-12;
+
+/// The only amounts of the columns that balance the loads, by Gaussian elimination with partial pivoting.
+///
+/// `None` if the columns are dependent, the amounts leave their bounds, or the loads are not balanced.
+pub(super) fn unique_balance(loads: &[f64], columns: &[Column]) -> Option<Vec<f64>> {
     let (rows, n) = (loads.len(), columns.len());
-    if n > rows || rows > MOST_ROWS {
+    if n > rows || rows > MAX_ROWS {
         return None;
     }
+    // The columns, with the loads as the last one; row by row.
     let width = n + 1;
     let mut table = vec![0.0; rows * width];
     for (j, column) in columns.iter().enumerate() {
@@ -27,10 +38,28 @@ pub(super) fn only(loads: &[f64], columns: &[Column]) -> Option<Vec<f64>> {
     for (row, value) in loads.iter().enumerate() {
         table[row * width + n] = *value;
     }
+    eliminate(&mut table, rows, n)?;
+    let mut amounts = vec![0.0; n];
+    for j in (0..n).rev() {
+        let known: f64 = (j + 1..n).map(|k| table[j * width + k] * amounts[k]).sum();
+        amounts[j] = (table[j * width + n] - known) / table[j * width + j];
+    }
+    let tolerance = ROUNDING_TOL * largest(loads);
+    let is_balanced = (n..rows).all(|row| table[row * width + n].abs() <= tolerance);
+    let is_admissible = amounts
+        .iter()
+        .zip(columns)
+        .all(|(a, c)| *a >= -tolerance && *a <= c.limit + tolerance);
+    (is_balanced && is_admissible).then(|| amounts.iter().map(|a| a.max(0.0)).collect())
+}
+
+/// Forward elimination of the first `n` columns of a table with n + 1 columns; `None` if a pivot is too small.
+fn eliminate(table: &mut [f64], rows: usize, n: usize) -> Option<()> {
+    let width = n + 1;
     for j in 0..n {
         let size = |row: &usize| table[row * width + j].abs();
         let best = (j..rows).max_by(|a, b| size(a).total_cmp(&size(b)))?;
-        if size(&best) < LEAST_PIVOT {
+        if size(&best) < PIVOT_TOL {
             return None;
         }
         if best != j {
@@ -49,107 +78,118 @@ pub(super) fn only(loads: &[f64], columns: &[Column]) -> Option<Vec<f64>> {
             }
         }
     }
-    let scale = loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-    let mut amounts = vec![0.0; n];
-    for j in (0..n).rev() {
-        let known: f64 = (j + 1..n).map(|k| table[j * width + k] * amounts[k]).sum();
-        amounts[j] = (table[j * width + n] - known) / table[j * width + j];
-    }
-    let rest = (n..rows).all(|row| table[row * width + n].abs() <= 1e-9 * scale);
-    let pressing = amounts
-        .iter()
-        .zip(columns)
-        .all(|(a, c)| *a >= -1e-9 * scale && *a <= c.limit + 1e-9 * scale);
-    (rest && pressing).then(|| amounts.iter().map(|a| a.max(0.0)).collect())
+    Some(())
 }
 
-/// The amounts ≥ 0 of least Σ force² that give `loads`, where a few rounds of dropping negative ones find them.
+/// The amounts ≥ 0 of least Σ force² that balance the loads, if a few rounds of an active-set method find them.
 ///
-/// Only for columns whose squares do not mix, such as normal forces alone. The multipliers of the balance prove the answer:
-/// λ_j = g_jᵀy / p_j where that is positive, and g_jᵀy ≤ 0 for every column dropped.
-pub(super) fn least(loads: &[f64], columns: &[Column]) -> Option<Vec<f64>> {
+/// Only for columns whose squares do not mix, such as normal forces alone. With p_j the square of a unit of column g_j and y
+/// the multipliers of the balance, the optimum is λ_j = g_jᵀy / p_j for the columns in use, and g_jᵀy ≤ 0 for those
+/// dropped (Karush, Kuhn and Tucker). Each round solves for y and drops the columns with negative amounts.
+pub(super) fn least_squares_balance(loads: &[f64], columns: &[Column]) -> Option<Vec<f64>> {
     let rows = loads.len();
-    if rows > MOST_ROWS
-        || columns
-            .windows(2)
-            .any(|w| product(&w[0].force, &w[1].force).is_some_and(|p| p != 0.0))
-    {
+    let mix = |pair: &[Column]| product(&pair[0].force, &pair[1].force).is_some_and(|p| p != 0.0);
+    if rows > MAX_ROWS || columns.windows(2).any(mix) {
         return None;
     }
     let squares: Vec<f64> = columns
         .iter()
         .filter_map(|c| product(&c.force, &c.force))
         .collect();
-    let scale = loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-    let mut used = vec![true; columns.len()];
-    for _ in 0..ROUNDS {
-        let mut gram = vec![0.0; rows * rows];
-        for ((column, square), _) in columns
-            .iter()
-            .zip(&squares)
-            .zip(&used)
-            .filter(|(_, used)| **used)
-        {
-            for (i, a) in column.entries() {
-                for (j, b) in column.entries() {
-                    gram[i * rows + j] += a * b / square;
-                }
-            }
+    let scale = largest(loads);
+    let mut in_use = vec![true; columns.len()];
+    for _ in 0..MAX_ROUNDS {
+        let y = solve_semidefinite(gram(rows, columns, &squares, &in_use), loads)?;
+        let both = columns.iter().zip(&squares);
+        let amounts: Vec<f64> = both.map(|(c, square)| c.dot(&y) / square).collect();
+        let is_negative = |k: &usize| in_use[*k] && amounts[*k] < -STRICT_TOL * scale;
+        let dropped: Vec<usize> = (0..columns.len()).filter(is_negative).collect();
+        if dropped.is_empty() {
+            return proved_optimum(loads, columns, &amounts, &in_use);
         }
-        let y = semidefinite(gram, loads)?;
-        let amounts: Vec<f64> = columns
-            .iter()
-            .zip(&squares)
-            .map(|(c, square)| c.dot(&y) / square)
-            .collect();
-        let negative = |k: &usize| used[*k] && amounts[*k] < -1e-12 * scale;
-        let drop: Vec<usize> = (0..columns.len()).filter(negative).collect();
-        if drop.is_empty() {
-            let kept: Vec<f64> = amounts
-                .iter()
-                .zip(&used)
-                .map(|(a, used)| if *used { a.max(0.0) } else { 0.0 })
-                .collect();
-            let proved = amounts
-                .iter()
-                .zip(&used)
-                .all(|(a, used)| *used || *a <= 1e-9 * scale);
-            let allowed = kept.iter().zip(columns).all(|(a, c)| *a <= c.limit);
-            let mut rest = loads.to_vec();
-            columns
-                .iter()
-                .zip(&kept)
-                .for_each(|(c, a)| c.add_to(&mut rest, -a));
-            let balanced = rest.iter().all(|v| v.abs() <= 1e-12 * scale);
-            return (proved && allowed && balanced).then_some(kept);
-        }
-        drop.into_iter().for_each(|k| used[k] = false);
+        dropped.into_iter().for_each(|k| in_use[k] = false);
     }
     None
 }
 
-/// Rounds of dropping negative amounts before the solver is asked.
-const ROUNDS: usize = 6;
+/// Rounds of dropping negative amounts before the solver takes over.
+const MAX_ROUNDS: usize = 6;
 
-/// Solves a symmetric positive semidefinite system by Cholesky; rows without a pivot get 0.
-fn semidefinite(mut a: Vec<f64>, b: &[f64]) -> Option<Vec<f64>> {
+/// Σ column·columnᵀ/square over the columns in use.
+fn gram(rows: usize, columns: &[Column], squares: &[f64], in_use: &[bool]) -> Vec<f64> {
+    let mut gram = vec![0.0; rows * rows];
+    let both = columns.iter().zip(squares).zip(in_use);
+    for ((column, square), _) in both.filter(|(_, in_use)| **in_use) {
+        for (i, a) in column.entries() {
+            for (j, b) in column.entries() {
+                gram[i * rows + j] += a * b / square;
+            }
+        }
+    }
+    gram
+}
+
+/// The amounts of the columns in use, if they meet the conditions of an optimum.
+fn proved_optimum(
+    loads: &[f64],
+    columns: &[Column],
+    amounts: &[f64],
+    in_use: &[bool],
+) -> Option<Vec<f64>> {
+    let scale = largest(loads);
+    let both = || amounts.iter().zip(in_use);
+    let kept: Vec<f64> = both()
+        .map(|(a, in_use)| if *in_use { a.max(0.0) } else { 0.0 })
+        .collect();
+    let is_optimal = both().all(|(a, in_use)| *in_use || *a <= ROUNDING_TOL * scale);
+    let is_admissible = kept.iter().zip(columns).all(|(a, c)| *a <= c.limit);
+    let mut residual = loads.to_vec();
+    let forces = columns.iter().zip(&kept);
+    forces.for_each(|(c, a)| c.add_to(&mut residual, -a));
+    let is_balanced = residual.iter().all(|v| v.abs() <= STRICT_TOL * scale);
+    (is_optimal && is_admissible && is_balanced).then_some(kept)
+}
+
+/// A pivot below this fraction of the largest diagonal entry is 0: nothing acts along its row.
+const SEMIDEFINITE_PIVOT_TOL: f64 = 1e-11;
+
+/// Solves a symmetric positive semidefinite system by Cholesky factorization; unknowns without a pivot become 0.
+fn solve_semidefinite(mut a: Vec<f64>, b: &[f64]) -> Option<Vec<f64>> {
     let n = b.len();
-    let largest = (0..n).map(|i| a[i * n + i]).fold(0.0, f64::max);
+    let has_pivot = factor_semidefinite(&mut a, n);
     let mut x = b.to_vec();
-    let mut pivots = vec![false; n];
+    for j in 0..n {
+        if has_pivot[j] {
+            let known: f64 = (0..j).map(|k| a[j * n + k] * x[k]).sum();
+            x[j] = (x[j] - known) / a[j * n + j];
+        } else {
+            x[j] = 0.0;
+        }
+    }
+    for j in (0..n).rev().filter(|j| has_pivot[*j]) {
+        let known: f64 = (j + 1..n).map(|k| a[k * n + j] * x[k]).sum();
+        x[j] = (x[j] - known) / a[j * n + j];
+    }
+    x.iter().all(|v| v.is_finite()).then_some(x)
+}
+
+/// Replaces the lower triangle by the Cholesky factor. Returns which columns have a pivot; the others become 0.
+fn factor_semidefinite(a: &mut [f64], n: usize) -> Vec<bool> {
+    let max_diagonal = (0..n).map(|i| a[i * n + i]).fold(0.0, f64::max);
+    let mut has_pivot = vec![false; n];
     for j in 0..n {
         let mut d = a[j * n + j];
         for k in 0..j {
             d -= a[j * n + k] * a[j * n + k];
         }
-        if d <= 1e-11 * largest {
-            // Nothing acts along this row; whether nothing is needed shows in the balance.
+        if d <= SEMIDEFINITE_PIVOT_TOL * max_diagonal {
+            // If a force is needed along this row all the same, the balance shows it.
             for i in j..n {
                 a[i * n + j] = 0.0;
             }
             continue;
         }
-        pivots[j] = true;
+        has_pivot[j] = true;
         let root = d.sqrt();
         a[j * n + j] = root;
         for i in j + 1..n {
@@ -160,17 +200,5 @@ fn semidefinite(mut a: Vec<f64>, b: &[f64]) -> Option<Vec<f64>> {
             a[i * n + j] = v / root;
         }
     }
-    for j in 0..n {
-        if pivots[j] {
-            let known: f64 = (0..j).map(|k| a[j * n + k] * x[k]).sum();
-            x[j] = (x[j] - known) / a[j * n + j];
-        } else {
-            x[j] = 0.0;
-        }
-    }
-    for j in (0..n).rev().filter(|j| pivots[*j]).collect::<Vec<_>>() {
-        let known: f64 = (j + 1..n).map(|k| a[k * n + j] * x[k]).sum();
-        x[j] = (x[j] - known) / a[j * n + j];
-    }
-    x.iter().all(|v| v.is_finite()).then_some(x)
+    has_pivot
 }

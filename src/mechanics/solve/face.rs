@@ -121,7 +121,9 @@ pub(super) fn least_squares_amounts(
     if columns.is_empty() {
         return Some(Vec::new());
     }
-    if let Some(amounts) = exact::only(loads, columns).or_else(|| exact::least(loads, columns)) {
+    if let Some(amounts) = exact::unique_balance(loads, columns)
+        .or_else(|| exact::least_squares_balance(loads, columns))
+    {
         return Some(amounts);
     }
     let answer = solved_with_retry(&least_squares(loads, columns, None), settings, effort);

@@ -1,29 +1,30 @@
-//! [`Factor`]: the Cholesky factor of a matrix that grows and shrinks by one row and column at a time.
+//! [`IncrementalCholesky`]: the Cholesky factor of a matrix that grows and shrinks by one row and column at a time.
 //!
-//! Each row is kept from its first entry that is not 0. In the Gram matrix of forces on a structure only those on one block
-//! have products; so where columns come block by block, a row begins at the forces of the blocks below, and the work of a
-//! change grows with the width of the structure instead of its size.
+//! Update and downdate of a factor (Golub and Van Loan, Matrix Computations, section 6.5): appending a row takes one forward
+//! substitution, removing one takes Givens rotations. Rows are stored from their first nonzero entry on (skyline). In the
+//! Gram matrix of forces only those on a common block have products. So where columns come block by block, the work of a
+//! change grows with the width of the structure, not with its size.
 
-/// L, lower triangular, with L·Lᵀ the matrix.
+/// The lower triangle L, with L·Lᵀ the matrix.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Factor {
+pub(super) struct IncrementalCholesky {
     rows: Vec<Row>,
 }
 
 #[derive(Clone, Debug)]
 struct Row {
-    /// Where its first entry stands; the last one stands on the diagonal.
+    /// The column of its first entry. Its last entry is on the diagonal.
     first: usize,
     entries: Vec<f64>,
 }
 
-impl Factor {
-    /// L·x = v, in place.
+impl IncrementalCholesky {
+    /// Replaces v by L⁻¹·v.
     pub fn forward(&self, v: &mut [f64]) {
         self.forward_from(v, 0);
     }
 
-    /// The same of a v that is 0 before `begin`.
+    /// As [`Self::forward`], for a v that is 0 before `begin`.
     fn forward_from(&self, v: &mut [f64], begin: usize) {
         for (k, row) in self.rows.iter().enumerate().skip(begin) {
             let (before, rest) = v.split_at_mut(k);
@@ -34,7 +35,7 @@ impl Factor {
         }
     }
 
-    /// Lᵀ·x = v, in place.
+    /// Replaces v by L⁻ᵀ·v.
     pub fn backward(&self, v: &mut [f64]) {
         for (k, row) in self.rows.iter().enumerate().rev() {
             let (before, rest) = v.split_at_mut(k);
@@ -46,24 +47,26 @@ impl Factor {
         }
     }
 
-    /// Adds a last row and column: its products with those before, and its own square. False, and nothing is added, where
-    /// what is left of the square is no more than `least`.
-    pub fn append(&mut self, mut products: Vec<f64>, own: f64, least: f64) -> bool {
+    /// Appends a row and column to the matrix: its products with the former ones, and its own diagonal entry `square`.
+    ///
+    /// Returns false, and appends nothing, if the new pivot is at most `min_pivot`.
+    pub fn append(&mut self, mut products: Vec<f64>, square: f64, min_pivot: f64) -> bool {
         let first = products.iter().position(|v| *v != 0.0);
         let first = first.unwrap_or(products.len());
         self.forward_from(&mut products, first);
         let mut entries = Vec::with_capacity(products.len() + 1 - first);
         entries.extend_from_slice(&products[first..]);
-        let across = own - dot(&entries, &entries);
-        if !(across > least) {
+        let pivot = square - dot(&entries, &entries);
+        if !(pivot > min_pivot) {
             return false;
         }
-        entries.push(across.sqrt());
+        entries.push(pivot.sqrt());
         self.rows.push(Row { first, entries });
         true
     }
 
-    /// Takes a row and column out: rotations make the rest triangular again.
+    /// Removes a row and column. What is left has one entry right of the diagonal in each row below; Givens rotations of
+    /// neighbouring columns make it triangular again.
     pub fn remove(&mut self, place: usize) {
         self.rows.remove(place);
         for k in place..self.rows.len() {
@@ -80,7 +83,7 @@ impl Factor {
 }
 
 impl Row {
-    /// The entries before the diagonal, and the one on it.
+    /// The entries left of the diagonal, and the one on it.
     fn parts(&self) -> (&[f64], f64) {
         match self.entries.split_last() {
             Some((diagonal, off)) => (off, *diagonal),
@@ -88,13 +91,14 @@ impl Row {
         }
     }
 
+    /// Entry k, 0 if it is not stored.
     fn at(&self, k: usize) -> f64 {
         let place = k.checked_sub(self.first);
         let entry = place.and_then(|place| self.entries.get(place));
         entry.copied().unwrap_or(0.0)
     }
 
-    /// Entries x, y at k and k + 1 become c·x + s·y and c·y − s·x.
+    /// Givens rotation: entries x, y at k and k + 1 become c·x + s·y and c·y − s·x.
     fn rotate(&mut self, k: usize, c: f64, s: f64) {
         let (x, y) = (self.at(k), self.at(k + 1));
         if y == 0.0 && x == 0.0 {
@@ -110,7 +114,7 @@ impl Row {
     }
 }
 
-/// Σ a·b, in four sums side by side.
+/// The dot product of two lists, in four sums that run in parallel.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     let ((fours, rest), (others, last)) = (a.as_chunks::<4>(), b.as_chunks::<4>());
     let mut sums = [0.0; 4];
@@ -142,7 +146,7 @@ mod tests {
     }
 
     /// Whether x = A⁻¹·v comes out, where A has only these rows and columns.
-    fn solves(factor: &Factor, kept: &[usize]) -> bool {
+    fn solves(factor: &IncrementalCholesky, kept: &[usize]) -> bool {
         let wanted: Vec<f64> = (0..kept.len()).map(|k| 1.0 - 0.4 * k as f64).collect();
         let row = |i: &usize| -> f64 {
             let terms = kept.iter().zip(&wanted);
@@ -156,14 +160,14 @@ mod tests {
 
     #[test]
     fn rows_come_and_go_in_any_order() {
-        let add = |factor: &mut Factor, kept: &mut Vec<usize>, i: usize| {
+        let add = |factor: &mut IncrementalCholesky, kept: &mut Vec<usize>, i: usize| {
             let products = kept.iter().map(|j| entry(i, *j)).collect();
             assert!(factor.append(products, entry(i, i), 1e-9));
             kept.push(i);
             assert!(solves(factor, kept), "with {kept:?}");
         };
         for order in [[0, 3, 1], [6, 0, 0], [2, 4, 0]] {
-            let (mut factor, mut kept) = (Factor::default(), Vec::new());
+            let (mut factor, mut kept) = (IncrementalCholesky::default(), Vec::new());
             (0..7).for_each(|i| add(&mut factor, &mut kept, i));
             for place in order {
                 factor.remove(place);
@@ -179,7 +183,7 @@ mod tests {
 
     #[test]
     fn a_row_that_is_a_sum_of_others_is_refused() {
-        let mut factor = Factor::default();
+        let mut factor = IncrementalCholesky::default();
         assert!(factor.append(vec![], 1.0, 1e-9));
         assert!(factor.append(vec![0.0], 1.0, 1e-9));
         assert!(!factor.append(vec![1.0, 2.0], 5.0, 1e-9));

@@ -1,37 +1,38 @@
-//! How far a load or a limit can go: one linear program each, no search.
+//! How far a load or a robot's limit can go: limit analysis by one linear program each.
 //!
-//! The kinematic dual of `max λ  s.t.  Σ amount·column = loads + λ·toward` has one row more than the hard program,
-//! towardᵀy ≥ 1, whose dual amount is λ; its velocities are the collapse mechanism at the limit. A robot's least
-//! sufficient limit is the least amount of its own component while every other force is free of cost. Source: the
-//! static and kinematic theorems of limit analysis, Livesley 1978.
+//! The static theorem: the largest load factor is max λ s.t. Σ amount·column = loads + λ·direction. Its dual is the kinematic
+//! theorem: one more row than the program of least force, directionᵀy ≥ 1, whose multiplier is λ; the velocities are the
+//! collapse mechanism at the limit. A robot's least sufficient limit is the least amount of its own component if
+//! every other force is free of cost. Reference: [Livesley78](crate::doc::references).
 
+use super::dual::amounts_of_rows;
 use super::slanted::Slanted;
 use super::{
     Amounts, Conditioning, Effort, Face, Status, TOLERANCE, dual, largest, settled, solve,
 };
 use crate::program::{Column, Force, Program, columns, load_factor_dual, nearest_factor_dual};
 
-/// The end of what a program allows.
+/// How far a load factor or a limit can go.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Limit {
-    /// It ends here, in parts of what was asked about; of a robot's component in pure numbers.
+    /// To this load factor; for a robot's component, to this limit in pure numbers.
     At(f64),
     /// No value allows a balance.
     Never,
-    /// Every value from some on does.
+    /// There is no end.
     Unbounded,
     /// The solver gave up.
     Unsolved,
 }
 
-/// What a program found at its limit.
+/// The state at the limit.
 #[derive(Clone, Debug)]
 pub struct Extreme {
     /// The limit.
     pub limit: Limit,
-    /// Forces that balance just there.
+    /// Forces that balance there.
     pub forces: Option<Amounts>,
-    /// The motion by which it begins to fall beyond: three velocities per block.
+    /// The collapse mechanism just beyond: three velocities for each block.
     pub motion: Option<Vec<f64>>,
 }
 
@@ -45,31 +46,31 @@ impl From<Limit> for Extreme {
     }
 }
 
-/// From so many blocks on the finest tolerance is out of reach: at the first a wall of 410 bricks ends without a status.
+/// From this number of blocks on the finest of [`TOLERANCES`] is out of reach: a wall of 410 bricks ends there without a status.
 const MANY_BLOCKS: usize = 200;
 
-/// Along the velocities of many blocks the growing loads do so much work, in parts of the largest of them.
+/// With many blocks, the work that the growing loads do along the velocities, relative to the largest of them.
 ///
-/// With 1 the velocities of a wall of 915 bricks are a thousandth, and its limit takes 97 iterations with full
-/// conditioning and is known to 10⁻⁶; with 1 000 it takes 38 without, and is known to 10⁻⁷.
-const WORK: f64 = 1e3;
+/// With 1 the velocities of a wall of 915 bricks are about a thousandth: its limit takes 97 iterations with full conditioning
+/// and is right to 10⁻⁶. With 1 000 it takes 38 iterations with plain conditioning, and is right to 10⁻⁷.
+const WORK_OF_MANY_BLOCKS: f64 = 1e3;
 
-/// Tolerances tried one after the other.
+/// Tolerances, tried one after the other until the solver ends with a status.
 const TOLERANCES: [f64; 3] = [TOLERANCE, 10.0 * TOLERANCE, 100.0 * TOLERANCE];
 
-/// The largest λ ≥ 0 for which admissible forces give `program.loads + λ·toward`.
+/// The largest λ ≥ 0 for which admissible forces give `program.loads + λ·direction`.
 ///
-/// Both are posed with a largest entry of 1: on a wall of 420 bricks loads of 300 end after a hundred iterations at
-/// 0.48159 where loads of 1 are solved, at 0.48162.
-pub fn most(program: &Program, toward: &[f64]) -> Extreme {
-    along(program, toward, Extremum::Largest)
+/// Loads and direction are scaled to a largest entry of 1. With loads of 300 a wall of 420 bricks ends after a hundred iterations
+/// at 0.48159; with loads of 1 it is solved, at 0.48162.
+pub fn largest_factor(program: &Program, direction: &[f64]) -> Extreme {
+    factor_along(program, direction, Extremum::Largest)
 }
 
-/// The λ nearest to 0, of either sign, for which admissible forces give `program.loads + λ·toward`.
+/// The λ nearest to 0, of either sign, for which admissible forces give `program.loads + λ·direction`.
 ///
 /// It has an optimum exactly where any λ does, so [`Limit::Never`] says that none does.
-pub fn nearest_factor(program: &Program, toward: &[f64]) -> Extreme {
-    along(program, toward, Extremum::Nearest)
+pub fn nearest_factor(program: &Program, direction: &[f64]) -> Extreme {
+    factor_along(program, direction, Extremum::Nearest)
 }
 
 /// Which λ is sought.
@@ -98,8 +99,8 @@ impl Extremum {
     }
 }
 
-fn along(program: &Program, toward: &[f64], extremum: Extremum) -> Extreme {
-    let size = largest(toward);
+fn factor_along(program: &Program, direction: &[f64], extremum: Extremum) -> Extreme {
+    let size = largest(direction);
     if size == 0.0 {
         return Limit::Unbounded.into();
     }
@@ -108,41 +109,28 @@ fn along(program: &Program, toward: &[f64], extremum: Extremum) -> Extreme {
         load => load,
     };
     let scaled = |list: &[f64], by: f64| -> Vec<f64> { list.iter().map(|v| v / by).collect() };
-    let (loads, along) = (scaled(&program.loads, load), scaled(toward, size));
+    let (loads, along) = (scaled(&program.loads, load), scaled(direction, size));
     let columns = Slanted::new(&columns_in(program, load)).columns;
-    let (mut conic, row_of) = match extremum {
+    let (mut problem, row_of) = match extremum {
         Extremum::Largest => load_factor_dual(&loads, &along, &columns),
         Extremum::Nearest => nearest_factor_dual(&loads, &along, &columns),
     };
-    let many = program.blocks >= MANY_BLOCKS;
-    let work = if many { WORK } else { 1.0 };
-    // The last rows ask for the work.
-    conic
-        .bound
-        .iter_mut()
-        .rev()
-        .take(extremum.rows())
-        .for_each(|b| *b *= work);
-    let full = |tolerance: &f64| (*tolerance, Conditioning::Full);
-    let plain = [(TOLERANCES[1], Conditioning::Plain)];
-    let tries = plain.into_iter().filter(|_| many);
-    let finest = usize::from(many);
-    for (tolerance, conditioning) in tries.chain(TOLERANCES[finest..].iter().map(full)) {
-        let answer = solve(&conic, tolerance, conditioning);
+    if program.blocks >= MANY_BLOCKS {
+        let work_rows = problem.bound.iter_mut().rev().take(extremum.rows());
+        work_rows.for_each(|b| *b *= WORK_OF_MANY_BLOCKS);
+    }
+    for (tolerance, conditioning) in attempts(program) {
+        let answer = solve(&problem, tolerance, conditioning);
         match (answer.status, extremum.factor(&answer.z)) {
-            (Status::Solved, Some(amount)) => {
-                let total = loads.iter().zip(&along).map(|(n, t)| n + amount * t);
+            (Status::Solved, Some(factor)) => {
+                let total = loads.iter().zip(&along).map(|(n, t)| n + factor * t);
                 let total: Vec<f64> = total.collect();
-                let given = row_of.iter().enumerate().map(|(k, row)| match *row {
-                    usize::MAX => (-answer.z[row_of[k - 1]]).max(0.0),
-                    row => answer.z[row].max(0.0),
-                });
-                let given: Vec<f64> = given.collect();
-                let mut amounts = rebalanced(&total, &columns, given);
+                let amounts = amounts_of_rows(&answer, &row_of);
+                let mut amounts = rebalanced(&total, &columns, amounts);
                 amounts.iter_mut().for_each(|amount| *amount *= load);
                 let face = Face::whole(&total, columns).with(amounts);
                 return Extreme {
-                    limit: Limit::At(amount * load / size),
+                    limit: Limit::At(factor * load / size),
                     forces: Some(face.gathered(program).0),
                     motion: Some(answer.x[..loads.len()].iter().map(|v| -v).collect()),
                 };
@@ -161,13 +149,24 @@ fn along(program: &Program, toward: &[f64], extremum: Extremum) -> Extreme {
     Limit::Unsolved.into()
 }
 
-/// Amounts with the smallest change that undoes what a solver left unbalanced of them.
+/// Tolerances and conditionings in the order in which they are tried. Of many blocks first the quick plain conditioning.
+fn attempts(program: &Program) -> impl Iterator<Item = (f64, Conditioning)> {
+    let has_many_blocks = program.blocks >= MANY_BLOCKS;
+    let plain = has_many_blocks.then_some((TOLERANCES[1], Conditioning::Plain));
+    let finest = usize::from(has_many_blocks);
+    let full = TOLERANCES.into_iter().skip(finest);
+    plain
+        .into_iter()
+        .chain(full.map(|tolerance| (tolerance, Conditioning::Full)))
+}
+
+/// The amounts with the least change that removes what a solver left unbalanced.
 pub(super) fn rebalanced(loads: &[f64], columns: &[Column], amounts: Vec<f64>) -> Vec<f64> {
     let settings = Conditioning::Plain.into();
     settled(loads, columns, amounts, settings, &mut Effort::default())
 }
 
-/// The columns of a program whose forces are counted in parts of `unit`.
+/// The columns of a program, with limits in parts of `unit`.
 pub(super) fn columns_in(program: &Program, unit: f64) -> Vec<Column> {
     let mut columns = columns(program);
     for column in &mut columns {
@@ -176,25 +175,25 @@ pub(super) fn columns_in(program: &Program, unit: f64) -> Vec<Column> {
     columns
 }
 
-/// The least limit of one component of one grip that lets admissible forces balance, the other limits as they are.
-pub fn least(program: &Program, grip: usize, component: usize) -> Extreme {
+/// The least limit of one component of one grip with which admissible forces balance; the other limits are as they are.
+pub fn least_grip_limit(program: &Program, grip: usize, component: usize) -> Extreme {
     let mut free = program.clone();
     free.grips[grip].limits[component] = f64::INFINITY;
-    let own = |force: &Force| matches!(force, Force::Grip { grip: g, component: c, .. } if *g == grip && *c == component);
+    let is_own = |force: &Force| matches!(force, Force::Grip { grip: g, component: c, .. } if *g == grip && *c == component);
     let columns = columns(&free);
     let solved = dual(
         &free.loads,
         &columns,
         Conditioning::Full,
         &mut Effort::default(),
-        |c| f64::from(u8::from(own(&c.force))),
+        |c| f64::from(u8::from(is_own(&c.force))),
     );
     match solved.status {
-        // The objective counts what limited forces give at their limits, so the component's own amounts are summed instead.
+        // The objective also has the costs of limits, so the component's own amounts are summed instead.
         Status::Solved => {
             let amounts = rebalanced(&free.loads, &columns, solved.amounts.clone());
             let owned = columns.iter().zip(&solved.amounts);
-            let owned = owned.filter(|(c, _)| own(&c.force));
+            let owned = owned.filter(|(c, _)| is_own(&c.force));
             let at = owned.map(|(_, amount)| amount).sum();
             let face = Face::whole(&free.loads, columns.clone()).with(amounts);
             Extreme {

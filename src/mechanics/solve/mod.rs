@@ -40,6 +40,7 @@ mod slanted;
 mod solver;
 mod stick;
 mod stick_levels;
+mod stuck;
 mod tangent;
 mod wedge;
 
@@ -51,7 +52,7 @@ pub use clarabel::by_clarabel;
 pub(crate) use deadline::{DeadlineGuard, deadline, is_late};
 pub use determinate::{collapse, determinate};
 pub use dual::{Dual, dual};
-pub use limit::{Extreme, Limit, least, most, nearest_factor};
+pub use limit::{Extreme, Limit, largest_factor, least_grip_limit, nearest_factor};
 pub use polish::polished;
 pub use refine::{corrected, relative};
 pub use residual::{Residual, any_balance, least_residual};
@@ -59,9 +60,10 @@ pub use settings::{
     Choice, Conditioning, CrossoverTolerance, MAX_ITERATIONS, SolverSettings, TOLERANCE,
 };
 pub use solver::{solve, solve_within};
-pub use stick::{Stuck, stick, stick_in};
+pub use stick::{stick, stick_in};
+pub use stuck::Stuck;
 pub use tangent::Tangent;
-pub use wedge::{RuledOut, SelfStress, SelfStressCheck, Slide, reach};
+pub use wedge::{RuledOut, SelfStress, SelfStressCheck, Slide, check_self_stress};
 
 use correction::{refined, settled};
 use dual::{in_forces, of_velocities, once, once_within, solved_with_retry};

@@ -1,6 +1,6 @@
-//! Numbers for tests.
+//! Pseudo-random numbers for tests.
 
-/// Numbers between −1 and 1 that are the same in every run.
+/// A linear congruential generator of numbers between −1 and 1, the same in every run (Knuth's MMIX constants).
 pub(super) struct Numbers(pub u64);
 
 impl Numbers {
@@ -13,7 +13,7 @@ impl Numbers {
         (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 
-    /// A whole number below an end.
+    /// A whole number from 0 to below `end`.
     pub fn below(&mut self, end: usize) -> usize {
         ((0.5 + 0.5 * self.next()) * end as f64) as usize
     }

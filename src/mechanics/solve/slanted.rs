@@ -1,29 +1,30 @@
-//! Columns without the normal forces that are sums of others.
+//! [`Slanted`]: the columns of a program without redundant ones.
 //!
-//! Where admissible forces have no price a normal force alone is the sum of the two rays beside it, (n̂ + μ t̂)/(1 + μ) and
-//! (n̂ − μ t̂)/(1 + μ), and its row follows from theirs. Without it a third of the rows is gone.
+//! If admissible forces have no cost, a normal force alone is half the sum of the two rays of its friction cone, (n̂ + μ t̂)/(1 + μ) and
+//! (n̂ − μ t̂)/(1 + μ), times 1 + μ. Its row follows from theirs. Without it a third of the rows is gone.
 
 use super::Dual;
 use crate::program::{Column, Force};
 
-/// The columns that are left, and where they stood.
+/// The columns that are left.
 pub(super) struct Slanted {
     /// The columns.
     pub columns: Vec<Column>,
+    /// The index of each among all columns.
     places: Vec<usize>,
 }
 
 impl Slanted {
-    /// Leaves out every normal force alone that two rays follow.
+    /// Leaves out every normal force alone that is followed by the two rays of its cone.
     pub fn new(all: &[Column]) -> Slanted {
-        let places: Vec<usize> = (0..all.len()).filter(|k| !is_middle(all, *k)).collect();
+        let places: Vec<usize> = (0..all.len()).filter(|k| !is_redundant(all, *k)).collect();
         Slanted {
             columns: places.iter().map(|k| all[*k]).collect(),
             places,
         }
     }
 
-    /// Amounts of all columns from those of the columns left.
+    /// The amounts of all columns, 0 for those left out.
     pub fn amounts_of_all(&self, all: &[Column], amounts: &[f64]) -> Vec<f64> {
         let mut full = vec![0.0; all.len()];
         for (amount, place) in amounts.iter().zip(&self.places) {
@@ -32,7 +33,7 @@ impl Slanted {
         full
     }
 
-    /// An optimum in terms of all columns: half of what two rays share is written as the normal force alone.
+    /// An optimum in terms of all columns: half of what both rays of a cone carry becomes the normal force alone.
     pub fn in_all_columns(&self, all: &[Column], solved: Dual) -> Dual {
         let mut full = Dual {
             amounts: self.amounts_of_all(all, &solved.amounts),
@@ -40,7 +41,7 @@ impl Slanted {
             multipliers: self.amounts_of_all(all, &solved.multipliers),
             ..solved
         };
-        for k in (0..all.len()).filter(|k| is_middle(all, *k)) {
+        for k in (0..all.len()).filter(|k| is_redundant(all, *k)) {
             let Force::Ray { normal, .. } = all[k + 1].force else {
                 continue;
             };
@@ -54,8 +55,8 @@ impl Slanted {
     }
 }
 
-/// Whether a column is a normal force alone that two rays with friction follow.
-fn is_middle(all: &[Column], k: usize) -> bool {
+/// Whether a column is a normal force alone, followed by the two rays of its cone.
+fn is_redundant(all: &[Column], k: usize) -> bool {
     let with_friction = |c: Option<&Column>| {
         c.is_some_and(|c| matches!(c.force, Force::Ray { friction, .. } if friction != 0.0))
     };

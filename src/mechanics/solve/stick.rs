@@ -13,7 +13,7 @@ use super::level::refined_optimum;
 use super::limit::columns_in;
 use super::slanted::Slanted;
 use super::{
-    Amounts, Conditioning, CrossoverTolerance, Dual, Effort, Face, SolverSettings, Status,
+    Amounts, Conditioning, CrossoverTolerance, Dual, Effort, Face, SolverSettings, Status, Stuck,
     determinate, dual, in_forces, largest, least_squares_amounts, of_velocities, once, refined,
     stick_levels,
 };
@@ -86,23 +86,6 @@ const SAME: f64 = 3e-8;
 /// The same of many blocks, where the solver tells the sum itself no better.
 const SAME_OF_MANY: f64 = 3e-7;
 
-/// What would have to stick.
-#[derive(Clone, Debug)]
-pub struct Stuck {
-    /// Whether some amount of sticking balances every block: `None` where the solver could not tell.
-    pub balanced: Option<bool>,
-    /// The admissible forces then.
-    pub forces: Amounts,
-    /// The sticking forces then.
-    pub sticking: Amounts,
-    /// A motion of the blocks along which the loads work and no contact objects: three velocities per block.
-    pub motion: Option<Vec<f64>>,
-    /// Whether admissible forces had a price, so that the motion may trespass a little against contacts.
-    pub priced: bool,
-    /// The work it took.
-    pub effort: Effort,
-}
-
 /// Solves the soft program.
 pub fn stick(program: &Program, conditioning: Conditioning) -> Stuck {
     stick_in(program, conditioning.into())
@@ -113,7 +96,7 @@ pub fn stick(program: &Program, conditioning: Conditioning) -> Stuck {
 /// Of many blocks it is posed with a largest load of 1. With loads of 300 a wall of 410 bricks just past its edge ends
 /// without a status, six times after a hundred iterations; with loads of 1 it is solved in 69.
 pub fn stick_in(program: &Program, settings: SolverSettings) -> Stuck {
-    determinate::stick(program).unwrap_or_else(|| by_programs(program, settings))
+    determinate::least_sticking(program).unwrap_or_else(|| by_programs(program, settings))
 }
 
 /// Solves it whatever contacts there are.

@@ -8,7 +8,7 @@ use crate::effect::wedging::Wedging;
 use crate::program::Program;
 use crate::proof::{Forces, Motion};
 use crate::scene::Scene;
-use crate::solve::{Amounts, Effort, SelfStress, SelfStressCheck, is_late, reach};
+use crate::solve::{Amounts, Effort, SelfStress, SelfStressCheck, check_self_stress, is_late};
 
 /// Whether a component stands, and how it begins to move where it falls: the verdict of [`solved`](super::solved) without
 /// the rest. What is found is remembered among the guesses; where one of them is a proof already, no program is solved.
@@ -133,7 +133,7 @@ pub(in crate::mechanics::analysis) fn only_by_wedging<'a>(
             let [on, from] = assembly.contacts[contact].bodies;
             format!("{}|{}", scene.name(on), scene.name(from))
         };
-        match reach(&program, &given) {
+        match check_self_stress(&program, &given) {
             SelfStressCheck::FromRest => {}
             SelfStressCheck::OnlyWedged(squeeze) => {
                 let shown = shown(&squeeze, case.scale.force, body, face);

@@ -9,7 +9,7 @@ use super::trial::{Limited, Setting, Trial};
 use super::{ComponentIntervals, tilt};
 use crate::analysis::Verdict;
 use crate::program::Scale;
-use crate::solve::{Limit, least, most, nearest_factor};
+use crate::solve::{Limit, largest_factor, least_grip_limit, nearest_factor};
 
 /// All intervals of a component that were requested. `stands` is whether it does as it is; `with_tilt` whether all
 /// components of its frame do, so that the tilts around 0 are wanted.
@@ -151,7 +151,7 @@ pub(super) fn linear(
         }
         let (program, toward) =
             trial.direction(&(line.setting)(start), &(line.setting)(start + outward));
-        let found = most(&program, &toward);
+        let found = largest_factor(&program, &toward);
         match found.limit {
             Limit::Unbounded if trial.judge(&alone(outward)).0 == Verdict::Stable => End::Unbounded,
             Limit::At(change) => {
@@ -203,7 +203,7 @@ fn limit(trial: &mut Trial, grip: usize, component: usize, stands: bool) -> Inte
         }
     }
     let enough = if stands { given } else { f64::INFINITY };
-    let found = least(&program, grip, component);
+    let found = least_grip_limit(&program, grip, component);
     let hint = match found.limit {
         Limit::At(at) => {
             let at = at * unit;

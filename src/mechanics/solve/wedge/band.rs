@@ -1,56 +1,60 @@
-//! [`Band`]: square systems whose entries stand near the diagonal, by elimination with row exchanges.
+//! [`Band`]: banded linear systems, solved by LU factorization with partial pivoting.
 //!
-//! Blocks that touch are numbered near each other by [`order`], so that a row is as wide as a layer of the structure and
-//! not as the whole of it. The matrices are not symmetric where faces slide.
+//! The matrices are not symmetric if faces slide. [`order`] numbers blocks that touch near each other (Cuthill and McKee
+//! 1969), so that the bandwidth is that of a layer of the structure. Reference: Golub and Van Loan, Matrix Computations,
+//! section 4.3.
 
 use crate::program::Program;
 
-/// A pivot below this is put in its place: the unknown is not determined, and the residual tells whether that matters.
-const LEAST_PIVOT: f64 = 1e-14;
+/// A smaller pivot is replaced by this. The unknown is then not determined, and the balance shows whether that matters.
+///
+/// The entries are near 1, and the springs to the ground add at least 1e-11 to the diagonal, so only rounding is replaced.
+const MIN_PIVOT: f64 = 1e-14;
 
-/// A matrix with `reach` entries on either side of the diagonal.
+/// A matrix with `bandwidth` entries on either side of the diagonal.
 pub(super) struct Band {
     size: usize,
-    reach: usize,
+    bandwidth: usize,
     rows: Vec<f64>,
-    exchanged: Vec<usize>,
+    pivot_rows: Vec<usize>,
 }
 
 impl Band {
     /// A matrix of zeros.
-    pub(super) fn new(size: usize, reach: usize) -> Band {
-        let reach = reach.min(size.saturating_sub(1));
+    pub(super) fn new(size: usize, bandwidth: usize) -> Band {
+        let bandwidth = bandwidth.min(size.saturating_sub(1));
         Band {
             size,
-            reach,
+            bandwidth,
             // Row exchanges fill in as many entries again on the right.
-            rows: vec![0.0; size * (3 * reach + 1)],
-            exchanged: Vec::with_capacity(size),
+            rows: vec![0.0; size * (3 * bandwidth + 1)],
+            pivot_rows: Vec::with_capacity(size),
         }
     }
 
     fn at(&self, row: usize, column: usize) -> usize {
-        row * (3 * self.reach + 1) + column + self.reach - row
+        row * (3 * self.bandwidth + 1) + column + self.bandwidth - row
     }
 
-    /// Adds to an entry.
+    /// Adds a value to an entry.
     pub(super) fn add(&mut self, row: usize, column: usize, value: f64) {
         let at = self.at(row, column);
         self.rows[at] += value;
     }
 
-    /// Eliminates below the diagonal.
-    pub(super) fn factored(mut self) -> Band {
+    /// Replaces the matrix by its LU factors.
+    pub(super) fn factor(mut self) -> Band {
         for k in 0..self.size {
-            let last = (k + self.reach).min(self.size - 1);
-            let end = (k + 2 * self.reach).min(self.size - 1);
+            // Partial pivoting.
+            let last = (k + self.bandwidth).min(self.size - 1);
+            let end = (k + 2 * self.bandwidth).min(self.size - 1);
             let mut best = k;
             for row in k + 1..=last {
                 if self.rows[self.at(row, k)].abs() > self.rows[self.at(best, k)].abs() {
                     best = row;
                 }
             }
-            self.exchanged.push(best);
+            self.pivot_rows.push(best);
             if best != k {
                 for column in k..=end {
                     let (a, b) = (self.at(k, column), self.at(best, column));
@@ -58,8 +62,8 @@ impl Band {
                 }
             }
             let diagonal = self.at(k, k);
-            if self.rows[diagonal].abs() < LEAST_PIVOT {
-                self.rows[diagonal] = LEAST_PIVOT;
+            if self.rows[diagonal].abs() < MIN_PIVOT {
+                self.rows[diagonal] = MIN_PIVOT;
             }
             for row in k + 1..=last {
                 let at = self.at(row, k);
@@ -77,21 +81,21 @@ impl Band {
         self
     }
 
-    /// The answer of a factored matrix to one right side.
+    /// Solves with the LU factors for one right-hand side.
     pub(super) fn solve(&self, right: &[f64]) -> Vec<f64> {
         let mut x = right.to_vec();
         for k in 0..self.size {
-            x.swap(k, self.exchanged[k]);
+            x.swap(k, self.pivot_rows[k]);
             let known = x[k];
             if known != 0.0 {
-                let last = (k + self.reach).min(self.size - 1);
+                let last = (k + self.bandwidth).min(self.size - 1);
                 for (row, value) in x.iter_mut().enumerate().take(last + 1).skip(k + 1) {
                     *value -= self.rows[self.at(row, k)] * known;
                 }
             }
         }
         for k in (0..self.size).rev() {
-            let end = (k + 2 * self.reach).min(self.size - 1);
+            let end = (k + 2 * self.bandwidth).min(self.size - 1);
             for column in k + 1..=end {
                 x[k] -= self.rows[self.at(k, column)] * x[column];
             }
@@ -101,29 +105,30 @@ impl Band {
     }
 }
 
-/// A place for every block such that blocks that touch have places near each other, and how far they are apart at most.
+/// A position for every block such that blocks that touch have positions near each other, and the largest distance
+/// between the positions of blocks that touch.
 pub(super) fn order(program: &Program) -> (Vec<usize>, usize) {
-    let mut beside = vec![Vec::new(); program.blocks];
+    let mut neighbours = vec![Vec::new(); program.blocks];
     let pairs = || {
         let pair = |c: &crate::program::ContactTerm| Some((c.on.0, c.from.as_ref()?.0));
         program.contacts.iter().filter_map(pair)
     };
     for (a, b) in pairs() {
-        beside[a].push(b);
-        beside[b].push(a);
+        neighbours[a].push(b);
+        neighbours[b].push(a);
     }
     let mut place = vec![usize::MAX; program.blocks];
     let mut next = 0;
-    // Layer by layer from the farthest block of a first pass, the Cuthill–McKee way.
-    let layers = |from: usize, place: &[usize]| {
+    // Breadth first from a peripheral block: the farthest one of a first pass. Blocks of few neighbours come first.
+    let breadth_first = |from: usize, place: &[usize]| {
         let mut list = vec![from];
         let mut seen: Vec<bool> = place.iter().map(|p| *p != usize::MAX).collect();
         seen[from] = true;
         let mut k = 0;
         while k < list.len() {
-            let mut around: Vec<usize> = beside[list[k]].clone();
-            around.sort_by_key(|b| (beside[*b].len(), *b));
-            for block in around {
+            let mut next_blocks: Vec<usize> = neighbours[list[k]].clone();
+            next_blocks.sort_by_key(|b| (neighbours[*b].len(), *b));
+            for block in next_blocks {
                 if !seen[block] {
                     seen[block] = true;
                     list.push(block);
@@ -137,8 +142,11 @@ pub(super) fn order(program: &Program) -> (Vec<usize>, usize) {
         if place[block] != usize::MAX {
             continue;
         }
-        let farthest = layers(block, &place).last().copied().unwrap_or(block);
-        for found in layers(farthest, &place) {
+        let farthest = breadth_first(block, &place)
+            .last()
+            .copied()
+            .unwrap_or(block);
+        for found in breadth_first(farthest, &place) {
             place[found] = next;
             next += 1;
         }
@@ -164,7 +172,7 @@ mod tests {
         ] {
             band.add(row, column, value);
         }
-        let x = band.factored().solve(&[4.0, 6.0, 23.0]);
+        let x = band.factor().solve(&[4.0, 6.0, 23.0]);
         for (found, expected) in x.iter().zip([1.0, 2.0, 3.0]) {
             assert!((found - expected).abs() < 1e-14, "{x:?}");
         }

@@ -1,30 +1,42 @@
-//! That the rows of a case contradict each other: multipliers z with Aᵀz = 0 and bᵀz < 0, z ≥ 0 on inequalities.
+//! Checks certificates of infeasibility (Farkas): multipliers z with Aᵀz = 0, bᵀz < 0 and z ≥ 0 on inequalities.
+//!
+//! Then no x meets the rows Ax ≤ b. Numbers from a solver meet Aᵀz = 0 only nearly. So z is corrected until every x up to
+//! [`MAX_DISPLACEMENT`] is ruled out.
 
 use crate::program::{Program, QuadraticProgram};
 use crate::solve::{Conditioning, Status, TOLERANCE, solve};
 
-/// Displacements and forces up to so many times the loads are ruled out; multipliers are only as exact as that wants.
-const FAR: f64 = 1e6;
+/// Displacements and forces up to this multiple of the loads are ruled out. Ten times more asks for one more digit of the
+/// multipliers; springs of stiffness 1 that come to rest move by far less.
+const MAX_DISPLACEMENT: f64 = 1e6;
 
-/// Corrections of multipliers.
-const CORRECTIONS: usize = 6;
+/// Corrections of the multipliers; each gains the solver's digits.
+const MAX_CORRECTIONS: usize = 6;
 
-/// Parts of the loads by which a contradiction must exceed what a rest may leave unbalanced: twice that.
-const BAND: f64 = 2e-7;
+/// The gain of the multipliers must exceed this fraction of the loads' part in it: twice the 1e-7 of a block's load that
+/// forces at rest may leave unbalanced. With less, a structure that springs hold within that band could be ruled out.
+const BALANCE_BAND: f64 = 2e-7;
 
-/// Of multipliers up to 1, what is none.
-const NONE: f64 = 1e-6;
+/// Multipliers below this count as zero; the largest are at most 1. They come from a solver with a tolerance of 1e-9.
+const ZERO_MULTIPLIER: f64 = 1e-6;
 
-/// Whether multipliers show that a case's rows contradict each other: those given, corrected where they are too rough for
-/// it, or those that show it most clearly.
-pub(super) fn contradicts(conic: &QuadraticProgram, z: &[f64], program: &Program) -> bool {
-    made_to(conic, z, program)
-        || clearest(conic).is_some_and(|clearest| made_to(conic, &clearest, program))
+/// Multipliers of inequalities below this fraction of the largest are dropped before the first correction.
+const NEGLIGIBLE_MULTIPLIER: f64 = 1e-7;
+
+/// Whether the rows of a program are infeasible, as the given multipliers show or those of largest gain do.
+///
+/// `z` are the multipliers that come with a solver's status, one for each row.
+pub(super) fn proves_infeasible(conic: &QuadraticProgram, z: &[f64], program: &Program) -> bool {
+    proves_when_corrected(conic, z, program)
+        || largest_gain(conic)
+            .is_some_and(|largest_gain| proves_when_corrected(conic, &largest_gain, program))
 }
 
-/// The multipliers of largest gain −bᵀz with Aᵀz = 0 and |z| ≤ 1: as far from 0 as they may be, where a certificate that
-/// comes with a solver's status may be so near to it that corrections make it vanish.
-fn clearest(conic: &QuadraticProgram) -> Option<Vec<f64>> {
+/// The multipliers of largest gain −bᵀz with Aᵀz = 0 and |z| ≤ 1.
+///
+/// The multipliers that come with a solver's status may be so near to 0 that corrections make them vanish; these are as far
+/// from it as possible.
+fn largest_gain(conic: &QuadraticProgram) -> Option<Vec<f64>> {
     let rows = conic.bound.len();
     let size = conic.bound.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     if size == 0.0 {
@@ -50,35 +62,35 @@ fn clearest(conic: &QuadraticProgram) -> Option<Vec<f64>> {
         equalities: conic.unknowns,
     };
     let answer = solve(&problem, TOLERANCE, Conditioning::Full);
-    let clean = |v: &f64| if v.abs() < NONE { 0.0 } else { *v };
+    let clean = |v: &f64| if v.abs() < ZERO_MULTIPLIER { 0.0 } else { *v };
     (answer.status == Status::Solved).then(|| answer.x.iter().map(clean).collect())
 }
 
-/// Whether multipliers, corrected where they are too rough for it, show that a case's rows contradict each other.
-fn made_to(conic: &QuadraticProgram, z: &[f64], program: &Program) -> bool {
+/// Whether multipliers prove infeasibility, once they have been corrected.
+fn proves_when_corrected(conic: &QuadraticProgram, z: &[f64], program: &Program) -> bool {
     let most = z.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-    // Rows that hardly count are left out: the others make up for what they would add.
+    // Rows that hardly count are left out; the correction makes up for what they would add.
     let mut z: Vec<f64> = z.to_vec();
     for (row, z) in z.iter_mut().enumerate() {
-        if row >= conic.equalities && *z <= 1e-7 * most {
+        if row >= conic.equalities && *z <= NEGLIGIBLE_MULTIPLIER * most {
             *z = 0.0;
         }
     }
-    for _ in 0..CORRECTIONS {
-        if rules_out(conic, &z, program) {
+    for _ in 0..MAX_CORRECTIONS {
+        if proves(conic, &z, program) {
             return true;
         }
-        let Some(corrected) = corrected(conic, &z) else {
+        let Some(corrected) = correct_multipliers(conic, &z) else {
             return false;
         };
         z = corrected;
     }
-    rules_out(conic, &z, program)
+    proves(conic, &z, program)
 }
 
-/// Multipliers changed least so that Aᵀz = 0; those of inequalities that the change would make negative become 0.
-fn corrected(conic: &QuadraticProgram, z: &[f64]) -> Option<Vec<f64>> {
-    let off = product(conic, z);
+/// The multipliers with the least change after which Aᵀz = 0. Those of inequalities that would become negative become 0.
+fn correct_multipliers(conic: &QuadraticProgram, z: &[f64]) -> Option<Vec<f64>> {
+    let off = transpose_product(conic, z);
     let size = off.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     if size == 0.0 {
         return None;
@@ -114,7 +126,8 @@ fn corrected(conic: &QuadraticProgram, z: &[f64]) -> Option<Vec<f64>> {
     Some(corrected)
 }
 
-fn product(conic: &QuadraticProgram, z: &[f64]) -> Vec<f64> {
+/// Aᵀz.
+fn transpose_product(conic: &QuadraticProgram, z: &[f64]) -> Vec<f64> {
     let mut product = vec![0.0; conic.unknowns];
     for (row, column, value) in &conic.matrix {
         product[*column] += value * z[*row];
@@ -122,8 +135,8 @@ fn product(conic: &QuadraticProgram, z: &[f64]) -> Vec<f64> {
     product
 }
 
-/// Whether Aᵀz = 0 and bᵀz < 0 with z ≥ 0 on inequalities, so that no x has Ax ≤ b: in numbers, none within [`FAR`].
-fn rules_out(conic: &QuadraticProgram, z: &[f64], program: &Program) -> bool {
+/// The test: the gain −bᵀz exceeds both the band of a verdict and what Aᵀz ≠ 0 could give within [`MAX_DISPLACEMENT`].
+fn proves(conic: &QuadraticProgram, z: &[f64], program: &Program) -> bool {
     let z: Vec<f64> = z
         .iter()
         .enumerate()
@@ -136,10 +149,11 @@ fn rules_out(conic: &QuadraticProgram, z: &[f64], program: &Program) -> bool {
         })
         .collect();
     let gain = -conic.bound.iter().zip(&z).map(|(b, z)| b * z).sum::<f64>();
-    let error: f64 = product(conic, &z).iter().map(|v| v.abs()).sum();
+    let error: f64 = transpose_product(conic, &z).iter().map(|v| v.abs()).sum();
     let loads = &program.loads;
     let total: f64 = loads.iter().map(|v| v.abs()).sum();
-    // A verdict of "stable" allows each block a small part of its load; so the contradiction must be a larger one.
+    // A verdict of "stable" leaves a small part of each block's load unbalanced, so the gain must exceed that. The first rows
+    // are the balance. A block without load counts with a millionth of all loads.
     let band: f64 = loads
         .chunks(3)
         .zip(z.chunks(3))
@@ -148,5 +162,5 @@ fn rules_out(conic: &QuadraticProgram, z: &[f64], program: &Program) -> bool {
             own * z.iter().map(|v| v.abs()).sum::<f64>()
         })
         .sum();
-    gain > BAND * band && error * FAR * total < gain
+    gain > BALANCE_BAND * band && error * MAX_DISPLACEMENT * total < gain
 }

@@ -1,50 +1,53 @@
-//! Whether a balance is reached from rest, or only by a self-stress that nothing built up.
+//! Whether a balance builds up from rest, or only with a self-stress that the loads do not make.
 //!
-//! Every application point gets a unilateral spring and every interface a spring along itself, all unstressed before the
-//! loads act; friction is Coulomb's. Robots may give whatever their limits allow. Where such springs come to rest, the
-//! forces they come to are the certificate ([`spring`]). Where none do, every way in which points press and faces
-//! slide is ruled out by multipliers that show the balance and the springs' law to contradict each other ([`tree`]).
+//! Every application point gets a unilateral spring and every interface a spring along itself. All are unstressed before the
+//! loads act; friction is Coulomb's. Robots may give whatever their limits allow. If such springs come to rest, their forces
+//! are the certificate ([`spring`]). If none do, a search rules out every pattern in which points press and faces slide
+//! ([`branch_and_bound`]).
 
 mod band;
+mod branch_and_bound;
 mod certificate;
-mod law;
+mod fixed_friction;
+mod newton;
+mod node;
+mod relaxation;
+mod rest;
 mod spring;
-mod tree;
-mod tresca;
 
 use super::{Conditioning, Effort, Status, dual};
 use crate::program::{Column, Force, Program, columns};
+use branch_and_bound::{Search, search};
 use spring::Springs;
-use tree::{Search, search};
 
+pub use node::RuledOut;
 pub use spring::Slide;
-pub use tree::RuledOut;
 
-/// How a balance comes about.
+/// Whether a balance needs a self-stress.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SelfStressCheck {
-    /// The loads build it up themselves.
+    /// No: the loads build it up from rest.
     FromRest,
-    /// Only a self-stress from elsewhere makes it.
+    /// Yes: no springs come to rest.
     OnlyWedged(SelfStress),
-    /// Neither was shown.
+    /// Neither was proved.
     Undecided(WedgingUndecided),
 }
 
-/// The self-stress without which a program does not stand.
+/// A self-stress without which a program does not stand.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SelfStress {
-    /// Three velocities per block, the largest 1: how the springs give way.
+    /// How the springs give way: three velocities for each block, the largest 1.
     pub motion: Vec<f64>,
-    /// The contacts that this motion opens or slides.
+    /// The contacts that open or slide in this motion.
     pub contacts: Vec<usize>,
-    /// Whether the motion presses no contact at all.
+    /// Whether the motion closes no contact at all.
     pub presses_nothing: bool,
-    /// The least sum of normal forces at those contacts with which forces balance, pure number.
+    /// The least sum of normal forces at those contacts in any balance, pure number.
     pub least: Option<f64>,
-    /// The motion that shows it: no other contact takes work along it, these at most 1 for each unit of normal force.
+    /// The motion that proves this bound: along it no other contact takes work, and these at most 1 for each unit of normal force.
     pub bound: Vec<f64>,
-    /// The cases ruled out by the proof; one of them holds whatever springs do.
+    /// The patterns that the proof ruled out. Together they cover everything that springs may do.
     pub cases: Vec<RuledOut>,
 }
 
@@ -72,26 +75,28 @@ impl std::fmt::Display for WedgingUndecided {
 /// Why an answer was not found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WedgingUndecided {
-    /// Neither a rest nor a proof that there is none.
+    /// Neither a rest nor a proof that there is none was found.
     NotFound,
     /// It depends on how stiff faces are along themselves.
     Stiffness,
 }
 
-/// Stiffness along a face, in parts of a point's, tried beside 1 where springs of 1 find no rest.
-const ALONG: [f64; 4] = [0.3, 3.0, 0.05, 20.0];
+/// Stiffnesses along a face, relative to a point's, that are tried if springs of stiffness 1 find no rest.
+const OTHER_STIFFNESSES: [f64; 4] = [0.3, 3.0, 0.05, 20.0];
 
-/// Turns of convex programs take long for more blocks than this.
-const MOST_BY_TURNS: usize = 400;
+/// The iteration with fixed friction takes long for more blocks than this.
+const MAX_BLOCKS_FIXED_FRICTION: usize = 400;
 
-/// A velocity below this is none.
-const STILL: f64 = 1e-6;
+/// A velocity below this counts as 0; the largest is 1.
+const VELOCITY_TOL: f64 = 1e-6;
 
-/// Whether the forces that balance a standing program build up from rest. `given` is what robots were found to give, as
-/// (force x, force y, torque/L) per grip; within their limits they may give anything else.
+/// Checks whether the forces that balance a standing program build up from rest.
+///
+/// `given` are the robots' forces in that balance, as (force x, force y, torque/L) for each grip. Within their limits robots may
+/// give anything else.
 ///
 /// Without friction the answer is known: among the forces that balance, springs come to those of least Σ N².
-pub fn reach(program: &Program, given: &[[f64; 3]]) -> SelfStressCheck {
+pub fn check_self_stress(program: &Program, given: &[[f64; 3]]) -> SelfStressCheck {
     if program.contacts.iter().all(|c| c.friction == 0.0) {
         return SelfStressCheck::FromRest;
     }
@@ -106,41 +111,43 @@ pub fn reach(program: &Program, given: &[[f64; 3]]) -> SelfStressCheck {
             _ => None,
         })
         .collect();
-    let motion = match Springs::around(program, &given, 1.0).settled() {
+    let motion = match Springs::around(program, &given, 1.0).find_rest() {
         Ok(_) => return SelfStressCheck::FromRest,
         Err(motion) => motion,
     };
     let springs = Springs::new(program, 1.0);
-    if !given.is_empty() && springs.settled().is_ok() {
+    if !given.is_empty() && springs.find_rest().is_ok() {
         return SelfStressCheck::FromRest;
     }
-    if program.blocks <= MOST_BY_TURNS && springs.settled_by_turns().is_some() {
+    if program.blocks <= MAX_BLOCKS_FIXED_FRICTION
+        && springs.find_rest_by_fixed_friction().is_some()
+    {
         return SelfStressCheck::FromRest;
     }
     let found = search(program);
     if found == Search::Rests {
         return SelfStressCheck::FromRest;
     }
-    let other = |along: &f64| Springs::around(program, &given, *along).settled().is_ok();
-    if ALONG.iter().any(other) {
+    let other = |along: &f64| Springs::around(program, &given, *along).find_rest().is_ok();
+    if OTHER_STIFFNESSES.iter().any(other) {
         return SelfStressCheck::Undecided(WedgingUndecided::Stiffness);
     }
     match found {
-        Search::NoRest(cases) => SelfStressCheck::OnlyWedged(squeeze(program, motion, cases)),
+        Search::NoRest(cases) => SelfStressCheck::OnlyWedged(self_stress(program, motion, cases)),
         _ => SelfStressCheck::Undecided(WedgingUndecided::NotFound),
     }
 }
 
-/// What a program without rest lacks, shown on a motion.
-fn squeeze(program: &Program, motion: Vec<f64>, cases: Vec<RuledOut>) -> SelfStress {
+/// The self-stress that a program without rest needs, shown on the motion of its springs.
+fn self_stress(program: &Program, motion: Vec<f64>, cases: Vec<RuledOut>) -> SelfStress {
     let springs = Springs::new(program, 1.0);
     let mut moved = vec![false; program.contacts.len()];
     let mut presses_nothing = true;
     for point in &springs.points {
         let opening = point.column.dot(&motion);
-        presses_nothing &= opening >= -STILL;
-        moved[point.contact] |=
-            opening > STILL || springs.tangents[point.contact].dot(&motion).abs() > STILL;
+        presses_nothing &= opening >= -VELOCITY_TOL;
+        moved[point.contact] |= opening > VELOCITY_TOL
+            || springs.tangents[point.contact].dot(&motion).abs() > VELOCITY_TOL;
     }
     let contacts: Vec<usize> = (0..moved.len()).filter(|k| moved[*k]).collect();
     let cost = |column: &Column| match column.force {

@@ -1,21 +1,22 @@
-//! Whether forces are a [`Rest`]: they balance every block and obey the springs' law.
+//! Checks that forces are a [`Rest`]: they balance every block and obey the springs' law. With iterative refinement.
 
 use super::spring::{Pattern, Rest, Slide, Springs};
 use crate::program::Column;
 
-/// Parts of a block's own load that may stay unbalanced: what a verdict allows.
-const BALANCED: f64 = 1e-7;
+/// The fraction of a block's own load that may stay unbalanced: what a verdict allows (τ in `doc::numerics`).
+const BALANCE_TOL: f64 = 1e-7;
 
-/// Parts of the forces on a block below which its balance is rounding.
+/// The fraction of the forces on a block that may stay unbalanced in any case: rounding of their sum.
 const ROUNDING: f64 = 1e-13;
 
-/// Parts of a contact's forces by which the law may be missed.
-const LAWFUL: f64 = 1e-8;
+/// The fraction of the lighter block's load by which the law may be missed; a tenth of [`BALANCE_TOL`], so that the balance decides.
+/// Of the contact's own forces a thousandth of that is allowed.
+const LAW_TOL: f64 = 1e-8;
 
-/// Corrections of the forces.
-const REFINEMENTS: usize = 12;
+/// Steps of iterative refinement. Each gains the digits of the LU factors.
+const MAX_REFINEMENTS: usize = 12;
 
-/// Per contact, the sum over its points.
+/// Sums a number for each point over the points of each contact.
 pub(super) fn normal_sums(springs: &Springs, normal: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut sums = vec![0.0; springs.tangents.len()];
     for (point, normal) in springs.points.iter().zip(normal) {
@@ -25,22 +26,22 @@ pub(super) fn normal_sums(springs: &Springs, normal: impl Iterator<Item = f64>) 
 }
 
 impl Springs<'_> {
-    /// The rest that a pattern leads to, if it obeys the law.
+    /// The rest that a pattern leads to, if its forces obey the law.
     ///
-    /// Forces are corrected by what they leave unbalanced, so that those on a light block become as good as its own load
-    /// wants them, whatever the heavy ones displace. Where a pattern leaves a motion free, it stays as it is in `u`.
+    /// Iterative refinement of openings, slips and forces rather than of displacements: forces on a light block get the digits
+    /// that its own load needs, however far the heavy ones move. A motion that the pattern leaves free stays as it is in `u`.
     pub(super) fn rest(&self, pattern: &Pattern, u: &[f64]) -> Option<Rest> {
         let stiffness = self.stiffness(pattern, 1e-11);
         let mut gap: Vec<f64> = self.points.iter().map(|p| p.column.dot(u)).collect();
         let mut slip: Vec<f64> = self.tangents.iter().map(|t| t.dot(u)).collect();
         let mut yielded: Vec<f64> = self.grips.iter().map(|g| g.column.dot(u)).collect();
-        for _ in 0..REFINEMENTS {
+        for _ in 0..MAX_REFINEMENTS {
             let rest = self.forces(pattern, &gap, &slip, &yielded);
-            let left = self.left(&rest);
-            if self.balances(&rest, &left) {
+            let residual = self.unbalanced(&rest);
+            if self.balances(&rest, &residual) {
                 return self.obeys(&rest, &gap, &slip).then_some(rest);
             }
-            let change = self.displaced(&stiffness, &left);
+            let change = self.displacements(&stiffness, &residual);
             if change.iter().any(|v| !v.is_finite()) {
                 return None;
             }
@@ -57,6 +58,7 @@ impl Springs<'_> {
         None
     }
 
+    /// The forces of the springs in a pattern.
     fn forces(&self, pattern: &Pattern, gap: &[f64], slip: &[f64], yielded: &[f64]) -> Rest {
         let mut sum = vec![0.0; self.tangents.len()];
         let mut normal = vec![0.0; self.points.len()];
@@ -72,7 +74,7 @@ impl Springs<'_> {
             .enumerate()
             .map(|(k, slides)| match slides {
                 Slide::Sticks => -self.along * slip[k],
-                _ => slides.friction() * self.program.contacts[k].friction * sum[k],
+                _ => slides.friction_sign() * self.program.contacts[k].friction * sum[k],
             });
         let grips = self.grips.iter().zip(&pattern.limits).zip(yielded);
         Rest {
@@ -87,22 +89,22 @@ impl Springs<'_> {
         }
     }
 
-    /// What forces leave unbalanced.
-    fn left(&self, rest: &Rest) -> Vec<f64> {
-        let mut left = self.program.loads.clone();
+    /// loads − Σ force, for each row of the balance.
+    fn unbalanced(&self, rest: &Rest) -> Vec<f64> {
+        let mut residual = self.program.loads.clone();
         for (grip, force) in self.grips.iter().zip(&rest.grips) {
-            grip.column.add_to(&mut left, -force);
+            grip.column.add_to(&mut residual, -force);
         }
         for (point, force) in self.points.iter().zip(&rest.normal) {
-            point.column.add_to(&mut left, -force);
+            point.column.add_to(&mut residual, -force);
         }
         for (tangent, force) in self.tangents.iter().zip(&rest.friction) {
-            tangent.add_to(&mut left, -force);
+            tangent.add_to(&mut residual, -force);
         }
-        left
+        residual
     }
 
-    /// Per block, its own load and the sum of the forces on it.
+    /// For each block, the largest entry of its own load and Σ |force| on it.
     fn sizes(&self, rest: &Rest) -> Vec<(f64, f64)> {
         let own = self
             .program
@@ -130,16 +132,18 @@ impl Springs<'_> {
         sizes
     }
 
-    fn balances(&self, rest: &Rest, left: &[f64]) -> bool {
+    /// Whether every block is balanced relative to its own load.
+    fn balances(&self, rest: &Rest, residual: &[f64]) -> bool {
         self.sizes(rest)
             .iter()
-            .zip(left.chunks(3))
-            .all(|((own, forces), left)| {
-                let allowed = BALANCED * own + ROUNDING * forces;
-                left.iter().all(|v| v.abs() <= allowed)
+            .zip(residual.chunks(3))
+            .all(|((own, forces), residual)| {
+                let allowed = BALANCE_TOL * own + ROUNDING * forces;
+                residual.iter().all(|v| v.abs() <= allowed)
             })
     }
 
+    /// Whether the forces obey the law of points, faces and robots' limits.
     fn obeys(&self, rest: &Rest, gap: &[f64], slip: &[f64]) -> bool {
         let sizes = self.sizes(rest);
         let contacts = &self.program.contacts;
@@ -152,7 +156,7 @@ impl Springs<'_> {
                     .from
                     .as_ref()
                     .map_or(sizes[c.on.0].0, |f| sizes[c.on.0].0.min(sizes[f.0].0));
-                LAWFUL * lighter + 1e-3 * LAWFUL * (normal[k].abs() + rest.friction[k].abs())
+                LAW_TOL * lighter + 1e-3 * LAW_TOL * (normal[k].abs() + rest.friction[k].abs())
             })
             .collect();
         let points = self
@@ -168,13 +172,13 @@ impl Springs<'_> {
             .grips
             .iter()
             .zip(&rest.grips)
-            .all(|(g, f)| f.abs() <= g.limit * (1.0 + LAWFUL));
+            .all(|(g, f)| f.abs() <= g.limit * (1.0 + LAW_TOL));
         points
             && limits
             && contacts.iter().enumerate().all(|(k, c)| {
-                let most = c.friction * normal[k].max(0.0);
-                let wanted = (-self.along * slip[k]).clamp(-most, most);
-                (rest.friction[k] - wanted).abs() <= allowed[k] * (1.0 + c.friction)
+                let limit = c.friction * normal[k].max(0.0);
+                let law = (-self.along * slip[k]).clamp(-limit, limit);
+                (rest.friction[k] - law).abs() <= allowed[k] * (1.0 + c.friction)
             })
     }
 }

@@ -1,32 +1,35 @@
-//! The springs' rest by turns: friction that yields at a given force, then forces at which it yields.
+//! The rest of springs by fixed-point iteration on the friction: convex programs with Tresca's friction.
 //!
-//! With the friction at which faces yield held fixed (Tresca's law) the springs take the least energy, a convex program that
-//! always has an answer while springs to the ground help. Its normal forces say at which friction faces yield, and so on.
-//! Newton's steps between patterns are quicker where they end; beside a stone a thousand times as heavy they run in circles.
+//! If the friction at which faces yield is held fixed (Tresca's law), springs take the least energy. That is a convex program,
+//! which has an answer as long as springs to the ground help. Its normal forces give the next friction limits, μ(N1 + N2),
+//! and so on (Panagiotopoulos 1975). Newton's method between patterns is quicker if it ends; next to a stone a thousand
+//! times as heavy it cycles.
 
-use super::law::normal_sums;
+use super::rest::normal_sums;
 use super::spring::{Pattern, Rest, Slide, Springs};
 use crate::program::QuadraticProgram;
 use crate::solve::{Conditioning, Status, TOLERANCE, solve};
 
-/// Turns at most. Each halves the springs to the ground.
-const TURNS: usize = 60;
+/// Fixed-point iterations. Each halves the stiffness of the ground.
+const MAX_ITERATIONS: usize = 60;
 
-/// The springs to the ground soften to this part, and are soft enough for Newton's steps from there on at the second.
-const SOFTEST: f64 = 1e-9;
-const SOFT: f64 = 1e-4;
+/// The stiffness of the ground does not fall below this, relative to a point's: the solver's tolerance.
+const MIN_GROUND: f64 = 1e-9;
+
+/// Below this stiffness of the ground the pattern is near enough to that of the rest for Newton's method to be tried.
+const NEWTON_GROUND: f64 = 1e-4;
 
 impl Springs<'_> {
-    /// The rest that turns lead to, if they lead to one. Robots, which give about what they are asked to, are left out.
-    pub(super) fn settled_by_turns(&self) -> Option<Rest> {
+    /// The rest that the iteration leads to, if any. Not for programs with robots.
+    pub(super) fn find_rest_by_fixed_friction(&self) -> Option<Rest> {
         if !self.grips.is_empty() {
             return None;
         }
-        let mut yields = vec![0.0; self.tangents.len()];
+        let mut friction_limits = vec![0.0; self.tangents.len()];
         let mut ground: f64 = 1.0;
-        for _ in 0..TURNS {
+        for _ in 0..MAX_ITERATIONS {
             let answer = solve(
-                &self.held_at(&yields, ground),
+                &self.least_energy(&friction_limits, ground),
                 TOLERANCE,
                 Conditioning::Full,
             );
@@ -34,30 +37,30 @@ impl Springs<'_> {
                 return None;
             }
             let mut u = answer.x[..self.program.loads.len()].to_vec();
-            let mut pattern = self.at(&u);
+            let mut pattern = self.pattern_of(&u);
             if let Some(rest) = self.rest(&pattern, &u) {
                 return Some(rest);
             }
             let normal: Vec<f64> = self.points.iter().map(|p| -p.column.dot(&u)).collect();
             let sums = normal_sums(self, normal.iter().map(|n| n.max(0.0)));
-            for ((yields, sum), contact) in
-                (yields.iter_mut().zip(&sums)).zip(&self.program.contacts)
+            for ((limit, sum), contact) in
+                (friction_limits.iter_mut().zip(&sums)).zip(&self.program.contacts)
             {
-                *yields = contact.friction * sum;
+                *limit = contact.friction * sum;
             }
-            if ground < SOFT
-                && self.helped(ground, &mut u, &mut pattern)
+            if ground < NEWTON_GROUND
+                && self.balance_with_ground(ground, &mut u, &mut pattern)
                 && let Some(rest) = self.rest(&pattern, &u)
             {
                 return Some(rest);
             }
-            ground = (0.5 * ground).max(SOFTEST);
+            ground = (0.5 * ground).max(MIN_GROUND);
         }
         None
     }
 
-    /// The pattern of displacements, where nothing is known of any before.
-    fn at(&self, u: &[f64]) -> Pattern {
+    /// The pattern of displacements, without a former one.
+    fn pattern_of(&self, u: &[f64]) -> Pattern {
         let nothing = Pattern {
             pressed: vec![false; self.points.len()],
             slides: vec![Slide::Sticks; self.tangents.len()],
@@ -66,10 +69,13 @@ impl Springs<'_> {
         self.pattern(u, &nothing)
     }
 
-    /// The least energy where friction yields at given forces: displacements u, what points are pressed by p ≥ 0, p ≥ −g,
-    /// what springs along faces are stretched by e, and how far faces slide beyond it q ≥ |s − e|;
-    /// min ½Σp² + ½ρΣe² + Σ yields·q + ½ ground Σu² + loads·u.
-    fn held_at(&self, yields: &[f64], ground: f64) -> QuadraticProgram {
+    /// The program of least energy with fixed friction limits:
+    ///
+    /// min ½Σp² + ½ρΣe² + Σ limit·q + ½ ground Σu² + loads·u,
+    ///
+    /// where u are the displacements, p ≥ 0, p ≥ −g how far points are pressed, e how far springs along faces are
+    /// stretched, and q ≥ |s − e| how far faces slide beyond that.
+    fn least_energy(&self, friction_limits: &[f64], ground: f64) -> QuadraticProgram {
         let (rows, points) = (self.program.loads.len(), self.points.len());
         let faces = self.tangents.len();
         let (pressed, stretched) = (rows, rows + points);
@@ -98,7 +104,7 @@ impl Springs<'_> {
         for (k, tangent) in self.tangents.iter().enumerate() {
             let (spring, slide) = (stretched + k, slid + k);
             conic.quadratic.push((spring, spring, self.along));
-            conic.linear[slide] = yields[k];
+            conic.linear[slide] = friction_limits[k];
             for sign in [1.0, -1.0] {
                 let row = conic.bound.len();
                 let entries = tangent.entries();

@@ -1,0 +1,132 @@
+//! [`Joint`]: the contacts of a tree of blocks, from the ground outwards.
+
+use crate::geometry::{Vector, cross, quarter_turn};
+use crate::program::{ContactTerm, Program};
+
+/// Points closer together than this, relative to the median face, take no moment. The forces would be 10⁹ times the loads, and a
+/// proof would keep none of their digits.
+const MIN_FACE_LENGTH: f64 = 1e-9;
+
+/// A force and its moment about a body's centroid.
+#[derive(Clone, Copy)]
+pub(super) struct Wrench {
+    pub force: Vector,
+    pub moment: f64,
+}
+
+/// N1, N2 and T of a contact; pulls are negative.
+pub(super) type ContactForces = ([f64; 2], f64);
+
+/// The speeds at which the two points open, and at which the face slides along its tangent.
+pub(super) type JointSpeeds = ([f64; 2], f64);
+
+/// A contact, and the body that it joins to the ground.
+pub(super) struct Joint<'a> {
+    /// The index of the contact.
+    pub number: usize,
+    pub contact: &'a ContactTerm,
+    /// The joined body.
+    pub body: usize,
+    /// The arms of the points about its centroid.
+    arms: [Vector; 2],
+    /// 1 if the contact pushes the body along the normal, −1 if against it.
+    sign: f64,
+    /// The body between it and the ground, and the vector from that body's centroid to its own.
+    pub below: Option<(usize, Vector)>,
+}
+
+impl Joint<'_> {
+    /// The moments about the body's centroid of a unit force along the normal at each point, and of one along the face.
+    fn levers(&self) -> ([f64; 2], f64) {
+        let normal = self.contact.normal;
+        let levers = self.arms.map(|arm| cross(arm, normal));
+        (levers, cross(self.arms[0], quarter_turn(normal)))
+    }
+
+    /// The contact forces that give the body a wrench: three equations, three unknowns.
+    pub fn forces(&self, wrench: Wrench) -> ContactForces {
+        let (levers, lever) = self.levers();
+        let normal = self.contact.normal;
+        let across = self.sign * normal.dot(&wrench.force);
+        let along = self.sign * quarter_turn(normal).dot(&wrench.force);
+        let moment = self.sign * wrench.moment - lever * along;
+        let by = 1.0 / (levers[1] - levers[0]);
+        let first = (levers[1] * across - moment) * by;
+        let second = (moment - levers[0] * across) * by;
+        ([first, second], along)
+    }
+
+    /// Writes the body's velocities into `motion`: those of the body below, plus those of the joint that opens and slides.
+    pub fn add_motion(&self, opens: [f64; 2], slides: f64, motion: &mut [f64]) {
+        let normal = self.contact.normal;
+        let tangent = quarter_turn(normal);
+        let at = |[x, y, spin]: [f64; 3], arm: Vector| Vector::new(x, y) + quarter_turn(arm) * spin;
+        let below = self.below.map_or([[0.0; 2].into(); 2], |(body, between)| {
+            let velocity = [0, 1, 2].map(|row| motion[3 * body + row]);
+            self.arms.map(|arm| at(velocity, arm + between))
+        });
+        let across = [0, 1].map(|k| normal.dot(&below[k]) + self.sign * opens[k]);
+        let along = tangent.dot(&below[0]) + self.sign * slides;
+        let (levers, lever) = self.levers();
+        let spin = (across[1] - across[0]) / (levers[1] - levers[0]);
+        let velocity = normal * (across[0] - spin * levers[0]) + tangent * (along - spin * lever);
+        motion[3 * self.body..3 * self.body + 3].copy_from_slice(&[velocity.x, velocity.y, spin]);
+    }
+}
+
+/// The joints from the ground outwards, one for each body; `None` if a body has several ways to the ground, or none.
+pub(super) fn joints(program: &Program) -> Option<Vec<Joint<'_>>> {
+    let one_each = program.contacts.len() == program.blocks && program.grips.is_empty();
+    if !one_each || program.contacts.iter().any(|contact| contact.points != 2) {
+        return None;
+    }
+    let mut touching = vec![Vec::new(); program.blocks];
+    let mut queue = Vec::new();
+    for (number, contact) in program.contacts.iter().enumerate() {
+        match contact.from {
+            Some((from, _)) => {
+                touching[from].push(number);
+                touching[contact.on.0].push(number);
+            }
+            None => queue.push((number, None)),
+        }
+    }
+    let mut found = vec![false; program.blocks];
+    let mut joints = Vec::with_capacity(program.blocks);
+    while let Some((number, below)) = queue.pop() {
+        let contact = &program.contacts[number];
+        let both = [
+            Some((contact.on, 1.0)),
+            contact.from.map(|from| (from, -1.0)),
+        ];
+        let mut sides = both.into_iter().flatten();
+        let ((body, arms), sign) = sides.find(|((body, _), _)| Some(*body) != below)?;
+        if std::mem::replace(&mut found[body], true) {
+            return None;
+        }
+        let between = first_arm(contact, below).map(|own| own - arms[0]);
+        let joint = Joint {
+            number,
+            contact,
+            body,
+            arms,
+            sign,
+            below: below.zip(between),
+        };
+        let [first, second] = joint.levers().0;
+        if (second - first).abs() < MIN_FACE_LENGTH {
+            return None;
+        }
+        joints.push(joint);
+        let next = touching[body].iter().filter(|k| **k != number);
+        queue.extend(next.map(|k| (*k, Some(body))));
+    }
+    (joints.len() == program.blocks).then_some(joints)
+}
+
+/// The arm of a contact's first point about the centroid of one of its bodies.
+fn first_arm(contact: &ContactTerm, body: Option<usize>) -> Option<Vector> {
+    let sides = [Some(contact.on), contact.from].into_iter().flatten();
+    let of_body = |side: &(usize, [Vector; 2])| Some(side.0) == body;
+    sides.clone().find(of_body).map(|(_, arms)| arms[0])
+}

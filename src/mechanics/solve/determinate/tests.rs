@@ -1,0 +1,143 @@
+//! Random trees of blocks against the programs, and the bounds of their motions.
+
+use super::*;
+use crate::geometry::quarter_turn;
+use crate::interface::ContactKind;
+use crate::program::ContactTerm;
+use crate::program::{Scale, columns, sticking_columns};
+use crate::solve::Conditioning;
+use crate::solve::numbers::Numbers;
+use crate::solve::stick::by_programs;
+
+/// Blocks that each touch one earlier one or the ground, in any direction and with any load.
+fn branches(blocks: usize, numbers: &mut Numbers) -> Program {
+    let point = |numbers: &mut Numbers| Vector::new(3.0 * numbers.next(), 3.0 * numbers.next());
+    let centroids: Vec<Vector> = (0..blocks).map(|_| point(numbers)).collect();
+    let contact = |body: usize, numbers: &mut Numbers| {
+        let angle = 4.0 * numbers.next();
+        let normal = Vector::new(libm::cos(angle), libm::sin(angle));
+        let middle = point(numbers);
+        let half = quarter_turn(normal) * (0.6 + 0.4 * numbers.next());
+        let arms = |body: usize| {
+            (
+                body,
+                [middle - half, middle + half].map(|p| p - centroids[body]),
+            )
+        };
+        let (own, other) = (arms(body), numbers.below(body + 1));
+        let (on, from) = match other == body {
+            true => (own, None),
+            false if numbers.next() > 0.0 => (own, Some(arms(other))),
+            false => (arms(other), Some(own)),
+        };
+        ContactTerm {
+            kind: ContactKind::Edge,
+            on,
+            from,
+            normal,
+            friction: f64::max(0.0, 0.4 + 0.6 * numbers.next()).min(0.95),
+            points: 2,
+        }
+    };
+    Program {
+        blocks,
+        contacts: (0..blocks).map(|body| contact(body, numbers)).collect(),
+        loads: (0..3 * blocks).map(|_| 10.0 * numbers.next()).collect(),
+        grips: Vec::new(),
+        scale: Scale {
+            length: 1.0,
+            force: 1.0,
+        },
+    }
+}
+
+#[test]
+fn what_sticks_is_what_the_programs_find_and_its_motion_shows_that_no_less_does() {
+    let mut numbers = Numbers(3);
+    let mut stuck_somewhere = 0;
+    for blocks in [1, 2, 3, 5, 8].repeat(8) {
+        let program = branches(blocks, &mut numbers);
+        let found = least_sticking(&program).unwrap();
+        let other = by_programs(&program, Conditioning::Full.into());
+        let total = found.sticking.total();
+        assert!((total - other.sticking.total()).abs() < 1e-6 * (1.0 + total));
+        assert!((found.forces.total() - other.forces.total()).abs() < 1e-5 * (1.0 + total));
+        let all: Vec<_> = [columns(&program), sticking_columns(&program)].concat();
+        let sum = Amounts {
+            normal: std::iter::zip(&found.forces.normal, &found.sticking.normal)
+                .map(|(a, s)| [a[0] - s[0], a[1] - s[1]])
+                .collect(),
+            friction: std::iter::zip(&found.forces.friction, &found.sticking.friction)
+                .map(|(a, s)| a + s)
+                .collect(),
+            grip: Vec::new(),
+        };
+        assert!(sum.unbalanced(&program) < 1e-9 * (1.0 + total));
+        // Velocities at which no force gains: their power bounds from below what has to stick.
+        let motion = found.motion.unwrap();
+        let fastest = motion.iter().fold(1.0, |m: f64, v| m.max(v.abs()));
+        for column in &all {
+            let cost = if column.force.is_sticking() { 1.0 } else { 0.0 };
+            assert!(-column.dot(&motion) <= cost + 1e-10 * fastest);
+        }
+        let power = |motion: &[f64]| -> f64 {
+            let both = std::iter::zip(&program.loads, motion);
+            both.map(|(l, v)| -l * v).sum()
+        };
+        let collapse = collapse(&program);
+        assert_eq!(collapse.is_some(), total > 0.0);
+        if let Some((falling, _)) = collapse {
+            let gained = power(&falling);
+            assert!(gained > 0.0 && gained <= total + 1e-8 * fastest * (1.0 + total));
+        }
+        let power = power(&motion);
+        assert!(
+            (power - total).abs() < 1e-8 * fastest * (1.0 + total),
+            "{power} {total}"
+        );
+        stuck_somewhere += usize::from(total > 1.0);
+    }
+    assert!(stuck_somewhere > 20);
+}
+
+#[test]
+fn its_forces_are_those_that_stick_nowhere() {
+    let mut numbers = Numbers(11);
+    for blocks in [1, 2, 4, 9].repeat(10) {
+        let mut program = branches(blocks, &mut numbers);
+        program.loads.fill(0.0);
+        for column in columns(&program) {
+            let amount = 1.0 + 0.9 * numbers.next();
+            column.add_to(&mut program.loads, amount);
+        }
+        let forces = determinate(&program).unwrap();
+        assert!(forces.unbalanced(&program) < 1e-10);
+        let stuck = least_sticking(&program).unwrap();
+        assert!(stuck.sticking.total() < 1e-10);
+        assert_eq!(stuck.forces, forces);
+        // One contact that has to pull is enough.
+        let pulled = sticking_columns(&program);
+        pulled[0].add_to(&mut program.loads, 20.0);
+        assert!(determinate(&program).is_none());
+        assert!(least_sticking(&program).unwrap().sticking.total() > 1.0);
+    }
+}
+
+#[test]
+fn where_forces_have_a_choice_it_says_nothing() {
+    let mut numbers = Numbers(5);
+    let tree = branches(4, &mut numbers);
+    assert!(least_sticking(&tree).is_some());
+    let mut ring = tree.clone();
+    ring.contacts.push(ring.contacts[3].clone());
+    assert!(least_sticking(&ring).is_none());
+    // As many contacts as blocks, but one block has two and another none.
+    ring.contacts.remove(0);
+    assert!(least_sticking(&ring).is_none());
+    let mut rough = tree.clone();
+    rough.contacts[1].friction = 1.1;
+    assert!(least_sticking(&rough).is_none());
+    let mut corner = tree;
+    corner.contacts[1].points = 1;
+    assert!(least_sticking(&corner).is_none() && determinate(&corner).is_none());
+}

@@ -1,0 +1,228 @@
+//! [`VariableLayout::relaxation`]: the linear relaxation of a node of the search, as a quadratic program.
+//!
+//! Unknowns are the displacements of the blocks, the normal force at each application point, the friction force of each
+//! contact and the components that robots give. What the node decides about a point or face is an equality; what it leaves
+//! open is relaxed to N ≥ 0, N ≥ −g and |T| ≤ μ(N1 + N2), where g is the opening of a point.
+
+use super::node::{Branch, Node};
+use super::spring::{Slide, Springs};
+use crate::program::{Column, QuadraticProgram};
+
+/// The weight of ½|unknowns|² in the objective, per unit of load: it makes the optimum unique and keeps it finite. The
+/// guiding terms of the objective are of size 1, so ten times more would compete with them.
+const REGULARIZATION: f64 = 1e-3;
+
+/// Where the unknowns of the relaxation begin: displacements at 0, then normal forces, friction forces, robots' components.
+pub(super) struct VariableLayout {
+    pub points: usize,
+    pub faces: usize,
+    grips: usize,
+    end: usize,
+    /// Σ |load|, the unit of forces and displacements.
+    size: f64,
+}
+
+/// Rows Ax = b or Ax ≤ b under construction.
+#[derive(Default)]
+struct Rows {
+    entries: Vec<(usize, usize, f64)>,
+    bound: Vec<f64>,
+}
+
+impl Rows {
+    fn add(&mut self, entries: impl IntoIterator<Item = (usize, f64)>, bound: f64) {
+        let row = self.bound.len();
+        let entries = entries.into_iter();
+        self.entries.extend(entries.map(|(k, v)| (row, k, v)));
+        self.bound.push(bound);
+    }
+}
+
+/// The rows and the linear objective under construction.
+struct Builder {
+    equal: Rows,
+    at_most: Rows,
+    linear: Vec<f64>,
+}
+
+impl VariableLayout {
+    pub fn new(springs: &Springs) -> VariableLayout {
+        let points = springs.program.loads.len();
+        let faces = points + springs.points.len();
+        let grips = faces + springs.tangents.len();
+        let sum: f64 = springs.program.loads.iter().map(|v| v.abs()).sum();
+        VariableLayout {
+            points,
+            faces,
+            grips,
+            end: grips + springs.grips.len(),
+            size: sum.max(f64::MIN_POSITIVE),
+        }
+    }
+
+    /// The robots' components in a solution.
+    pub fn grips<'x>(&self, x: &'x [f64]) -> &'x [f64] {
+        &x[self.grips..self.end]
+    }
+
+    /// The relaxation of a node. Its objective guides to complementarity: the least Σ N + (N + g) over the open points.
+    pub fn relaxation(&self, springs: &Springs, node: &Node) -> QuadraticProgram {
+        let mut builder = Builder {
+            equal: Rows::default(),
+            at_most: Rows::default(),
+            linear: vec![0.0; self.end],
+        };
+        self.add_balance(springs, &mut builder);
+        let pressing = self.add_points(springs, node, &mut builder);
+        self.add_faces(springs, node, &pressing, &mut builder);
+        self.add_robots(springs, &mut builder);
+        let Builder {
+            equal,
+            at_most,
+            linear,
+        } = builder;
+        let equalities = equal.bound.len();
+        let rows = at_most.entries.into_iter();
+        let rows = rows.map(|(r, k, v)| (r + equalities, k, v));
+        let weight = REGULARIZATION / self.size;
+        QuadraticProgram {
+            unknowns: self.end,
+            quadratic: (0..self.end).map(|k| (k, k, weight)).collect(),
+            linear,
+            matrix: equal.entries.into_iter().chain(rows).collect(),
+            bound: equal.bound.into_iter().chain(at_most.bound).collect(),
+            equalities,
+        }
+    }
+
+    /// All forces balance the loads. Three rows for each block: the first rows of the program.
+    fn add_balance(&self, springs: &Springs, builder: &mut Builder) {
+        let loads = &springs.program.loads;
+        let mut balance = vec![Vec::new(); loads.len()];
+        let mut enter = |column: &Column, unknown: usize| {
+            let entries = column.entries();
+            entries.for_each(|(row, v)| balance[row].push((unknown, v)));
+        };
+        for (k, point) in springs.points.iter().enumerate() {
+            enter(&point.column, self.points + k);
+        }
+        for (k, tangent) in springs.tangents.iter().enumerate() {
+            enter(tangent, self.faces + k);
+        }
+        for (k, grip) in springs.grips.iter().enumerate() {
+            enter(&grip.column, self.grips + k);
+        }
+        for (row, entries) in balance.into_iter().enumerate() {
+            builder.equal.add(entries, loads[row]);
+        }
+    }
+
+    /// The law of the points: N = max(0, −g), relaxed where it is open. Returns, for each contact, the unknowns of its normal
+    /// forces that may be above 0.
+    fn add_points(&self, springs: &Springs, node: &Node, builder: &mut Builder) -> Vec<Vec<usize>> {
+        let mut pressing = vec![Vec::new(); springs.tangents.len()];
+        for (k, point) in springs.points.iter().enumerate() {
+            let normal = self.points + k;
+            let gap = |sign: f64| point.column.entries().map(move |(row, v)| (row, sign * v));
+            match node.pressed[k] {
+                Some(false) => {
+                    builder.equal.add([(normal, 1.0)], 0.0);
+                    builder.at_most.add(gap(-1.0), 0.0);
+                }
+                Some(true) => {
+                    builder.equal.add(gap(1.0).chain([(normal, 1.0)]), 0.0);
+                    builder.at_most.add([(normal, -1.0)], 0.0);
+                }
+                None => {
+                    builder.at_most.add([(normal, -1.0)], 0.0);
+                    (builder.at_most).add(gap(-1.0).chain([(normal, -1.0)]), 0.0);
+                    builder.linear[normal] += 2.0;
+                    gap(1.0).for_each(|(row, v)| builder.linear[row] += v);
+                }
+            }
+            if node.pressed[k] != Some(false) {
+                pressing[point.contact].push(normal);
+            }
+        }
+        pressing
+    }
+
+    /// The law of the faces: T = −slip, cut at ±μ(N1 + N2), relaxed where it is open.
+    fn add_faces(
+        &self,
+        springs: &Springs,
+        node: &Node,
+        pressing: &[Vec<usize>],
+        builder: &mut Builder,
+    ) {
+        for (k, tangent) in springs.tangents.iter().enumerate() {
+            let friction = self.faces + k;
+            let mu = springs.program.contacts[k].friction;
+            if pressing[k].is_empty() || mu == 0.0 {
+                builder.equal.add([(friction, 1.0)], 0.0);
+                continue;
+            }
+            let normals = |by: f64| pressing[k].iter().map(move |n| (*n, by));
+            let slip = |sign: f64| tangent.entries().map(move |(row, v)| (row, sign * v));
+            let slides = node.slides[k];
+            if let Some(Slide::Forth | Slide::Back) = slides {
+                let sign = slides.map_or(0.0, Slide::friction_sign);
+                let full = normals(-sign * mu).chain([(friction, 1.0)]);
+                builder.equal.add(full, 0.0);
+                // The slip, against friction, is at least what the friction force would stretch its spring by.
+                builder.at_most.add(slip(sign).chain(normals(mu)), 0.0);
+                continue;
+            }
+            if slides.is_some() {
+                builder.equal.add(slip(1.0).chain([(friction, 1.0)]), 0.0);
+            }
+            for sign in [1.0, -1.0] {
+                let cone = normals(-mu).chain([(friction, sign)]);
+                builder.at_most.add(cone, 0.0);
+            }
+        }
+    }
+
+    /// The robots' limits; without robots, the sign of the loads' work.
+    fn add_robots(&self, springs: &Springs, builder: &mut Builder) {
+        let grips = springs.grips.iter().enumerate();
+        for (k, grip) in grips.filter(|g| g.1.limit.is_finite()) {
+            for sign in [1.0, -1.0] {
+                builder.at_most.add([(self.grips + k, sign)], grip.limit);
+            }
+        }
+        if springs.grips.is_empty() {
+            // The loads' work, −loads·u, is Σ N² + Σ |T s| and so not negative.
+            let loads = springs.program.loads.iter().copied().enumerate();
+            builder.at_most.add(loads.filter(|e| e.1 != 0.0), 0.0);
+        }
+    }
+
+    /// The branching rule: the open point or face at which a solution misses the springs' law most.
+    pub fn most_violated(&self, springs: &Springs, node: &Node, x: &[f64]) -> Option<Branch> {
+        let u = &x[..self.points];
+        let mut worst: Option<(f64, Branch)> = None;
+        let mut consider = |violation: f64, branch: Branch| {
+            if worst.as_ref().is_none_or(|w| violation > w.0) {
+                worst = Some((violation, branch));
+            }
+        };
+        let mut normal = vec![0.0; springs.tangents.len()];
+        for (k, point) in springs.points.iter().enumerate() {
+            let force = x[self.points + k].max(0.0);
+            normal[point.contact] += force;
+            if node.pressed[k].is_none() {
+                // Complementarity: the force or the opening has to be 0.
+                consider(force.min(force + point.column.dot(u)), Branch::Point(k));
+            }
+        }
+        for (k, tangent) in springs.tangents.iter().enumerate() {
+            if node.slides[k].is_none() && node.may_carry(springs, k) {
+                let limit = springs.program.contacts[k].friction * normal[k];
+                let law = (-tangent.dot(u)).clamp(-limit, limit);
+                consider((x[self.faces + k] - law).abs(), Branch::Face(k));
+            }
+        }
+        worst.map(|w| w.1)
+    }
+}
