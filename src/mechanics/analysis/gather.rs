@@ -1,6 +1,6 @@
 //! A frame put together from what was found of its components.
 
-use super::component::{Findings, Method};
+use super::decide::{Findings, Method};
 use super::frame::worst;
 use super::{Contact, FrameAnalysis, Proof, RobotForce, SolveReport, Stages, Verdict};
 use crate::assembly::Assembly;

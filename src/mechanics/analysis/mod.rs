@@ -5,15 +5,15 @@
 //! component that has been solved in an earlier frame is not solved again; `component` does one, this file puts frames
 //! together.
 
-mod component;
+mod decide;
 mod cost;
-mod doubt;
+mod undecided;
 mod frame;
 mod gather;
-mod judgement;
+mod warm_start;
 mod margin;
 mod mechanism;
-mod near;
+mod gaps_closed;
 mod option;
 mod pair;
 mod wedged;
@@ -43,14 +43,14 @@ pub use crate::resultant::Resultant;
 use crate::scene::{BlockId, BodyId, Note, RobotId, Scene};
 pub use crate::solve::Slide;
 use crate::solve::{DeadlineGuard, Effort};
-pub use component::Method;
-use component::{Findings, solved};
+pub use decide::Method;
+use decide::{Findings, decide_component};
 pub use cost::{SolveReport, Stages};
-pub use doubt::UndecidedReason;
+pub use undecided::UndecidedReason;
 use frame::settle;
 use gather::{add, gathered};
-pub use judgement::{Source, verdicts};
-pub(crate) use judgement::{WarmStart, hinges_on_gaps};
+pub use warm_start::{Source, verdicts};
+pub(crate) use warm_start::{WarmStart, hinges_on_gaps};
 use margin::{ComponentIntervals, Part};
 pub use margin::{
     End, Interval, Intervals, Margin, MarginKind, MarginKinds, Margins, RobotIntervals,
@@ -323,9 +323,9 @@ impl Analysis {
     /// Examines every frame of a scene, and what else is asked for.
     pub fn with(scene: impl Into<Arc<Scene>>, options: &Options) -> Analysis {
         let scene = scene.into();
-        let (found, mut frames) = examine(&scene, options);
-        near::judge(&scene, &found, &mut frames, options);
-        let notes = near::notes(&scene, &found);
+        let (found, mut frames) = analyse(&scene, options);
+        gaps_closed::recheck(&scene, &found, &mut frames, options);
+        let notes = gaps_closed::notes(&scene, &found);
         Analysis {
             scene,
             frames,
@@ -357,14 +357,14 @@ const _: () = {
 };
 
 /// Examines every frame of a scene with its gaps as they are.
-fn examine(scene: &Scene, options: &Options) -> (Interfaces, Vec<FrameAnalysis>) {
+fn analyse(scene: &Scene, options: &Options) -> (Interfaces, Vec<FrameAnalysis>) {
     let found = Interfaces::new(scene);
-    let frames = examine_found(scene, &found, options);
+    let frames = analyse_frames(scene, &found, options);
     (found, frames)
 }
 
 /// Examines every frame of a scene whose interfaces are these.
-fn examine_found(scene: &Scene, found: &Interfaces, options: &Options) -> Vec<FrameAnalysis> {
+fn analyse_frames(scene: &Scene, found: &Interfaces, options: &Options) -> Vec<FrameAnalysis> {
     let mut known = Known::default();
     let frames = scene.frames.iter();
     frames
@@ -375,7 +375,7 @@ fn examine_found(scene: &Scene, found: &Interfaces, options: &Options) -> Vec<Fr
                 frame,
                 interfaces: &interfaces,
             };
-            let mut analysis = examined(&situation, *options, &mut known);
+            let mut analysis = analyse_frame(&situation, *options, &mut known);
             analysis.notices.extend(found.notices.iter().cloned());
             analysis
         })
@@ -383,7 +383,7 @@ fn examine_found(scene: &Scene, found: &Interfaces, options: &Options) -> Vec<Fr
 }
 
 /// Examines one frame.
-fn examined(situation: &FrameContext, options: Options, known: &mut Known) -> FrameAnalysis {
+fn analyse_frame(situation: &FrameContext, options: Options, known: &mut Known) -> FrameAnalysis {
     let start = Instant::now();
     let (assembly, reports) = effect::assemble(situation);
     let components = assembly.components();
@@ -397,7 +397,7 @@ fn examined(situation: &FrameContext, options: Options, known: &mut Known) -> Fr
         .collect();
     let one = |k: &usize| {
         let _until = DeadlineGuard::new(options.deadline);
-        solved(&components[*k], options)
+        decide_component(&components[*k], options)
     };
     // Many small components are worth the threads; the order of the results is that of the components either way.
     #[cfg(feature = "parallel")]
@@ -447,7 +447,7 @@ fn examined(situation: &FrameContext, options: Options, known: &mut Known) -> Fr
         (false, _) => Wedging::NotAsked,
         (true, Verdict::Stable) => {
             let components = found.iter().copied();
-            let (only, shown, wedged) = component::only_by_wedging(situation.scene, components);
+            let (only, shown, wedged) = decide::only_by_wedging(situation.scene, components);
             (analysis.only_by_wedging, analysis.wedged) = (only, wedged);
             shown
         }

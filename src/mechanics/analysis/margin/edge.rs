@@ -6,7 +6,7 @@
 use super::interval::{End, Interval};
 use super::trial::{Setting, Trial};
 use crate::analysis::Verdict;
-use crate::analysis::component::Place;
+use crate::analysis::decide::Place;
 use crate::proof::Motion;
 
 /// Which side of an edge stands.

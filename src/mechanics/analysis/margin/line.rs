@@ -8,7 +8,7 @@
 use super::interval::{End, Interval};
 use super::trial::{Setting, Trial};
 use crate::analysis::Verdict;
-use crate::analysis::component::Place;
+use crate::analysis::decide::Place;
 use crate::proof::Motion;
 
 /// A parameter, and how a component changes with it.

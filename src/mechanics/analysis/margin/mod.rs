@@ -26,7 +26,7 @@ use std::collections::BTreeMap;
 #[cfg(feature = "parallel")]
 use rayon::prelude::*;
 
-use super::component::Findings;
+use super::decide::Findings;
 use super::{Key, Verdict};
 use crate::assembly::Assembly;
 use crate::solve::{DeadlineGuard, deadline};

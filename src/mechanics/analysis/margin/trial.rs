@@ -6,7 +6,7 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::analysis::Verdict;
-use crate::analysis::component::{Ends, Place, ProofCache, guessed, judged, learn};
+use crate::analysis::decide::{Ends, Place, ProofCache, verdict_from_cache, decide_verdict, remember_limit};
 use crate::assembly::{Assembly, LoadVector};
 use crate::geometry::quarter_turn;
 use crate::program::{Program, Scale};
@@ -118,12 +118,12 @@ impl<'a> Trial<'a> {
     /// The same of a component of which it is known where it is.
     pub fn judge_at(&mut self, setting: &Setting, place: Place) -> (Verdict, Vec<Motion>) {
         self.count();
-        judged(&self.changed(setting), place, &mut self.guesses)
+        decide_verdict(&self.changed(setting), place, &mut self.guesses)
     }
 
     /// The same where something remembered proves it; undecided elsewhere.
     pub fn guess(&self, setting: &Setting) -> (Verdict, Vec<Motion>) {
-        guessed(&self.changed(setting), &self.guesses)
+        verdict_from_cache(&self.changed(setting), &self.guesses)
     }
 
     /// The least that forces leave unbalanced of the changed component, and how it changes.
@@ -158,7 +158,7 @@ impl<'a> Trial<'a> {
             forces: (verdict == Verdict::Stable).then_some((&forces, &changed)),
             motion: (verdict == Verdict::Unstable).then_some((&motion[..], &changed)),
         };
-        learn(&ends, &mut self.guesses);
+        remember_limit(&ends, &mut self.guesses);
     }
 
     /// Remembers what one program found at the edge: the forces there, the motion well beyond, and, where the loads are
@@ -177,7 +177,7 @@ impl<'a> Trial<'a> {
             forces: extreme.forces.as_ref().map(|forces| (forces, &here)),
             motion: extreme.motion.as_ref().map(|y| (&y[..], &there)),
         };
-        let found = learn(&ends, &mut self.guesses);
+        let found = remember_limit(&ends, &mut self.guesses);
         if let (Some(last), Some(first), Some(base)) = (found, self.forces, base)
             && at != base
         {

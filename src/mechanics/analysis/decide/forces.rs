@@ -1,11 +1,11 @@
 //! Forces of a component in newtons, made admissible to the last bit, with their proof.
 
-use super::Case;
+use super::Component;
 use crate::geometry::Vector;
 use crate::proof::{self, ContactForces, Forces, GripForces, Motion, Proof, gross_load};
 use crate::solve::{Amounts, is_late};
 
-/// By what it is measured how little of a force is noise.
+/// Relative to what a force counts as rounding and is set to 0.
 #[derive(Clone, Copy)]
 enum Noise {
     /// By the heaviest load.
@@ -25,13 +25,13 @@ pub(super) struct ProvedForces {
     pub proof: Proof,
 }
 
-impl Case<'_> {
+impl Component<'_> {
     /// Newtons from pure numbers, made admissible to the last bit, with their proof.
     ///
     /// Noise becomes 0 and friction is cut to μN, so that what is left of the solver's error shows as imbalance alone, where
     /// the proof measures it. What is noise among heavy blocks may be all that holds a light one: where the proof fails,
     /// less is dropped.
-    pub fn carried(&self, amounts: &Amounts) -> ProvedForces {
+    pub fn prove_forces(&self, amounts: &Amounts) -> ProvedForces {
         // Of several that have no proof, the forces that balance most bodies.
         let mut best: Option<(usize, ProvedForces)> = None;
         for noise in [Noise::OfTheWhole, Noise::OfEachBody, Noise::None] {
@@ -60,7 +60,7 @@ impl Case<'_> {
     }
 
     /// The sum that a motion shows forces must have at least to balance, N, and whether given forces have no more.
-    pub fn least_shown(&self, witness: Option<&[f64]>, amounts: &Amounts) -> (Option<f64>, bool) {
+    pub fn bound_force_sum(&self, witness: Option<&[f64]>, amounts: &Amounts) -> (Option<f64>, bool) {
         let Some(witness) = witness else {
             return (None, false);
         };
@@ -73,12 +73,12 @@ impl Case<'_> {
             })
             .collect();
         let bound = proof::force_sum_lower_bound(self.assembly, &motion);
-        let sum = self.carried(amounts).forces.sum(self.assembly.length);
+        let sum = self.prove_forces(amounts).forces.sum(self.assembly.length);
         (Some(bound), sum <= (1.0 + SAME_SUM) * bound)
     }
 
     /// The proof of amounts with as little dropped from them as may be.
-    pub fn carried_plainly(&self, amounts: &Amounts) -> Proof {
+    pub fn prove_without_cleaning(&self, amounts: &Amounts) -> Proof {
         proof::check_forces(self.assembly, &self.in_newtons(amounts, Noise::None))
     }
 

@@ -1,6 +1,5 @@
-//! Any balance, whatever it costs, or a motion against all of them; then the least residual: the forces that leave least
-//! unbalanced, and the motion of most power. Both have an answer on either side of the edge of standing, where the program of
-//! least force may end without a status.
+//! Any balance, or a motion that excludes all; then least residual: the forces with the least imbalance, and the motion of
+//! greatest power. Both programs have an optimum on both sides of the limit, where least force may end without a status.
 
 use super::Attempt;
 use crate::program::Program;
@@ -20,14 +19,14 @@ fn of(solved: Option<Residual>) -> Attempt {
             forces: left.nearest.then_some(left.forces),
             motion: Some(left.motion),
             witness: None,
-            stuck: None,
+            adhesion: None,
             effort: left.effort,
         },
         None => Attempt {
             forces: None,
             motion: None,
             witness: None,
-            stuck: None,
+            adhesion: None,
             effort: Effort::default(),
         },
     }

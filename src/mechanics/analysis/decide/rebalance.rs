@@ -14,7 +14,7 @@
 //! Each round brings bodies of smaller weight within the digits; sets within a set are treated alike.
 
 use super::forces::ProvedForces;
-use super::{Case, Place};
+use super::{Component, Place};
 use crate::analysis::Verdict;
 use crate::assembly::Substructure;
 use crate::geometry::Vector;
@@ -36,13 +36,13 @@ pub(super) enum Outcome {
     /// They balance every body for itself.
     Stands(Amounts, Proof),
     /// Some bodies fall by themselves.
-    Falls(Falling),
+    Falls(FallingPart),
     /// Neither is proved.
     Open,
 }
 
 /// Bodies that fall while all others rest.
-pub(super) struct Falling {
+pub(super) struct FallingPart {
     /// The motion of every body of the whole.
     pub mechanism: Vec<Motion>,
     pub proof: Proof,
@@ -52,9 +52,9 @@ pub(super) struct Falling {
     pub sticking: Option<Amounts>,
 }
 
-impl Case<'_> {
+impl Component<'_> {
     /// Makes forces good for every body for itself.
-    pub fn made_good(&self, program: &Program, amounts: &Amounts, effort: &mut Effort) -> Outcome {
+    pub fn rebalance_locally(&self, program: &Program, amounts: &Amounts, effort: &mut Effort) -> Outcome {
         let most = program.loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
         if amounts.unbalanced(program) > WHOLE * most {
             return Outcome::Open;
@@ -67,7 +67,7 @@ impl Case<'_> {
         let count = |fails: &[bool]| fails.iter().filter(|fails| **fails).count();
         let mut all_at_once = true;
         for _ in 0..ROUNDS {
-            let carried = self.carried(&amounts);
+            let carried = self.prove_forces(&amounts);
             if self.believes(&carried.proof) {
                 return Outcome::Stands(amounts, carried.proof);
             }
@@ -76,14 +76,14 @@ impl Case<'_> {
             }
             let fails = failing(&carried);
             if let Some(better) = relative(program, &amounts, effort)
-                && count(&failing(&self.carried(&better))) < count(&fails)
+                && count(&failing(&self.prove_forces(&better))) < count(&fails)
             {
                 amounts = better;
                 continue;
             }
             if all_at_once {
                 match corrected(program, &amounts, effort) {
-                    Some(better) if count(&failing(&self.carried(&better))) < count(&fails) => {
+                    Some(better) if count(&failing(&self.prove_forces(&better))) < count(&fails) => {
                         amounts = better;
                         continue;
                     }
@@ -94,9 +94,9 @@ impl Case<'_> {
             let mut better = false;
             for set in self.assembly.connected(&fails) {
                 let part = self.assembly.substructure(&set);
-                match self.part_made_good(&part, &amounts, effort) {
+                match self.rebalance_part(&part, &amounts, effort) {
                     PartOutcome::Changed(changed) => {
-                        self.enter(&mut amounts, &part, &changed);
+                        self.insert_part(&mut amounts, &part, &changed);
                         better = true;
                     }
                     PartOutcome::Falls(found) => falling.push((part, found)),
@@ -104,7 +104,7 @@ impl Case<'_> {
                 }
             }
             if !falling.is_empty() {
-                return self.fallen(program, amounts, &falling);
+                return self.combine_falling_parts(program, amounts, &falling);
             }
             if !better {
                 break;
@@ -113,42 +113,42 @@ impl Case<'_> {
         Outcome::Open
     }
 
-    fn part_made_good(
+    fn rebalance_part(
         &self,
         part: &Substructure,
         amounts: &Amounts,
         effort: &mut Effort,
     ) -> PartOutcome {
-        let case = Case {
+        let component = Component {
             assembly: &part.assembly,
             scale: Scale::from_assembly(&part.assembly),
             settings: self.settings.clone(),
             demand: self.demand,
-            described: self.described,
+            complete_result: self.complete_result,
             place: Place::Anywhere,
         };
         // Loads near the smallest numbers there are have no scale of their own.
-        let ratio = self.scale.force / case.scale.force;
-        if !case.scale.force.is_normal() || !ratio.is_normal() {
+        let ratio = self.scale.force / component.scale.force;
+        if !component.scale.force.is_normal() || !ratio.is_normal() {
             return PartOutcome::Open;
         }
-        let program = Program::new(&part.assembly, case.scale);
-        let given = self.taken(amounts, part, case.scale);
+        let program = Program::new(&part.assembly, component.scale);
+        let given = self.part_amounts(amounts, part, component.scale);
         let off = |amounts: &Amounts| {
-            let off = proof::imbalances(&part.assembly, &case.carried(amounts).forces);
+            let off = proof::imbalances(&part.assembly, &component.prove_forces(amounts).forces);
             off.into_iter().fold(0.0, f64::max)
         };
         if let Some(better) = corrected(&program, &given, effort)
             && off(&better) < 0.5 * off(&given)
         {
-            return PartOutcome::Changed(in_units(&better, case.scale, self.scale));
+            return PartOutcome::Changed(in_units(&better, component.scale, self.scale));
         }
         // The whole is on the ladder already, and what is nearly the whole costs as much again.
         let (own, all) = (part.bodies.len(), self.assembly.bodies.len());
         if own == all || (own > SMALL && 2 * own > all) {
             return PartOutcome::Open;
         }
-        if let Some(found) = case.in_closed_form(&program) {
+        if let Some(found) = component.in_closed_form(&program) {
             return match found.verdict {
                 Verdict::Unstable => PartOutcome::Falls(PartFall {
                     mechanism: found.mechanism,
@@ -158,9 +158,9 @@ impl Case<'_> {
                 _ => PartOutcome::Open,
             };
         }
-        let decision = case.described(&program, case.decided(&program));
+        let decision = component.complete(&program, component.decide_by_programs(&program));
         *effort = effort.and(decision.effort);
-        let whole = |amounts: &Amounts| in_units(amounts, case.scale, self.scale);
+        let whole = |amounts: &Amounts| in_units(amounts, component.scale, self.scale);
         match decision.verdict {
             Verdict::Stable => PartOutcome::Changed(whole(&decision.amounts)),
             Verdict::Unstable => PartOutcome::Falls(PartFall {
@@ -173,7 +173,7 @@ impl Case<'_> {
     }
 
     /// The fall of some parts while the others rest, with its proof in the whole.
-    fn fallen(
+    fn combine_falling_parts(
         &self,
         program: &Program,
         mut amounts: Amounts,
@@ -195,10 +195,10 @@ impl Case<'_> {
                 mechanism[*body] = *motion;
             }
             if let Some(held) = &fall.amounts {
-                self.enter(&mut amounts, part, held);
+                self.insert_part(&mut amounts, part, held);
             }
             match (&mut sticking, &fall.sticking) {
-                (Some(sticking), Some(own)) => self.enter(sticking, part, own),
+                (Some(sticking), Some(own)) => self.insert_part(sticking, part, own),
                 _ => sticking = None,
             }
         }
@@ -206,7 +206,7 @@ impl Case<'_> {
         if !self.convinces(&mechanism, &proof) {
             return Outcome::Open;
         }
-        Outcome::Falls(Falling {
+        Outcome::Falls(FallingPart {
             mechanism,
             proof,
             amounts,
@@ -215,7 +215,7 @@ impl Case<'_> {
     }
 
     /// The forces of a part, in the units of its scale.
-    fn taken(&self, amounts: &Amounts, part: &Substructure, scale: Scale) -> Amounts {
+    fn part_amounts(&self, amounts: &Amounts, part: &Substructure, scale: Scale) -> Amounts {
         let own = Amounts {
             normal: part.contacts.iter().map(|k| amounts.normal[*k]).collect(),
             friction: part.contacts.iter().map(|k| amounts.friction[*k]).collect(),
@@ -225,7 +225,7 @@ impl Case<'_> {
     }
 
     /// Enters the forces of a part, in the units of the whole.
-    fn enter(&self, amounts: &mut Amounts, part: &Substructure, own: &Amounts) {
+    fn insert_part(&self, amounts: &mut Amounts, part: &Substructure, own: &Amounts) {
         for (place, number) in part.contacts.iter().enumerate() {
             amounts.normal[*number] = own.normal[place];
             amounts.friction[*number] = own.friction[place];

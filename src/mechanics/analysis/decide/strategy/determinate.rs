@@ -1,16 +1,16 @@
-//! What is statically determinate: the mechanism, and what would have to stick, without a program.
+//! Statically determinate components: the mechanism and the adhesion that is missing, without a program.
 
 use super::Attempt;
 use crate::program::Program;
 use crate::solve::{Effort, collapse};
 
 pub(super) fn attempt(program: &Program) -> Attempt {
-    let (motion, stuck) = collapse(program).unzip();
+    let (motion, adhesion) = collapse(program).unzip();
     Attempt {
         forces: None,
         motion,
         witness: None,
-        stuck,
+        adhesion,
         effort: Effort::default(),
     }
 }

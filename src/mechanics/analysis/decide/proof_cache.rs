@@ -1,25 +1,24 @@
-//! [`ProofCache`]: forces and motions of siblings of a component, tried as proofs before any program is solved.
+//! [`ProofCache`]: forces and motions of similar components, tried as proofs before any program is solved.
 //!
-//! A margin asks about many components that differ in one number. Forces that balance one often balance the next, and the
-//! motion by which one falls often proves the fall of another. A guess is believed for its proof alone, like everything
-//! else.
+//! A margin needs the verdicts of many components that differ in one number. Forces that balance one often balance the next,
+//! and the motion by which one falls often proves the fall of another. Each is proved again for the new component.
 
-use super::Case;
+use super::Component;
 use crate::assembly::Assembly;
 use crate::geometry::Point;
 use crate::proof::{self, ContactForces, Forces, Motion};
 
-/// So many sets of forces, and so many motions, are remembered.
-const KEPT: usize = 4;
+/// Sets of forces that are kept, and motions. A search alternates between few values, and each costs a proof.
+const MAX_KEPT: usize = 4;
 
-/// What is remembered of siblings, the latest last.
+/// Forces and motions of similar components, the latest last.
 #[derive(Debug, Default)]
 pub(in crate::mechanics::analysis) struct ProofCache {
     forces: Vec<Acting>,
     motions: Vec<Vec<Motion>>,
 }
 
-/// Forces, and the application points at which they act.
+/// Forces with the application points at which they act.
 #[derive(Debug)]
 struct Acting {
     forces: Forces,
@@ -27,9 +26,9 @@ struct Acting {
 }
 
 impl ProofCache {
-    /// Remembers forces on an assembly.
+    /// Adds forces on an assembly.
     pub fn add_forces(&mut self, assembly: &Assembly, forces: Forces) {
-        if self.forces.len() == KEPT {
+        if self.forces.len() == MAX_KEPT {
             self.forces.remove(0);
         }
         let points = assembly.contacts.iter().map(|contact| contact.points);
@@ -39,36 +38,36 @@ impl ProofCache {
         });
     }
 
-    /// Remembers a motion, one entry for each body.
+    /// Adds a motion, one entry for each body.
     pub fn add_motion(&mut self, motion: Vec<Motion>) {
-        if self.motions.len() == KEPT {
+        if self.motions.len() == MAX_KEPT {
             self.motions.remove(0);
         }
         self.motions.push(motion);
     }
 
-    /// Whether some remembered forces balance a component.
-    pub(super) fn balances(&self, case: &Case) -> bool {
+    /// Whether some cached forces balance a component.
+    pub(super) fn balances(&self, component: &Component) -> bool {
         let mut latest = self.forces.iter().rev();
         latest.any(|acting| {
-            let forces = acting.moved_to(case.assembly);
-            forces.is_some_and(|forces| case.believes(&proof::check_forces(case.assembly, &forces)))
+            let forces = acting.moved_to(component.assembly);
+            forces.is_some_and(|forces| component.believes(&proof::check_forces(component.assembly, &forces)))
         })
     }
 
-    /// The remembered motion by which a component falls, by more than forces within their band could take up.
-    pub(super) fn falls(&self, case: &Case) -> Option<Vec<Motion>> {
+    /// A cached motion by which a component falls and that no forces can contradict.
+    pub(super) fn falls(&self, component: &Component) -> Option<Vec<Motion>> {
         let mut latest = self.motions.iter().rev();
         let proves = |motion: &&Vec<Motion>| {
-            let proof = case.mechanism(motion);
-            case.convinces(motion, &proof) && case.outweighs_the_band(motion, &proof)
+            let proof = component.mechanism(motion);
+            component.convinces(motion, &proof) && component.exceeds_force_tolerance(motion, &proof)
         };
         latest.find(proves).cloned()
     }
 }
 
 impl Acting {
-    /// The same resultants at the application points of a sibling; `None` where one passes outside of them.
+    /// The same resultants at the application points of another component; `None` if one passes outside of them.
     fn moved_to(&self, assembly: &Assembly) -> Option<Forces> {
         let mut forces = self.forces.clone();
         let contacts = assembly.contacts.iter().zip(&self.points);

@@ -4,7 +4,7 @@
 //! to bodies that move as one. Posed with the few pieces as its bodies, the change that frees a motion of this error is a
 //! small program, and what is within a piece fits to rounding.
 
-use super::Case;
+use super::Component;
 use super::motion::to_speed_one;
 use crate::assembly::{Assembly, DisjointSets};
 use crate::geometry::{Vector, quarter_turn};
@@ -12,26 +12,26 @@ use crate::program::Program;
 use crate::proof::{Motion, Proof};
 use crate::solve::{Effort, polished};
 
-/// Bodies move as one whose velocities differ by so much at most, in parts of the fastest point's. What is the solver's error
-/// in one structure is motion in another: the coarser is tried first, and gives the fewer pieces.
-const AS_ONE: [f64; 2] = [1e-5, 1e-7];
+/// Bodies whose velocities differ by at most this much move as one; the fastest point has speed 1. The same difference is solver
+/// error in one structure and motion in another, so the coarser value, which gives fewer pieces, is tried first.
+const SAME_PIECE_SPEED: [f64; 2] = [1e-5, 1e-7];
 
-/// Fewer bodies a piece than so many, and the change in pieces costs about as much as that of all bodies. A wall near its edge
-/// falls in pieces of two to four bricks, a stack in one of all its blocks.
-const FEWEST: usize = 8;
+/// With fewer bodies per piece than this, correcting the pieces costs about as much as correcting all bodies. A wall near its limit
+/// falls in pieces of two to four bricks, a stack in one piece.
+const MIN_BODIES_PER_PIECE: usize = 8;
 
-impl Case<'_> {
+impl Component<'_> {
     /// The motion near a given one, of fastest speed 1, in which bodies that move nearly as one do so, freed of the
     /// solver's error, with its proof if that convinces.
-    pub(super) fn falling_in_pieces(
+    pub(super) fn prove_motion_in_pieces(
         &self,
         motion: &[Motion],
         effort: &mut Effort,
     ) -> Option<(Vec<Motion>, Proof)> {
-        AS_ONE.into_iter().find_map(|tolerance| {
+        SAME_PIECE_SPEED.into_iter().find_map(|tolerance| {
             let piece = pieces(self.assembly, motion, tolerance);
             let joined = self.assembly.merged(&piece);
-            if joined.bodies.is_empty() || FEWEST * joined.bodies.len() > motion.len() {
+            if joined.bodies.is_empty() || MIN_BODIES_PER_PIECE * joined.bodies.len() > motion.len() {
                 return None;
             }
             let program = Program::new(&joined, self.scale);

@@ -1,22 +1,24 @@
-//! Motions of a component: from the solver's velocities to metres, freed of the solver's error, with their proofs.
+//! Motions of a component: from the solver's velocities to metres, freed of the solver's error, with their proofs (route 3b).
 
-use super::Case;
-use super::rung::MANY_BLOCKS;
+use super::Component;
+use super::strategy::LARGE_PROGRAM_BLOCKS;
 use crate::assembly::{Assembly, LoadVector};
 use crate::geometry::Vector;
 use crate::program::Program;
 use crate::proof::{self, Motion, Proof, fastest};
 use crate::solve::{Effort, polished};
 
-/// Forces of so many times the sum of all loads are what a motion must rule out at least.
-const THRUST: f64 = 10.0;
+/// A motion must exclude balancing forces up to this many times the sum of all loads. A flat arch presses with several times its
+/// weight, so at a tenth of it a thrust could contradict the motion. Ten times as much would leave flat wedges undecided.
+const MIN_EXCLUDED_LOADS: f64 = 10.0;
 
-impl Case<'_> {
-    /// The motion near a given one, freed of the solver's error, with its proof if that convinces.
+impl Component<'_> {
+    /// The motion nearest to the given velocities `y` (program units) that violates no contact, with its proof; `None` if the proof
+    /// does not convince.
     ///
-    /// A violation is believed to be rounding only after the change: one of the solver's, however small, may be what the
-    /// motion of a wedge into its notch lives on.
-    pub(super) fn falling(
+    /// Violations of the solver are never accepted as rounding, however small: the motion of a wedge into its notch consists of
+    /// nothing else.
+    pub(super) fn prove_motion(
         &self,
         program: &Program,
         y: &[f64],
@@ -28,8 +30,8 @@ impl Case<'_> {
             return None;
         }
         if proof.excluded_force_sum().is_finite() {
-            let many = motion.len() >= MANY_BLOCKS;
-            let in_pieces = || self.falling_in_pieces(&motion, effort);
+            let many = motion.len() >= LARGE_PROGRAM_BLOCKS;
+            let in_pieces = || self.prove_motion_in_pieces(&motion, effort);
             if let Some(found) = many.then(in_pieces).flatten() {
                 return Some(found);
             }
@@ -40,17 +42,18 @@ impl Case<'_> {
         self.convinces(&motion, &proof).then_some((motion, proof))
     }
 
-    /// Whether a motion with its proof convinces: it is believed as such, and rules out all forces that the loads of the
-    /// whole component might press with, so that no thrust of heavy bodies makes up for what a light one's motion violates.
+    /// Whether a motion with its proof convinces. The proof must be believed, and it must exclude all forces that the loads of the
+    /// whole component can cause. Otherwise a thrust of heavy bodies could balance what the motion of a light one violates.
     pub(super) fn convinces(&self, motion: &[Motion], proof: &Proof) -> bool {
         let bodies = self.assembly.bodies.iter();
         let all: f64 = bodies.map(|b| proof::gross_load(self.assembly, b)).sum();
         let load = proof::moving_load(self.assembly, motion);
-        self.believes(proof) && proof.excluded_force_sum() * load >= THRUST * all
+        self.believes(proof) && proof.excluded_force_sum() * load >= MIN_EXCLUDED_LOADS * all
     }
 
-    /// Whether a proved motion does more work than forces within the proof's band could take up.
-    pub(super) fn outweighs_the_band(&self, motion: &[Motion], proof: &Proof) -> bool {
+    /// Whether a proved motion does more work than the imbalance that a proof of forces tolerates could take up. No forces can then
+    /// contradict it.
+    pub(super) fn exceeds_force_tolerance(&self, motion: &[Motion], proof: &Proof) -> bool {
         let ways: f64 = motion
             .iter()
             .map(|m| m.velocity.norm() + m.spin.abs() * self.assembly.length)
@@ -60,8 +63,8 @@ impl Case<'_> {
         matches!(proof, Proof::Mechanism { power, .. } if power * load > 2.0 * Proof::IMBALANCE_TOL * heaviest * ways)
     }
 
-    /// A component that touches no ground and is held by nobody falls with the sum of its loads, all bodies alike.
-    pub(super) fn falls_free(&self) -> Option<(Vec<Motion>, Proof)> {
+    /// The motion of a component that touches no ground and is held by no robot: all bodies move along the sum of their loads.
+    pub(super) fn falls_freely(&self) -> Option<(Vec<Motion>, Proof)> {
         if !self.assembly.is_unsupported() {
             return None;
         }

@@ -9,7 +9,7 @@ pub(super) fn attempt(program: &Program, settings: SolverSettings) -> Attempt {
     of(balance_in(program, settings))
 }
 
-/// Given up early: near the edge, where it may end without a status, others decide sooner.
+/// The same, stopped early: near the limit, where it may end without a status, other strategies decide sooner.
 pub(super) fn first_look(program: &Program, settings: SolverSettings) -> Attempt {
     of(balance_at_first_look(program, settings))
 }
@@ -19,7 +19,7 @@ fn of(solved: Balance) -> Attempt {
         forces: solved.forces,
         motion: solved.motion,
         witness: solved.witness,
-        stuck: None,
+        adhesion: None,
         effort: solved.effort,
     }
 }

@@ -1,6 +1,6 @@
 //! What sticks in a component, as failures in metres and newtons.
 
-use super::Case;
+use super::Component;
 use crate::analysis::Failure;
 use crate::assembly::{Assembly, load_about};
 use crate::geometry::{Point, Vector};
@@ -13,7 +13,7 @@ const SHARE_OF_WEIGHT: f64 = 1e-6;
 /// And above this part of the largest of its component: less is the solver's noise.
 const SHARE_OF_LARGEST: f64 = 1e-9;
 
-impl Case<'_> {
+impl Component<'_> {
     /// What sticks, in newtons, in the order of contacts and grips.
     pub(super) fn failures(&self, sticking: &Amounts) -> Vec<Failure> {
         let unit = self.scale.force;
@@ -118,19 +118,19 @@ impl Case<'_> {
     }
 
     /// Forces next to what sticks, in newtons, and whether both together balance every body.
-    pub(super) fn carried_with_sticking(
+    pub(super) fn prove_with_adhesion(
         &self,
         amounts: &Amounts,
         sticking: &Amounts,
     ) -> (Forces, bool) {
         let held = self.with_sticking(sticking);
-        let case = Case {
+        let component = Component {
             assembly: &held,
             settings: self.settings.clone(),
             ..*self
         };
-        let carried = case.carried(amounts);
-        let balanced = case.believes(&carried.proof);
+        let carried = component.prove_forces(amounts);
+        let balanced = component.believes(&carried.proof);
         (carried.forces, balanced)
     }
 }

@@ -7,7 +7,7 @@
 //! differ nobody can say which structure was meant: the frame is undecided, with the places and the tolerance that settles
 //! it. If they agree an overlap is reported beside the verdict. A tolerance that somebody gave settles it already.
 
-use super::{FrameAnalysis, Options, UndecidedReason, Verdict, examine, examine_found};
+use super::{FrameAnalysis, Options, UndecidedReason, Verdict  , analyse, analyse_frames};
 use crate::geometry::Point;
 use crate::interface::{ContactsByBody, Interface, Interfaces, NearMiss, pinning_stone};
 use crate::scene::{BodyId, Note, NoteCode, Penetration, Scene, ToleranceSource, size};
@@ -57,7 +57,7 @@ impl From<&Penetration> for Place {
 }
 
 /// Makes frames undecided that stand with gaps and overlaps as they are and fall with them closed, or the other way round.
-pub(super) fn judge(
+pub(super) fn recheck(
     scene: &Scene,
     found: &Interfaces,
     frames: &mut [FrameAnalysis],
@@ -66,7 +66,7 @@ pub(super) fn judge(
     if scene.healed.source == ToleranceSource::Given {
         return;
     }
-    judge_slivers(scene, found, frames, options);
+    recheck_with_slivers(scene, found, frames, options);
     if found.near_misses.is_empty() && scene.penetrations.is_empty() {
         return;
     }
@@ -98,7 +98,7 @@ pub(super) fn judge(
         wedging: false,
         ..*options
     };
-    let closed = |closing: f64| (closing, examine(&scene.closed(closing), &options).1);
+    let closed = |closing: f64| (closing, analyse(&scene.closed(closing), &options).1);
     let mut others = vec![closed(ENOUGH * widest)];
     let same = |((frame, other), places): ((&FrameAnalysis, &FrameAnalysis), &Vec<Place>)| {
         !places.is_empty() && frame.verdict == other.verdict
@@ -141,7 +141,7 @@ pub(super) fn judge(
 }
 
 /// Makes frames undecided that stand on contacts too short to count, and fall without them.
-fn judge_slivers(
+fn recheck_with_slivers(
     scene: &Scene,
     found: &Interfaces,
     frames: &mut [FrameAnalysis],
@@ -156,7 +156,7 @@ fn judge_slivers(
         wedging: false,
         ..*options
     };
-    let others = examine_found(scene, &found.with_slivers(), &options);
+    let others = analyse_frames(scene, &found.with_slivers(), &options);
     for ((frame, other), played) in frames.iter_mut().zip(&others).zip(&scene.frames) {
         if [frame.verdict, other.verdict] != [Verdict::Unstable, Verdict::Stable] {
             continue;

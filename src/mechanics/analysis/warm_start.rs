@@ -5,8 +5,8 @@
 //! nothing. What it finds is believed for its proof, as anything else; where there is none, the frame is examined as
 //! [`Analysis`](super::Analysis) does, so that a guess can save work and decide nothing.
 
-use super::component::Candidate;
-use super::{Analysis, Known, Options, Verdict, examined};
+use super::decide::Candidate;
+use super::{Analysis, Known, Options, Verdict, analyse_frame};
 use crate::assembly::Assembly;
 use crate::effect::{self, FrameContext};
 use crate::interface::{Interface, Interfaces};
@@ -100,17 +100,17 @@ impl WarmStart {
         };
         if !options.is_late() {
             let (assembly, _) = effect::assemble(&situation);
-            if let Some(verdict) = self.judged(&assembly, *options) {
+            if let Some(verdict) = self.decide_verdict(&assembly, *options) {
                 return (verdict, Source::WarmStart);
             }
         }
         let alone = options.verdict_only(true);
-        let verdict = examined(&situation, alone, &mut Known::default()).verdict;
+        let verdict = analyse_frame(&situation, alone, &mut Known::default()).verdict;
         (verdict, Source::Examined)
     }
 
     /// The verdict on an assembly, where the guess leads to one.
-    fn judged(&mut self, assembly: &Assembly, options: Options) -> Option<Verdict> {
+    fn decide_verdict(&mut self, assembly: &Assembly, options: Options) -> Option<Verdict> {
         let most = match self.columns.is_empty() {
             true => MANY_AT_ONCE,
             false => MANY,

@@ -1,6 +1,6 @@
-//! Forces or a motion that somebody proposes, and the verdict that they prove.
+//! Route 0: forces or a motion found elsewhere, and the verdict that they prove.
 
-use super::Case;
+use super::Component;
 use crate::analysis::{Options, Verdict};
 use crate::assembly::Assembly;
 use crate::geometry::Vector;
@@ -9,48 +9,48 @@ use crate::proof::{Motion, Proof};
 use crate::scene::BlockId;
 use crate::solve::Amounts;
 
-/// Judges what was found for a whole assembly.
+/// Forces and velocities of a whole assembly, to be proved.
 pub(in crate::mechanics::analysis) struct Candidate<'a> {
-    case: Case<'a>,
+    component: Component<'a>,
     options: Options,
 }
 
 impl<'a> Candidate<'a> {
-    /// For an assembly whose amounts and velocities are in the numbers of a scale.
+    /// For an assembly, with forces and velocities in the units of a scale.
     pub fn new(assembly: &'a Assembly, scale: Scale, options: Options) -> Candidate<'a> {
         Candidate {
-            case: Case {
+            component: Component {
                 scale,
-                ..Case::new(assembly, options)
+                ..Component::new(assembly, options)
             },
             options,
         }
     }
 
-    /// Stable where the amounts balance every body; unstable where what they leave unbalanced is a motion of one of the
-    /// components that outweighs the band within which forces are believed. A motion of less is for the ladder to judge.
+    /// Stable if the forces balance every body. Unstable if the imbalance they leave is a motion of one component that no
+    /// forces can contradict. `None` if neither is proved; the other routes then decide.
     pub fn verdict(&self, amounts: &Amounts, left: &[f64]) -> Option<Verdict> {
-        let forces = self.case.carried_plainly(amounts);
-        if self.case.believes(&forces) {
+        let forces = self.component.prove_without_cleaning(amounts);
+        if self.component.believes(&forces) {
             return Some(Verdict::Stable);
         }
         // The blocks move against what is left to be given.
         let motion: Vec<f64> = left.iter().map(|v| -v).collect();
-        let (speed, motions) = self.case.moved(&motion);
+        let (speed, motions) = self.component.moved(&motion);
         if speed == 0.0 {
             return None;
         }
-        let assembly = self.case.assembly;
-        for component in assembly.components() {
-            let case = Case {
-                scale: self.case.scale,
-                ..Case::new(&component, self.options)
+        let assembly = self.component.assembly;
+        for assembly in assembly.components() {
+            let part = Component {
+                scale: self.component.scale,
+                ..Component::new(&assembly, self.options)
             };
-            let own = component.bodies.iter();
+            let own = assembly.bodies.iter();
             let own: Vec<Motion> = own.map(|b| of_block(&motions, b.block)).collect();
-            let proof = case.mechanism(&own);
+            let proof = part.mechanism(&own);
             let moves = matches!(proof, Proof::Mechanism { power, .. } if power > 0.0);
-            if moves && case.convinces(&own, &proof) && case.outweighs_the_band(&own, &proof) {
+            if moves && part.convinces(&own, &proof) && part.exceeds_force_tolerance(&own, &proof) {
                 return Some(Verdict::Unstable);
             }
         }

@@ -1,0 +1,47 @@
+//! LeastForce forces of joints that are parallel but for rounding.
+
+use super::Component;
+use super::strategy::Strategy;
+use crate::program::Program;
+use crate::proof::Proof;
+use crate::solve::{Amounts, Choice, Effort, SolverSettings, corrected};
+
+/// Forces that balance, and what is known about their sum.
+pub(super) struct LeastForce {
+    pub amounts: Amounts,
+    pub proof: Proof,
+    /// As in a decision.
+    pub force_bound: Option<f64>,
+    pub least_force: bool,
+}
+
+impl Component<'_> {
+    /// Forces with a smaller sum, if there are any: the least forces with nearly parallel joints made parallel, then changed
+    /// as little as possible so that they balance with the joints as they are. Otherwise the given forces.
+    pub(super) fn reduce_force_sum(&self, program: &Program, found: LeastForce, effort: &mut Effort) -> LeastForce {
+        match self.least_force_with_parallel_joints(program, effort) {
+            Some(least) if least.amounts.total() < found.amounts.total() => least,
+            _ => found,
+        }
+    }
+
+    fn least_force_with_parallel_joints(&self, program: &Program, effort: &mut Effort) -> Option<LeastForce> {
+        let wanted = |s: &&SolverSettings| s.choice != Choice::Any;
+        let settings = self.settings.iter().find(wanted)?;
+        let straight = program.with_parallel_joints()?;
+        let attempt = Strategy::Force(*settings).attempt(&straight);
+        *effort = effort.and(attempt.effort);
+        let amounts = corrected(program, attempt.forces.as_ref()?, effort)?;
+        let proof = self.prove_forces(&amounts).proof;
+        if !self.believes(&proof) {
+            return None;
+        }
+        let (force_bound, least_force) = self.bound_force_sum(attempt.witness.as_deref(), &amounts);
+        Some(LeastForce {
+            amounts,
+            proof,
+            force_bound,
+            least_force,
+        })
+    }
+}

@@ -1,0 +1,242 @@
+//! Route 3: one program after another, until forces or a motion have a proof.
+//!
+//! If both proofs hold, the forces win. A proof of forces allows a small imbalance, and a motion that does no more work than
+//! this imbalance could take up ("weak") may therefore coexist with forces that balance. A weak motion decides only after
+//! a program has shown that no forces balance: that of least residual, or that of least adhesion.
+
+use super::parallel_joints::LeastForce;
+use super::rebalance::{FallingPart, Outcome};
+use super::strategy::{Attempt, Strategy};
+use super::{Component, Method};
+use crate::analysis::{UndecidedReason, Verdict};
+use crate::program::Program;
+use crate::proof::{Motion, Proof};
+use crate::solve::{Amounts, Effort, LeastAdhesion, is_late};
+
+/// A verdict with its proof, in the program's units.
+pub(super) struct Decision {
+    pub verdict: Verdict,
+    /// Why it is undecided.
+    pub doubt: Option<UndecidedReason>,
+    /// Forces that balance, or that balance together with the adhesion.
+    pub amounts: Amounts,
+    /// The sum that admissible forces must have at least to balance, N, if it was shown.
+    pub force_bound: Option<f64>,
+    /// Whether the forces have that sum.
+    pub least_force: bool,
+    /// The adhesion that would have to act for a balance.
+    pub sticking: Option<Amounts>,
+    /// Whether no adhesion at the application points could hold it.
+    pub beyond_sticking: bool,
+    pub mechanism: Vec<Motion>,
+    pub proof: Proof,
+    /// The strategy that decided.
+    pub method: Method,
+    /// Whether a program of least force ended without a status.
+    pub no_status: bool,
+    /// The answer of the program of least adhesion, if it was solved.
+    pub adhesion: Option<LeastAdhesion>,
+    /// Whether only some bodies fall, and the adhesion that these lack is known.
+    pub in_part: bool,
+    pub effort: Effort,
+}
+
+/// What the strategies tried so far have left.
+#[derive(Default)]
+struct Progress {
+    effort: Effort,
+    /// Whether a program of least force ended without a status.
+    no_status: bool,
+    /// A proved motion that does little work.
+    weak: Option<(Vec<Motion>, Proof)>,
+    adhesion: Option<LeastAdhesion>,
+    last: Option<(Decision, Attempt)>,
+}
+
+impl Component<'_> {
+    /// Tries the strategies in order until a proof convinces.
+    pub fn decide_by_programs(&self, program: &Program) -> Decision {
+        let mut progress = Progress::default();
+        let strategies =
+            Strategy::in_order(program, &self.settings, self.place, self.complete_result);
+        for strategy in strategies {
+            // After the deadline the last attempt is reported. Even writing the next program takes time.
+            if progress.last.is_some() && is_late() {
+                break;
+            }
+            let attempt = strategy.attempt(program);
+            progress.effort = progress.effort.and(attempt.effort);
+            progress.no_status |=
+                strategy.is_least() && attempt.forces.is_none() && attempt.motion.is_none();
+            let decision = Decision {
+                no_status: progress.no_status,
+                ..Decision::new(program, strategy.method())
+            };
+            let decision = match self.stable_by(program, &attempt, decision, &mut progress) {
+                Ok(decided) => return decided,
+                Err(open) => open,
+            };
+            let decision =
+                match self.unstable_by(program, strategy, &attempt, decision, &mut progress) {
+                    Ok(decided) => return decided,
+                    Err(open) => open,
+                };
+            progress.adhesion = attempt.adhesion.clone().or(progress.adhesion);
+            progress.last = Some((decision, attempt));
+        }
+        self.without_proof(program, progress)
+    }
+
+    /// Decides by the forces of an attempt: they balance every body, or some bodies are proved to fall by themselves. Gives the
+    /// decision back if neither is proved.
+    fn stable_by(
+        &self,
+        program: &Program,
+        attempt: &Attempt,
+        decision: Decision,
+        progress: &mut Progress,
+    ) -> Result<Decision, Decision> {
+        let Some(amounts) = &attempt.forces else {
+            return Err(decision);
+        };
+        let proof = self.prove_forces(amounts).proof;
+        let outcome = match self.believes(&proof) {
+            true => Outcome::Stands(amounts.clone(), proof),
+            false => self.rebalance_locally(program, amounts, &mut progress.effort),
+        };
+        match outcome {
+            Outcome::Stands(amounts, proof) => {
+                let witness = attempt.witness.as_deref();
+                let (force_bound, least_force) = self.bound_force_sum(witness, &amounts);
+                let mut found = LeastForce {
+                    amounts,
+                    proof,
+                    force_bound,
+                    least_force,
+                };
+                // Nearly parallel joints leave the program of least force without a status.
+                if !least_force && progress.no_status {
+                    found = self.reduce_force_sum(program, found, &mut progress.effort);
+                }
+                Ok(Decision {
+                    force_bound: found.force_bound,
+                    least_force: found.least_force,
+                    amounts: found.amounts,
+                    proof: found.proof,
+                    effort: progress.effort,
+                    ..decision
+                })
+            }
+            Outcome::Falls(part) => Ok(decision.with_falling_part(part, progress.effort)),
+            Outcome::Open => Err(decision),
+        }
+    }
+
+    /// Decides by the motion of an attempt, or by an earlier weak one, if no forces can contradict it. Gives the decision back
+    /// otherwise.
+    fn unstable_by(
+        &self,
+        program: &Program,
+        strategy: Strategy,
+        attempt: &Attempt,
+        decision: Decision,
+        progress: &mut Progress,
+    ) -> Result<Decision, Decision> {
+        let motion = attempt.motion.as_ref();
+        let proved = motion.and_then(|y| self.prove_motion(program, y, &mut progress.effort));
+        let is_strong = proved
+            .as_ref()
+            .is_some_and(|(motion, proof)| self.exceeds_force_tolerance(motion, proof));
+        let Some((mechanism, proof)) = proved.or(progress.weak.take()) else {
+            return Err(decision);
+        };
+        if is_strong || strategy.excludes_balance(attempt) {
+            return Ok(Decision {
+                verdict: Verdict::Unstable,
+                mechanism,
+                proof,
+                adhesion: attempt.adhesion.clone().or(progress.adhesion.take()),
+                effort: progress.effort,
+                ..decision
+            });
+        }
+        progress.weak = Some((mechanism, proof));
+        Err(decision)
+    }
+
+    /// After the last strategy: unstable by a weak motion, since no forces were found; otherwise undecided.
+    fn without_proof(&self, program: &Program, progress: Progress) -> Decision {
+        let (decision, attempt) = match progress.last {
+            Some((decision, attempt)) => (decision, Some(attempt)),
+            None => (Decision::new(program, Method::LeastForce), None),
+        };
+        let decision = Decision {
+            effort: progress.effort,
+            ..decision
+        };
+        if let Some((mechanism, proof)) = progress.weak {
+            return Decision {
+                verdict: Verdict::Unstable,
+                mechanism,
+                proof,
+                adhesion: attempt.and_then(|a| a.adhesion),
+                ..decision
+            };
+        }
+        let forces = attempt.as_ref().and_then(|a| a.unproved_forces());
+        let amounts = forces.cloned().unwrap_or_else(|| Amounts::none(program));
+        let proof = self.prove_forces(&amounts).proof;
+        let motion = attempt.as_ref().and_then(|a| a.motion.as_ref());
+        let unproved_motion = motion.map(|y| self.mechanism(&self.moved(y).1));
+        Decision {
+            verdict: Verdict::Undecided,
+            doubt: Some(UndecidedReason::Unproved {
+                forces: proof,
+                motion: unproved_motion,
+            }),
+            amounts,
+            proof,
+            ..decision
+        }
+    }
+}
+
+impl Decision {
+    /// A decision to be filled in: stable, without forces, without a proof.
+    pub fn new(program: &Program, method: Method) -> Decision {
+        Decision {
+            verdict: Verdict::Stable,
+            doubt: None,
+            amounts: Amounts::none(program),
+            force_bound: None,
+            least_force: false,
+            sticking: None,
+            beyond_sticking: false,
+            mechanism: Vec::new(),
+            proof: Proof::Mechanism {
+                power: 0.0,
+                worst_violation: 0.0,
+            },
+            method,
+            no_status: false,
+            adhesion: None,
+            in_part: false,
+            effort: Effort::default(),
+        }
+    }
+
+    /// Unstable, because some bodies fall while all others rest.
+    fn with_falling_part(self, part: FallingPart, effort: Effort) -> Decision {
+        Decision {
+            verdict: Verdict::Unstable,
+            amounts: part.amounts,
+            // If no adhesion can hold these bodies, `complete` computes the failures of the whole component.
+            in_part: part.sticking.is_some(),
+            sticking: part.sticking,
+            mechanism: part.mechanism,
+            proof: part.proof,
+            effort,
+            ..self
+        }
+    }
+}

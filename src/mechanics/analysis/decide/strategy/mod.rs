@@ -1,0 +1,199 @@
+//! The strategies of route 3 and their order. Each poses one program and returns forces, a motion, or neither.
+
+mod determinate;
+mod least_force;
+mod least_residual;
+mod least_adhesion;
+
+use std::fmt;
+
+use crate::program::Program;
+use crate::solve::{Amounts, Choice, Conditioning, Effort, SolverSettings, LeastAdhesion};
+
+/// Programs of at least this many blocks are large: a short first attempt decides most of them, and extra solutions cost too
+/// much.
+pub(super) const LARGE_PROGRAM_BLOCKS: usize = 200;
+
+/// How a component was decided. A later variant means that a harder method was needed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
+pub enum Method {
+    /// Without a solver: balance alone determines the forces, or no force is needed.
+    ClosedForm,
+    /// By the program of least force, solved through its dual, the kinematic program. Its name in results is `kinematic`.
+    LeastForce,
+    /// By the same program with the solver's own scaling and refinement.
+    LeastForceRefined,
+    /// By the program of least residual.
+    LeastResidual,
+    /// By the program of least sticking.
+    LeastSticking,
+}
+
+impl Method {
+    /// Its name in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Method::ClosedForm => "closed form",
+            Method::LeastForce => "kinematic",
+            Method::LeastForceRefined => "kinematic, refined",
+            Method::LeastResidual => "least residual",
+            Method::LeastSticking => "least sticking",
+        }
+    }
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// What is known beforehand about a component's distance from its limit of stability.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::mechanics::analysis) enum Place {
+    /// Nothing is known.
+    Anywhere,
+    /// At the limit of stability.
+    AtEdge,
+}
+
+/// One program that may decide a component.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Strategy {
+    /// Closed form: forces that balance alone determines, and the mechanism if they are not admissible.
+    Determinate,
+    /// Least force, stopped after a few iterations; for large programs.
+    FirstLook(SolverSettings),
+    /// Least force.
+    Force(SolverSettings),
+    /// Any forces that balance, or a motion; whatever the forces are.
+    AnyBalance,
+    /// Forces with the least imbalance.
+    Residual,
+    /// Least sticking.
+    Sticking(SolverSettings),
+}
+
+/// What a strategy found, in the program's units and without a proof.
+pub(super) struct Attempt {
+    /// Forces that should balance.
+    pub forces: Option<Amounts>,
+    /// A motion that should be a mechanism.
+    pub motion: Option<Vec<f64>>,
+    /// From the program of least force: a motion that bounds the sum of balancing forces from below.
+    pub witness: Option<Vec<f64>>,
+    /// The answer of the program of least adhesion, if that was the strategy.
+    pub adhesion: Option<LeastAdhesion>,
+    pub effort: Effort,
+}
+
+impl Attempt {
+    /// The forces of this attempt, also those that balance only with adhesion.
+    pub fn unproved_forces(&self) -> Option<&Amounts> {
+        let adhesion = self.adhesion.as_ref().map(|adhesion| &adhesion.forces);
+        self.forces.as_ref().or(adhesion)
+    }
+}
+
+impl Strategy {
+    /// The strategies in the order in which they are tried: from the fastest to the one that decides closest to the limit.
+    ///
+    /// 1. Closed form, if balance alone determines all forces.
+    /// 2. Least force. It decides nearly every component, and its forces are the ones to draw.
+    /// 3. Any balance, then least residual. They have an optimum on both sides of the limit, where least force may end
+    ///    without a status.
+    /// 4. Least force with full precision.
+    /// 5. Least adhesion. Its optimum is the physical residual and distinguishes 0 from almost 0 best.
+    ///
+    /// Three cases differ:
+    ///
+    /// - At the limit (`Place::AtEdge`) step 3 comes before step 2.
+    /// - Large programs begin with a short attempt at least force. If failures are wanted, least adhesion comes before least
+    ///   residual: a large component that falls needs it in any case, and least residual takes nearly as long.
+    /// - Large programs of which only the verdict is wanted begin with any balance. Falling walls of 410 and 915 bricks take 9
+    ///   to 20 iterations with it and 9 to 60 with least force. The short attempt at least force comes next, because a stack of
+    ///   10 000 blocks has no convincing proof from any balance.
+    pub fn in_order(
+        program: &Program,
+        settings: &[SolverSettings],
+        place: Place,
+        complete_result: bool,
+    ) -> Vec<Strategy> {
+        let mut strategies: Vec<Strategy> = settings.iter().copied().map(Strategy::Force).collect();
+        let many = program.blocks >= LARGE_PROGRAM_BLOCKS;
+        let any = settings.iter().all(|s| s.choice == Choice::Any);
+        let plain = |s: &&SolverSettings| s.conditioning == Conditioning::Plain;
+        let quick = settings.iter().find(plain).copied();
+        let residual = [Strategy::AnyBalance, Strategy::Residual];
+        match place {
+            Place::Anywhere if many && !any => {
+                strategies.splice(0..0, residual);
+                if complete_result {
+                    strategies.splice(1..1, quick.map(Strategy::Sticking));
+                }
+                strategies.splice(0..0, quick.map(Strategy::FirstLook));
+            }
+            Place::Anywhere if many => {
+                strategies.splice(0..0, residual);
+                let unique = |settings| SolverSettings {
+                    choice: Choice::Unique,
+                    ..settings
+                };
+                strategies.splice(1..1, quick.map(unique).map(Strategy::FirstLook));
+            }
+            Place::Anywhere => {
+                let second = 1.min(strategies.len());
+                strategies.splice(second..second, residual);
+            }
+            Place::AtEdge => {
+                strategies.splice(0..0, residual);
+            }
+        }
+        strategies.insert(0, Strategy::Determinate);
+        for settings in settings.iter().copied().map(Strategy::Sticking) {
+            if !strategies.contains(&settings) {
+                strategies.push(settings);
+            }
+        }
+        strategies
+    }
+
+    pub fn attempt(&self, program: &Program) -> Attempt {
+        match self {
+            Strategy::Determinate => determinate::attempt(program),
+            Strategy::FirstLook(settings) => least_force::first_look(program, *settings),
+            Strategy::Force(settings) => least_force::attempt(program, *settings),
+            Strategy::AnyBalance => least_residual::any(program),
+            Strategy::Residual => least_residual::attempt(program),
+            Strategy::Sticking(settings) => least_adhesion::attempt(program, *settings),
+        }
+    }
+
+    /// Whether its forces are those of least sum.
+    pub fn is_least(&self) -> bool {
+        matches!(self, Strategy::Force(_))
+    }
+
+    /// Whether its forces come so near to a balance that, where they have no proof, none have.
+    pub fn excludes_balance(&self, attempt: &Attempt) -> bool {
+        match self {
+            Strategy::Determinate | Strategy::FirstLook(_) | Strategy::Force(_) => false,
+            Strategy::AnyBalance | Strategy::Residual => attempt.forces.is_some(),
+            Strategy::Sticking(_) => attempt.adhesion.is_some(),
+        }
+    }
+
+    pub fn method(&self) -> Method {
+        match self {
+            Strategy::Determinate => Method::ClosedForm,
+            Strategy::FirstLook(_) => Method::LeastForce,
+            Strategy::Force(settings) if settings.conditioning == Conditioning::Plain => {
+                Method::LeastForce
+            }
+            Strategy::Force(_) => Method::LeastForceRefined,
+            Strategy::AnyBalance | Strategy::Residual => Method::LeastResidual,
+            Strategy::Sticking(_) => Method::LeastSticking,
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! The verdict of a component and nothing else, for margins: many similar components, most of them near their limit.
+
+use super::programs::Decision;
+use super::{Component, Place, ProofCache};
+use crate::analysis::{Options, Verdict};
+use crate::assembly::Assembly;
+use crate::program::Program;
+use crate::proof::{Forces, Motion};
+use crate::solve::{Amounts, Effort, is_late};
+
+/// The verdict of a component, and its mechanism if it falls.
+///
+/// Forces and motions of similar components are tried as proofs first. If none holds, the component is decided as in
+/// [`decide_component`](super::decide_component), and its forces or motion enter the cache.
+pub(in crate::mechanics::analysis) fn decide_verdict(
+    assembly: &Assembly,
+    place: Place,
+    cache: &mut ProofCache,
+) -> (Verdict, Vec<Motion>) {
+    let cached = verdict_from_cache(assembly, cache);
+    if cached.0 != Verdict::Undecided || is_late() {
+        return cached;
+    }
+    let component = Component {
+        place,
+        ..Component::new(assembly, VERDICT_ONLY)
+    };
+    let program = Program::new(assembly, component.scale);
+    if let Some(found) = component.in_closed_form(&program) {
+        return (found.verdict, found.mechanism);
+    }
+    let decision = decide_without_idle_limits(&component, &program);
+    match decision.verdict {
+        Verdict::Stable => cache.add_forces(assembly, component.prove_forces(&decision.amounts).forces),
+        Verdict::Unstable => cache.add_motion(decision.mechanism.clone()),
+        Verdict::Undecided => {}
+    }
+    (decision.verdict, decision.mechanism)
+}
+
+/// The verdict that the cache proves; undecided if it proves none. No program is solved.
+pub(in crate::mechanics::analysis) fn verdict_from_cache(
+    assembly: &Assembly,
+    cache: &ProofCache,
+) -> (Verdict, Vec<Motion>) {
+    if is_late() {
+        return (Verdict::Undecided, Vec::new());
+    }
+    let component = Component::new(assembly, VERDICT_ONLY);
+    if cache.balances(&component) {
+        return (Verdict::Stable, Vec::new());
+    }
+    match cache.falls(&component) {
+        Some(motion) => (Verdict::Unstable, motion),
+        None => (Verdict::Undecided, Vec::new()),
+    }
+}
+
+/// Margins need the verdict only.
+const VERDICT_ONLY: Options = Options {
+    verdict_only: true,
+    ..Options::PLAIN
+};
+
+fn decide_without_idle_limits(component: &Component, program: &Program) -> Decision {
+    // A motion that stronger robots cannot stop is a mechanism with the real limits too.
+    if let Some(generous) = program.without_non_binding_limits() {
+        let decision = component.decide_by_programs(&generous);
+        let allowed = || program.allows(&decision.amounts.grip);
+        match decision.verdict {
+            Verdict::Unstable => return decision,
+            Verdict::Stable if allowed() => return decision,
+            _ => {}
+        }
+    }
+    component.decide_by_programs(program)
+}
+
+/// What a program found exactly at the limit of stability, in the program's units.
+#[derive(Debug)]
+pub(in crate::mechanics::analysis) struct Ends<'a> {
+    /// The program.
+    pub program: &'a Program,
+    /// Forces that balance at the limit, and the component there.
+    pub forces: Option<(&'a Amounts, &'a Assembly)>,
+    /// The motion by which it begins to fall, and the component well beyond the limit.
+    pub motion: Option<(&'a [f64], &'a Assembly)>,
+}
+
+/// Adds what a program found at the limit to the cache, and returns its forces in newtons.
+pub(in crate::mechanics::analysis) fn remember_limit(
+    ends: &Ends,
+    cache: &mut ProofCache,
+) -> Option<Forces> {
+    let component = |assembly| Component {
+        scale: ends.program.scale,
+        ..Component::new(assembly, VERDICT_ONLY)
+    };
+    if let Some((y, assembly)) = ends.motion {
+        let mut effort = Effort::default();
+        let found = component(assembly).prove_motion(ends.program, y, &mut effort);
+        if let Some((motion, _)) = found {
+            cache.add_motion(motion);
+        }
+    }
+    let (amounts, assembly) = ends.forces?;
+    let forces = component(assembly).prove_forces(amounts).forces;
+    cache.add_forces(assembly, forces.clone());
+    Some(forces)
+}

@@ -1,0 +1,80 @@
+//! Whether a component stands only by a self-stress that its loads do not build up from rest.
+
+use super::{Component, Findings};
+use crate::analysis::{Options, Wedged};
+use crate::assembly::Assembly;
+use crate::effect::wedging::Wedging;
+use crate::program::Program;
+use crate::scene::Scene;
+use crate::solve::{SelfStress, SelfStressCheck, check_self_stress};
+
+/// Whether some component stands only by wedging, and what shows it. The first value is `None` if no component certainly does
+/// and at least one could not be decided.
+pub(in crate::mechanics::analysis) fn only_by_wedging<'a>(
+    scene: &Scene,
+    components: impl Iterator<Item = (&'a Assembly, &'a Findings)>,
+) -> (Option<bool>, Wedging, Option<Wedged>) {
+    let mut answer = (Some(false), Wedging::FromRest, None);
+    for (assembly, found) in components {
+        let component = Component::new(assembly, Options::default());
+        let program = Program::new(assembly, component.scale);
+        let given: Vec<[f64; 3]> = found
+            .forces
+            .grips
+            .iter()
+            .map(|held| {
+                let force = held.force / component.scale.force;
+                [force.x, force.y, held.torque / component.scale.moment()]
+            })
+            .collect();
+        let body = |body: usize| scene.blocks[assembly.bodies[body].block.0].id.as_str();
+        let face = |contact: usize| {
+            let [on, from] = assembly.contacts[contact].bodies;
+            format!("{}|{}", scene.name(on), scene.name(from))
+        };
+        match check_self_stress(&program, &given) {
+            SelfStressCheck::FromRest => {}
+            SelfStressCheck::OnlyWedged(self_stress) => {
+                let shown = shown(&self_stress, component.scale.force, body, face);
+                let wedged = Wedged::new(assembly, component.scale, &self_stress);
+                return (Some(true), Wedging::Only(shown), Some(wedged));
+            }
+            SelfStressCheck::Undecided(doubt) => {
+                answer = (None, Wedging::Open(doubt.to_string()), None)
+            }
+        }
+    }
+    answer
+}
+
+/// In words, what shows that springs without initial stress do not come to rest.
+fn shown<'n>(
+    self_stress: &SelfStress,
+    unit: f64,
+    body: impl Fn(usize) -> &'n str,
+    face: impl Fn(usize) -> String,
+) -> String {
+    let moving = self_stress.moving().map(|block| body(block).to_string());
+    let mut words = format!("as they give way, {} moves", several(moving));
+    if self_stress.presses_nothing {
+        words.push_str(" and presses nothing");
+    }
+    let faces = several(self_stress.contacts.iter().map(|contact| face(*contact)));
+    if let Some(least) = self_stress.least.filter(|least| *least > 0.0) {
+        let newtons = least * unit;
+        words.push_str(&format!(
+            "; to balance, {faces} must press with {newtons:.3e} N or more in all"
+        ));
+    }
+    words.push_str(&format!("; cases ruled out: {}", self_stress.cases.len()));
+    words
+}
+
+/// The first of some names, and how many more there are.
+fn several(names: impl Iterator<Item = String>) -> String {
+    let names: Vec<String> = names.collect();
+    match names.len() {
+        0..=4 => names.join(", "),
+        n => format!("{} and {} more", names[..4].join(", "), n - 4),
+    }
+}
