@@ -1,4 +1,4 @@
-//! Gaps and overlaps on which a verdict hinges.
+//! Route 5: verdicts that depend on small gaps and overlaps become undecided.
 //!
 //! Edges that face each other with a gap above the contact tolerance and below a hundredth of the block's size may have
 //! been meant to touch, and so may bodies that overlap by as little. Where there are such places a frame is judged both
@@ -12,10 +12,10 @@ use crate::geometry::Point;
 use crate::interface::{ContactsByBody, Interface, Interfaces, NearMiss, pinning_stone};
 use crate::scene::{BodyId, Note, NoteCode, Penetration, Scene, ToleranceSource, size};
 
-/// So many places are named.
-const NAMED: usize = 3;
-/// So many gaps that are nearly contacts are noted one by one.
-const NOTED: usize = 10;
+/// Places named in a message.
+const MAX_NAMED_PLACES: usize = 3;
+/// Gaps that are nearly contacts and are noted one by one.
+const MAX_NOTED_GAPS: usize = 10;
 /// What may have been meant to touch is closed by so many times the widest of it.
 const ENOUGH: f64 = 1.01;
 /// A corner that is off by rounding lies farther from where it belongs than from either of its edges, along which gaps and
@@ -56,7 +56,7 @@ impl From<&Penetration> for Place {
     }
 }
 
-/// Makes frames undecided that stand with gaps and overlaps as they are and fall with them closed, or the other way round.
+/// Analyses the scene again with all small gaps and overlaps closed. Frames whose verdict then differs become undecided.
 pub(super) fn recheck(
     scene: &Scene,
     found: &Interfaces,
@@ -140,7 +140,7 @@ pub(super) fn recheck(
     }
 }
 
-/// Makes frames undecided that stand on contacts too short to count, and fall without them.
+/// Analyses the scene again with contacts that were too short to count. Frames that fall without and stand with them become undecided.
 fn recheck_with_slivers(
     scene: &Scene,
     found: &Interfaces,
@@ -174,7 +174,7 @@ fn recheck_with_slivers(
 fn slivers_of(scene: &Scene, slivers: &[&Interface]) -> UndecidedReason {
     let mut slivers = slivers.to_vec();
     slivers.sort_by(|a, b| b.length().total_cmp(&a.length()));
-    let named = slivers.iter().take(NAMED).map(|sliver| {
+    let named = slivers.iter().take(MAX_NAMED_PLACES).map(|sliver| {
         let [a, b] = sliver.bodies.map(|body| scene.name(body));
         let (length, at) = (sliver.length(), sliver.middle());
         format!(
@@ -223,11 +223,11 @@ pub(super) fn notes(scene: &Scene, found: &Interfaces) -> Vec<Note> {
                     && pinning_stone(gap, &touching, stands, scene.tolerance.gap).is_none()
             })
         })
-        .take(NOTED + 1)
+        .take(MAX_NOTED_GAPS + 1)
         .collect();
-    for (number, gap) in gaps.iter().take(NOTED).enumerate() {
+    for (number, gap) in gaps.iter().take(MAX_NOTED_GAPS).enumerate() {
         let [a, b] = gap.bodies.map(|body| scene.name(body));
-        let is_last = number + 1 == NOTED && gaps.len() > NOTED;
+        let is_last = number + 1 == MAX_NOTED_GAPS && gaps.len() > MAX_NOTED_GAPS;
         let more = if is_last {
             "; there are more such gaps"
         } else {
@@ -280,7 +280,7 @@ fn words(scene: &Scene, verdicts: [Verdict; 2], places: &[Place], closing: f64) 
 
 /// The first of some places, and how many more there are.
 fn listed(scene: &Scene, places: &[Place]) -> String {
-    let named = places.iter().take(NAMED).map(|place| {
+    let named = places.iter().take(MAX_NAMED_PLACES).map(|place| {
         let kind = if place.overlaps { " of overlap" } else { "" };
         format!(
             "{:.2e} m{kind} between {} and {} at ({:.4}, {:.4})",

@@ -2,8 +2,8 @@
 //!
 //! Everything here is in the scene's own units (metres, newtons) and axes (x right, y up). Pictures and reports read
 //! this and nothing deeper. Components of a frame's assembly, which cannot influence each other, are solved apart, and a
-//! component that has been solved in an earlier frame is not solved again; `component` does one, this file puts frames
-//! together.
+//! component that has been solved in an earlier frame is not solved again; [`decide`] decides one component, and this
+//! file combines them.
 
 mod decide;
 mod cost;
@@ -356,36 +356,36 @@ const _: () = {
     shared::<Scene>();
 };
 
-/// Examines every frame of a scene with its gaps as they are.
+/// Analyses every frame of a scene, with gaps and overlaps as they are.
 fn analyse(scene: &Scene, options: &Options) -> (Interfaces, Vec<FrameAnalysis>) {
     let found = Interfaces::new(scene);
     let frames = analyse_frames(scene, &found, options);
     (found, frames)
 }
 
-/// Examines every frame of a scene whose interfaces are these.
+/// Analyses every frame of a scene with given interfaces.
 fn analyse_frames(scene: &Scene, found: &Interfaces, options: &Options) -> Vec<FrameAnalysis> {
     let mut known = Known::default();
     let frames = scene.frames.iter();
     frames
         .map(|frame| {
             let interfaces = found.in_frame(scene, frame);
-            let situation = FrameContext {
+            let context = FrameContext {
                 scene,
                 frame,
                 interfaces: &interfaces,
             };
-            let mut analysis = analyse_frame(&situation, *options, &mut known);
+            let mut analysis = analyse_frame(&context, *options, &mut known);
             analysis.notices.extend(found.notices.iter().cloned());
             analysis
         })
         .collect()
 }
 
-/// Examines one frame.
-fn analyse_frame(situation: &FrameContext, options: Options, known: &mut Known) -> FrameAnalysis {
+/// Analyses one frame.
+fn analyse_frame(context: &FrameContext, options: Options, known: &mut Known) -> FrameAnalysis {
     let start = Instant::now();
-    let (assembly, reports) = effect::assemble(situation);
+    let (assembly, reports) = effect::assemble(context);
     let components = assembly.components();
     let keys: Vec<Key> = components.iter().map(key).collect();
     let mut stages = Stages {
@@ -419,14 +419,14 @@ fn analyse_frame(situation: &FrameContext, options: Options, known: &mut Known) 
         .zip(&keys)
         .filter_map(|(component, key)| Some((component, known.findings.get(key)?)))
         .collect();
-    let mut analysis = gathered(situation, &assembly, reports);
+    let mut analysis = gathered(context, &assembly, reports);
     for (component, found) in &found {
-        add(&mut analysis, component, found, situation.scene.kernel);
+        add(&mut analysis, component, found, context.scene.kernel);
     }
     let count = found
         .iter()
         .fold(UnknownCounts::default(), |sum, f| sum.plus(&f.1.count));
-    settle(&mut analysis, situation, &count, options.verdict_only);
+    settle(&mut analysis, context, &count, options.verdict_only);
     if analysis.verdict == Verdict::Undecided && options.is_late() {
         analysis.doubts.insert(0, UndecidedReason::Late);
     }
@@ -447,7 +447,7 @@ fn analyse_frame(situation: &FrameContext, options: Options, known: &mut Known) 
         (false, _) => Wedging::NotAsked,
         (true, Verdict::Stable) => {
             let components = found.iter().copied();
-            let (only, shown, wedged) = decide::only_by_wedging(situation.scene, components);
+            let (only, shown, wedged) = decide::only_by_wedging(context.scene, components);
             (analysis.only_by_wedging, analysis.wedged) = (only, wedged);
             shown
         }
@@ -467,7 +467,7 @@ fn analyse_frame(situation: &FrameContext, options: Options, known: &mut Known) 
             });
         let parts: Vec<Part> = parts.collect();
         let (margins, tries) = margin::of(&parts, options.margin_kinds, &mut known.intervals);
-        let name = |robot: RobotId| situation.scene.robots[robot.0].id.clone();
+        let name = |robot: RobotId| context.scene.robots[robot.0].id.clone();
         analysis.notices.extend(margins.intervals.withheld(name));
         analysis.margins = Some(margins);
         judged = Some(tries);

@@ -1,9 +1,9 @@
-//! Verdicts alone, each from what is known already where that has a proof.
+//! Route 0: the verdict of a frame from the active set of the frame before.
 //!
-//! The nearest balance ([`BoundedNnls`]) of a frame is its forces, or the motion by which it falls. Its used columns are a
-//! first guess for the next frame: where little changed they require little more, and where nothing changed that matters,
-//! nothing. What it finds is believed for its proof, as anything else; where there is none, the frame is examined as
-//! [`Analysis`](super::Analysis) does, so that a guess can save work and decide nothing.
+//! The nonnegative least squares of the balance ([`BoundedNnls`]) has residual 0, and then its solution balances the frame; or its
+//! residual is a motion by which the frame falls. The active set of one frame is the start for the next, so a step that changes
+//! little costs little. Forces and motion are proved as always. Without a proof the frame is analysed as [`Analysis`](super::Analysis)
+//! does, so a warm start saves time and cannot change a verdict.
 
 use super::decide::Candidate;
 use super::{Analysis, Known, Options, Verdict, analyse_frame};
@@ -14,12 +14,13 @@ use crate::program::{Column, Force, Program, Scale};
 use crate::scene::{BlockId, BodyId, Frame, RobotId, Scene, ToleranceSource};
 use crate::solve::{Amounts, BoundedNnls, generators};
 
-/// From so many bodies on, the work of an active set grows beyond that of a solver: at its start, and when it goes on.
-const MANY_AT_ONCE: usize = 40;
-const MANY: usize = 500;
+/// New bodies in one step beyond which a conic solver is faster than an active set.
+const MAX_NEW_BODIES: usize = 40;
+/// Bodies in all beyond which a conic solver is faster.
+const MAX_BODIES: usize = 500;
 
-/// A scale serves until lengths or loads are so many times larger or smaller.
-const OFF_SCALE: f64 = 100.0;
+/// Units are chosen again if lengths or loads become this many times larger or smaller.
+const MAX_SCALE_RATIO: f64 = 100.0;
 
 /// The verdict of each frame: those of [`Analysis::with`], without what else it finds out.
 ///
@@ -112,8 +113,8 @@ impl WarmStart {
     /// The verdict on an assembly, where the guess leads to one.
     fn decide_verdict(&mut self, assembly: &Assembly, options: Options) -> Option<Verdict> {
         let most = match self.columns.is_empty() {
-            true => MANY_AT_ONCE,
-            false => MANY,
+            true => MAX_NEW_BODIES,
+            false => MAX_BODIES,
         };
         if assembly.bodies.len() > most {
             *self = WarmStart::default();
@@ -134,7 +135,7 @@ impl WarmStart {
     /// The scale of the guess, or a new one and no guess where it is too far off.
     fn scale(&mut self, assembly: &Assembly) -> Scale {
         let own = Scale::from_assembly(assembly);
-        let near = |a: f64, b: f64| a <= OFF_SCALE * b && b <= OFF_SCALE * a;
+        let near = |a: f64, b: f64| a <= MAX_SCALE_RATIO * b && b <= MAX_SCALE_RATIO * a;
         match self.scale {
             Some(scale) if near(scale.length, own.length) && near(scale.force, own.force) => scale,
             _ => {

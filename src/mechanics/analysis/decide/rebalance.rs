@@ -1,17 +1,16 @@
-//! Forces made good for every body for itself, or the motion of those that have none.
+//! Route 3a: forces that balance the whole are corrected until they balance each body, or some bodies are proved to fall.
 //!
-//! A program balances its bodies to some digits of the heaviest load. Light bodies may be far off then, and what is off may
-//! be all that would tell that they fall. So where forces balance the whole but not every body:
+//! A solver balances bodies to some digits of the heaviest load. The error on a light body may then exceed its own weight and hide
+//! that it falls. Each round does the first of these steps that helps:
 //!
-//! 1. all forces are changed a little, each in parts of its own amount ([`relative`]);
-//! 2. forces that are no parts of what there is, such as that of a robot which did not push so far, come in by the least
-//!    change of all ([`corrected`]); a set alone would hand what it lacks to its neighbour, and get it back;
-//! 3. of each connected set of bodies that still do not balance the others are held still, as if they were ground, and the
-//!    forces on the set change as little as may be, in the set's own scale ([`corrected`]);
-//! 4. where there is no such change, the ladder is climbed for the set alone. If it falls, so does the whole: its motion
-//!    with all others at rest is a mechanism. If it stands, its forces take the place of the old ones.
+//! 1. Change all forces by small parts of their own amounts ([`relative`]).
+//! 2. Make the least change of all forces ([`corrected`]). It can add forces that were 0, such as that of a robot.
+//! 3. For each connected set of unbalanced bodies, hold all other bodies still, as if they were ground. Make the least change of
+//!    the forces on the set, in its own scale ([`corrected`]).
+//! 4. If there is no such change, decide the set like a component. If it falls, the whole falls: the motion of the set with all
+//!    other bodies at rest is a mechanism. If it stands, its forces replace the old ones.
 //!
-//! Each round brings bodies of smaller weight within the digits; sets within a set are treated alike.
+//! Each round balances lighter bodies. Unbalanced sets within a set are treated in the same way.
 
 use super::forces::ProvedForces;
 use super::{Component, Place};
@@ -22,18 +21,18 @@ use crate::program::{Program, Scale};
 use crate::proof::{self, Motion, Proof};
 use crate::solve::{Amounts, Effort, corrected, is_late, relative};
 
-/// Rounds of making forces good.
-const ROUNDS: usize = 8;
+/// Rounds of correction. Each gains the digits of one solution, and eight cover weights from 1e-30 to 1e30.
+const MAX_ROUNDS: usize = 8;
 
-/// So many bodies are judged as a part, whatever the size of the whole.
-const SMALL: usize = 12;
+/// Sets of at most this many bodies are decided on their own, even if they are nearly the whole component.
+const MAX_SMALL_SET: usize = 12;
 
-/// Forces that leave more than this of the heaviest load are no balance of the whole.
-const WHOLE: f64 = 1e-6;
+/// Forces that leave more than this part of the heaviest load unbalanced do not balance the whole, and are not corrected.
+const MAX_WHOLE_IMBALANCE: f64 = 1e-6;
 
-/// What becomes of forces that balance the whole.
+/// The result of correcting forces that balance the whole.
 pub(super) enum Outcome {
-    /// They balance every body for itself.
+    /// The forces balance each body.
     Stands(Amounts, Proof),
     /// Some bodies fall by themselves.
     Falls(FallingPart),
@@ -53,10 +52,10 @@ pub(super) struct FallingPart {
 }
 
 impl Component<'_> {
-    /// Makes forces good for every body for itself.
+    /// Corrects forces until they balance each body, or proves that some bodies fall.
     pub fn rebalance_locally(&self, program: &Program, amounts: &Amounts, effort: &mut Effort) -> Outcome {
         let most = program.loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-        if amounts.unbalanced(program) > WHOLE * most {
+        if amounts.unbalanced(program) > MAX_WHOLE_IMBALANCE * most {
             return Outcome::Open;
         }
         let mut amounts = amounts.clone();
@@ -66,7 +65,7 @@ impl Component<'_> {
         };
         let count = |fails: &[bool]| fails.iter().filter(|fails| **fails).count();
         let mut all_at_once = true;
-        for _ in 0..ROUNDS {
+        for _ in 0..MAX_ROUNDS {
             let carried = self.prove_forces(&amounts);
             if self.believes(&carried.proof) {
                 return Outcome::Stands(amounts, carried.proof);
@@ -127,7 +126,7 @@ impl Component<'_> {
             complete_result: self.complete_result,
             place: Place::Anywhere,
         };
-        // Loads near the smallest numbers there are have no scale of their own.
+        // Loads near the smallest floating-point numbers have no scale of their own.
         let ratio = self.scale.force / component.scale.force;
         if !component.scale.force.is_normal() || !ratio.is_normal() {
             return PartOutcome::Open;
@@ -143,9 +142,9 @@ impl Component<'_> {
         {
             return PartOutcome::Changed(in_units(&better, component.scale, self.scale));
         }
-        // The whole is on the ladder already, and what is nearly the whole costs as much again.
+        // The whole component is being decided already, and nearly the whole would cost as much again.
         let (own, all) = (part.bodies.len(), self.assembly.bodies.len());
-        if own == all || (own > SMALL && 2 * own > all) {
+        if own == all || (own > MAX_SMALL_SET && 2 * own > all) {
             return PartOutcome::Open;
         }
         if let Some(found) = component.in_closed_form(&program) {
@@ -172,7 +171,7 @@ impl Component<'_> {
         }
     }
 
-    /// The fall of some parts while the others rest, with its proof in the whole.
+    /// The motion of the falling parts with all other bodies at rest, and its proof in the whole.
     fn combine_falling_parts(
         &self,
         program: &Program,
@@ -214,7 +213,7 @@ impl Component<'_> {
         })
     }
 
-    /// The forces of a part, in the units of its scale.
+    /// The forces on a part, in the units of its scale.
     fn part_amounts(&self, amounts: &Amounts, part: &Substructure, scale: Scale) -> Amounts {
         let own = Amounts {
             normal: part.contacts.iter().map(|k| amounts.normal[*k]).collect(),
@@ -224,7 +223,7 @@ impl Component<'_> {
         in_units(&own, self.scale, scale)
     }
 
-    /// Enters the forces of a part, in the units of the whole.
+    /// Replaces the forces on a part by `own`, which are in the units of the whole.
     fn insert_part(&self, amounts: &mut Amounts, part: &Substructure, own: &Amounts) {
         for (place, number) in part.contacts.iter().enumerate() {
             amounts.normal[*number] = own.normal[place];
@@ -236,7 +235,7 @@ impl Component<'_> {
     }
 }
 
-/// What becomes of a part's forces, in the units of the whole.
+/// The result for a part, in the units of the whole.
 enum PartOutcome {
     Changed(Amounts),
     Falls(PartFall),
@@ -250,7 +249,7 @@ struct PartFall {
     sticking: Option<Amounts>,
 }
 
-/// Amounts in the units of another scale.
+/// Forces converted from the units of one scale to those of another.
 fn in_units(amounts: &Amounts, from: Scale, to: Scale) -> Amounts {
     let force = from.force / to.force;
     let torque = force * from.length / to.length;

@@ -11,7 +11,7 @@ use super::line::Line;
 use super::parameter::linear;
 use super::trial::{Setting, Trial};
 use crate::analysis::Verdict;
-use crate::analysis::component::Place;
+use crate::analysis::decide::Place;
 use crate::proof::Motion;
 
 /// How near an end a component must stand, relative to the turn.
