@@ -1,6 +1,6 @@
 //! Solves the programs of an assembly: least force where it stands, least sticking where it falls.
 //!
-//! The results, such as [`Balance`] and [`Stuck`], are in the program's pure numbers. They are not verdicts: the forces and
+//! The results, such as [`Balance`] and [`LeastAdhesion`], are in the program's pure numbers. They are not verdicts: the forces and
 //! the motion go to [`crate::proof`], which decides. Among several optima the one of least Σ force² is drawn.
 //!
 //! | files | what they do |
@@ -40,7 +40,7 @@ mod slanted;
 mod solver;
 mod stick;
 mod stick_levels;
-mod stuck;
+mod least_adhesion;
 mod tangent;
 mod wedge;
 
@@ -61,7 +61,7 @@ pub use settings::{
 };
 pub use solver::{solve, solve_within};
 pub use stick::{stick, stick_in};
-pub use stuck::Stuck;
+pub use least_adhesion::LeastAdhesion;
 pub use tangent::Tangent;
 pub use wedge::{RuledOut, SelfStress, SelfStressCheck, Slide, check_self_stress};
 

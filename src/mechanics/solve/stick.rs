@@ -13,7 +13,7 @@ use super::level::refined_optimum;
 use super::limit::columns_in;
 use super::slanted::Slanted;
 use super::{
-    Amounts, Conditioning, CrossoverTolerance, Dual, Effort, Face, SolverSettings, Status, Stuck,
+    Amounts, Conditioning, CrossoverTolerance, Dual, Effort, Face, SolverSettings, Status, LeastAdhesion,
     determinate, dual, in_forces, largest, least_squares_amounts, of_velocities, once, refined,
     stick_levels,
 };
@@ -87,7 +87,7 @@ const SAME: f64 = 3e-8;
 const SAME_OF_MANY: f64 = 3e-7;
 
 /// Solves the soft program.
-pub fn stick(program: &Program, conditioning: Conditioning) -> Stuck {
+pub fn stick(program: &Program, conditioning: Conditioning) -> LeastAdhesion {
     stick_in(program, conditioning.into())
 }
 
@@ -95,12 +95,12 @@ pub fn stick(program: &Program, conditioning: Conditioning) -> Stuck {
 ///
 /// Of many blocks it is posed with a largest load of 1. With loads of 300 a wall of 410 bricks just past its edge ends
 /// without a status, six times after a hundred iterations; with loads of 1 it is solved in 69.
-pub fn stick_in(program: &Program, settings: SolverSettings) -> Stuck {
+pub fn stick_in(program: &Program, settings: SolverSettings) -> LeastAdhesion {
     determinate::least_sticking(program).unwrap_or_else(|| by_programs(program, settings))
 }
 
 /// Solves it whatever contacts there are.
-pub(super) fn by_programs(program: &Program, settings: SolverSettings) -> Stuck {
+pub(super) fn by_programs(program: &Program, settings: SolverSettings) -> LeastAdhesion {
     let mut effort = Effort::default();
     let size = Size::new(program);
     let load = match largest(&program.loads) {
@@ -116,7 +116,7 @@ pub(super) fn by_programs(program: &Program, settings: SolverSettings) -> Stuck 
     if first.status != Status::Solved {
         let none = Amounts::none(program);
         let fallen = first.status == Status::Unbounded;
-        return Stuck {
+        return LeastAdhesion {
             balanced: fallen.then_some(false),
             forces: none.clone(),
             sticking: none,
@@ -146,7 +146,7 @@ pub(super) fn by_programs(program: &Program, settings: SolverSettings) -> Stuck 
     let (mut forces, mut sticking) = face.gathered(program);
     forces.multiply(load);
     sticking.multiply(load);
-    Stuck {
+    LeastAdhesion {
         balanced: Some(true),
         forces,
         sticking,

@@ -13,7 +13,7 @@ mod joint;
 mod tests;
 
 use super::amounts::{Amounts, Effort};
-use super::stuck::Stuck;
+use super::least_adhesion::LeastAdhesion;
 use crate::geometry::{Vector, cross};
 use crate::program::Program;
 use joint::{ContactForces, Joint, JointSpeeds, Wrench, joints};
@@ -56,14 +56,14 @@ fn needed_forces(program: &Program, joints: &[Joint]) -> Vec<ContactForces> {
 }
 
 /// The least sticking, and the motion that proves it; `None` if the forces are not unique.
-pub(super) fn least_sticking(program: &Program) -> Option<Stuck> {
+pub(super) fn least_sticking(program: &Program) -> Option<LeastAdhesion> {
     let joints = joints(program)?;
     Split::new(program, &joints)?.stuck(program, &joints)
 }
 
 /// A collapse mechanism with few moving joints, and the least sticking. On each way from the ground only the first failing
 /// contact gives way; what lies beyond moves with it as one body. `None` if the forces are not unique, or if nothing sticks.
-pub fn collapse(program: &Program) -> Option<(Vec<f64>, Stuck)> {
+pub fn collapse(program: &Program) -> Option<(Vec<f64>, LeastAdhesion)> {
     let joints = joints(program)?;
     let split = Split::new(program, &joints)?;
     let mut moves = vec![false; program.blocks];
@@ -137,7 +137,7 @@ impl Split {
 
     /// The optimum of the program of least sticking, with the motion of all joints that give way; `None` if a friction above 1
     /// might need less sticking.
-    fn stuck(self, program: &Program, joints: &[Joint]) -> Option<Stuck> {
+    fn stuck(self, program: &Program, joints: &[Joint]) -> Option<LeastAdhesion> {
         if program
             .contacts
             .iter()
@@ -146,7 +146,7 @@ impl Split {
             return None;
         }
         let speeds: Vec<_> = joints.iter().map(|joint| self.speeds(joint)).collect();
-        Some(Stuck {
+        Some(LeastAdhesion {
             balanced: Some(true),
             motion: Some(motion(program, joints, &speeds)?),
             forces: self.forces,

@@ -1,10 +1,10 @@
-//! [`Stuck`]: the result of the program of least sticking.
+//! [`LeastAdhesion`]: the result of the program of least sticking.
 
 use super::amounts::{Amounts, Effort};
 
 /// The least sticking with which a program is balanced.
 #[derive(Clone, Debug)]
-pub struct Stuck {
+pub struct LeastAdhesion {
     /// Whether some sticking balances every block; `None` if the solver ended without a status.
     pub balanced: Option<bool>,
     /// The admissible forces of that balance.
