@@ -199,7 +199,11 @@ impl<'a> Component<'a> {
         }
         // The proof used all bodies. Bodies slower than MIN_SHOWN_SPEED are not reported.
         let mut bodies = self.assembly.bodies.iter();
-        mechanism.retain(|m| bodies.next().is_some_and(|body| fastest(body, m) > MIN_SHOWN_SPEED));
+        mechanism.retain(|m| {
+            bodies
+                .next()
+                .is_some_and(|body| fastest(body, m) > MIN_SHOWN_SPEED)
+        });
         for motion in &mut mechanism {
             let plain = |v: f64| if v.abs() < SPEED_NOISE { 0.0 } else { v };
             motion.velocity = motion.velocity.map(plain);

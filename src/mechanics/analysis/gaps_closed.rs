@@ -7,7 +7,7 @@
 //! differ nobody can say which structure was meant: the frame is undecided, with the places and the tolerance that settles
 //! it. If they agree an overlap is reported beside the verdict. A tolerance that somebody gave settles it already.
 
-use super::{FrameAnalysis, Options, UndecidedReason, Verdict  , analyse, analyse_frames};
+use super::{FrameAnalysis, Options, UndecidedReason, Verdict, analyse, analyse_frames};
 use crate::geometry::Point;
 use crate::interface::{ContactsByBody, Interface, Interfaces, NearMiss, pinning_stone};
 use crate::scene::{BodyId, Note, NoteCode, Penetration, Scene, ToleranceSource, size};

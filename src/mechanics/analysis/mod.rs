@@ -43,14 +43,11 @@ pub use crate::resultant::Resultant;
 use crate::scene::{BlockId, BodyId, Note, RobotId, Scene};
 pub use crate::solve::Slide;
 use crate::solve::{DeadlineGuard, Effort};
+pub use cost::{SolveReport, Stages};
 pub use decide::Method;
 use decide::{Findings, decide_component};
-pub use cost::{SolveReport, Stages};
-pub use undecided::UndecidedReason;
 use frame::settle;
 use gather::{add, gathered};
-pub use warm_start::{Source, verdicts};
-pub(crate) use warm_start::{WarmStart, hinges_on_gaps};
 use margin::{ComponentIntervals, Part};
 pub use margin::{
     End, Interval, Intervals, Margin, MarginKind, MarginKinds, Margins, RobotIntervals,
@@ -59,6 +56,9 @@ pub use margin::{
 pub use mechanism::Toward;
 pub use option::{Accuracy, Options};
 pub use pair::pair;
+pub use undecided::UndecidedReason;
+pub use warm_start::{Source, verdicts};
+pub(crate) use warm_start::{WarmStart, hinges_on_gaps};
 pub use wedged::{FaceCase, PointCase, RuledOut, Wedged};
 
 /// Whether a frame stands.

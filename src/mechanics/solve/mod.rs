@@ -52,6 +52,7 @@ pub use clarabel::by_clarabel;
 pub(crate) use deadline::{DeadlineGuard, deadline, is_late};
 pub use determinate::{collapse, determinate};
 pub use dual::{Dual, dual};
+pub use least_adhesion::LeastAdhesion;
 pub use limit::{Extreme, Limit, largest_factor, least_grip_limit, nearest_factor};
 pub use polish::polished;
 pub use refine::{corrected, relative};
@@ -61,7 +62,6 @@ pub use settings::{
 };
 pub use solver::{solve, solve_within};
 pub use stick::{stick, stick_in};
-pub use least_adhesion::LeastAdhesion;
 pub use tangent::Tangent;
 pub use wedge::{RuledOut, SelfStress, SelfStressCheck, Slide, check_self_stress};
 

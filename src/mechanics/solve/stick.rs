@@ -13,9 +13,9 @@ use super::level::refined_optimum;
 use super::limit::columns_in;
 use super::slanted::Slanted;
 use super::{
-    Amounts, Conditioning, CrossoverTolerance, Dual, Effort, Face, SolverSettings, Status, LeastAdhesion,
-    determinate, dual, in_forces, largest, least_squares_amounts, of_velocities, once, refined,
-    stick_levels,
+    Amounts, Conditioning, CrossoverTolerance, Dual, Effort, Face, LeastAdhesion, SolverSettings,
+    Status, determinate, dual, in_forces, largest, least_squares_amounts, of_velocities, once,
+    refined, stick_levels,
 };
 use crate::program::{Column, Program, kinematic_dual, sticking_columns};
 

@@ -33,8 +33,9 @@ impl Component<'_> {
             return decision;
         }
         // For large components not decided in the first, short attempt, least force has not been solved to the end.
-        let sought =
-            usize::from(program.blocks < LARGE_PROGRAM_BLOCKS || decision.method != Method::LeastResidual);
+        let sought = usize::from(
+            program.blocks < LARGE_PROGRAM_BLOCKS || decision.method != Method::LeastResidual,
+        );
         for settings in self.settings.iter().skip(sought) {
             if is_late() {
                 break;
@@ -77,7 +78,9 @@ impl Component<'_> {
             let adhesion = stick_in(program, *settings);
             decision.effort = decision.effort.and(adhesion.effort);
             if adhesion.balanced == Some(true)
-                && self.prove_with_adhesion(&adhesion.forces, &adhesion.sticking).1
+                && self
+                    .prove_with_adhesion(&adhesion.forces, &adhesion.sticking)
+                    .1
             {
                 decision.amounts = adhesion.forces;
                 decision.sticking = Some(adhesion.sticking);
@@ -117,7 +120,10 @@ impl Component<'_> {
             }
             // A later setting replaces what an earlier one found only where that does not balance every body.
             let found = adhesion.balanced == Some(true);
-            let holds = found && self.prove_with_adhesion(&adhesion.forces, &adhesion.sticking).1;
+            let holds = found
+                && self
+                    .prove_with_adhesion(&adhesion.forces, &adhesion.sticking)
+                    .1;
             if holds || decision.sticking.is_none() {
                 decision.beyond_sticking = adhesion.balanced == Some(false);
                 decision.amounts = adhesion.forces;

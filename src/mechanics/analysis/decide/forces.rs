@@ -60,7 +60,11 @@ impl Component<'_> {
     }
 
     /// The sum that a motion shows forces must have at least to balance, N, and whether given forces have no more.
-    pub fn bound_force_sum(&self, witness: Option<&[f64]>, amounts: &Amounts) -> (Option<f64>, bool) {
+    pub fn bound_force_sum(
+        &self,
+        witness: Option<&[f64]>,
+        amounts: &Amounts,
+    ) -> (Option<f64>, bool) {
         let Some(witness) = witness else {
             return (None, false);
         };

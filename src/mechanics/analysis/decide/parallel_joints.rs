@@ -18,14 +18,23 @@ pub(super) struct LeastForce {
 impl Component<'_> {
     /// Forces with a smaller sum, if there are any: the least forces with nearly parallel joints made parallel, then changed
     /// as little as possible so that they balance with the joints as they are. Otherwise the given forces.
-    pub(super) fn reduce_force_sum(&self, program: &Program, found: LeastForce, effort: &mut Effort) -> LeastForce {
+    pub(super) fn reduce_force_sum(
+        &self,
+        program: &Program,
+        found: LeastForce,
+        effort: &mut Effort,
+    ) -> LeastForce {
         match self.least_force_with_parallel_joints(program, effort) {
             Some(least) if least.amounts.total() < found.amounts.total() => least,
             _ => found,
         }
     }
 
-    fn least_force_with_parallel_joints(&self, program: &Program, effort: &mut Effort) -> Option<LeastForce> {
+    fn least_force_with_parallel_joints(
+        &self,
+        program: &Program,
+        effort: &mut Effort,
+    ) -> Option<LeastForce> {
         let wanted = |s: &&SolverSettings| s.choice != Choice::Any;
         let settings = self.settings.iter().find(wanted)?;
         let straight = program.with_parallel_joints()?;

@@ -31,7 +31,8 @@ impl Component<'_> {
         SAME_PIECE_SPEED.into_iter().find_map(|tolerance| {
             let piece = pieces(self.assembly, motion, tolerance);
             let joined = self.assembly.merged(&piece);
-            if joined.bodies.is_empty() || MIN_BODIES_PER_PIECE * joined.bodies.len() > motion.len() {
+            if joined.bodies.is_empty() || MIN_BODIES_PER_PIECE * joined.bodies.len() > motion.len()
+            {
                 return None;
             }
             let program = Program::new(&joined, self.scale);

@@ -51,7 +51,9 @@ impl ProofCache {
         let mut latest = self.forces.iter().rev();
         latest.any(|acting| {
             let forces = acting.moved_to(component.assembly);
-            forces.is_some_and(|forces| component.believes(&proof::check_forces(component.assembly, &forces)))
+            forces.is_some_and(|forces| {
+                component.believes(&proof::check_forces(component.assembly, &forces))
+            })
         })
     }
 

@@ -53,7 +53,12 @@ pub(super) struct FallingPart {
 
 impl Component<'_> {
     /// Corrects forces until they balance each body, or proves that some bodies fall.
-    pub fn rebalance_locally(&self, program: &Program, amounts: &Amounts, effort: &mut Effort) -> Outcome {
+    pub fn rebalance_locally(
+        &self,
+        program: &Program,
+        amounts: &Amounts,
+        effort: &mut Effort,
+    ) -> Outcome {
         let most = program.loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
         if amounts.unbalanced(program) > MAX_WHOLE_IMBALANCE * most {
             return Outcome::Open;
@@ -82,7 +87,9 @@ impl Component<'_> {
             }
             if all_at_once {
                 match corrected(program, &amounts, effort) {
-                    Some(better) if count(&failing(&self.prove_forces(&better))) < count(&fails) => {
+                    Some(better)
+                        if count(&failing(&self.prove_forces(&better))) < count(&fails) =>
+                    {
                         amounts = better;
                         continue;
                     }

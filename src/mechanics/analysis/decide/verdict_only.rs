@@ -31,7 +31,9 @@ pub(in crate::mechanics::analysis) fn decide_verdict(
     }
     let decision = decide_without_idle_limits(&component, &program);
     match decision.verdict {
-        Verdict::Stable => cache.add_forces(assembly, component.prove_forces(&decision.amounts).forces),
+        Verdict::Stable => {
+            cache.add_forces(assembly, component.prove_forces(&decision.amounts).forces)
+        }
         Verdict::Unstable => cache.add_motion(decision.mechanism.clone()),
         Verdict::Undecided => {}
     }

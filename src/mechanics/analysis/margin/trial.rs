@@ -6,7 +6,9 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::analysis::Verdict;
-use crate::analysis::decide::{Ends, Place, ProofCache, verdict_from_cache, decide_verdict, remember_limit};
+use crate::analysis::decide::{
+    Ends, Place, ProofCache, decide_verdict, remember_limit, verdict_from_cache,
+};
 use crate::assembly::{Assembly, LoadVector};
 use crate::geometry::quarter_turn;
 use crate::program::{Program, Scale};

@@ -8,7 +8,7 @@ mod least_adhesion;
 use std::fmt;
 
 use crate::program::Program;
-use crate::solve::{Amounts, Choice, Conditioning, Effort, SolverSettings, LeastAdhesion};
+use crate::solve::{Amounts, Choice, Conditioning, Effort, LeastAdhesion, SolverSettings};
 
 /// Programs of at least this many blocks are large: a short first attempt decides most of them, and extra solutions cost too
 /// much.
