@@ -1,13 +1,15 @@
 //! What people and programs receive: results, sentences, figures, reports. Joins mechanics and pictures.
-
-pub mod result;
+//!
+//! The modules are listed in the order of dependency: each uses only those above it.
 
 pub mod wording;
 
-pub mod figure;
-
 #[cfg(feature = "report")]
 pub mod study;
+
+pub mod result;
+
+pub mod figure;
 
 pub mod report;
 

@@ -1,148 +1,97 @@
-//! The house keeps its order: every `crate::` path points to a room that the room may use, and every foreign crate comes
-//! in through its one door.
+//! The layers of the crate: each `crate::` path points to a module that the layer may use, and each foreign crate is used
+//! in one place only.
 //!
-//! Read from the source as text, comments and strings taken out, tests included: a test that reaches across the house
-//! is as bad a neighbour as any other code.
+//! The order of the layers is not written here. It is the order of the modules in each group's `mod.rs`, together with the
+//! order of the groups in [`GROUP_RULES`]. Source files are read as text without comments and strings, tests included.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use crate::source::{bare, collect, names_crate, rooms_used, without_groups};
+use crate::source::{bare, collect, modules_used, names_crate, without_groups};
 
-/// What each room may use, itself apart. A room that is not listed here has no place in the house.
-const ROOMS: &[(&str, &[&str])] = &[
+/// Which groups of modules a group may use, itself apart. A module outside of the groups is a group of its own.
+const GROUP_RULES: &[(&str, &[&str])] = &[
     ("text", &[]),
     ("geometry", &[]),
-    ("scene", &["text", "geometry"]),
-    ("interface", &["geometry", "scene"]),
-    ("assembly", &["geometry", "scene", "interface"]),
-    ("effect", &["geometry", "scene", "interface", "assembly"]),
-    ("program", &["geometry", "interface", "assembly", "effect"]),
-    ("solve", &["geometry", "interface", "program"]),
-    ("proof", &["geometry", "scene", "interface", "assembly"]),
-    ("resultant", &["geometry", "scene", "interface", "solve"]),
+    ("mechanics", &["geometry", "text"]),
+    ("pictures", &["geometry", "text"]),
+    ("sources", &["mechanics", "geometry", "text"]),
     (
-        "analysis",
-        &[
-            "geometry",
-            "scene",
-            "interface",
-            "assembly",
-            "effect",
-            "program",
-            "solve",
-            "proof",
-            "resultant",
-        ],
-    ),
-    ("starter", &["scene"]),
-    ("wording", &["geometry", "scene", "analysis"]),
-    ("import", &["text", "geometry", "scene"]),
-    ("drawing", &["text", "geometry"]),
-    (
-        "figure",
-        &[
-            "geometry",
-            "scene",
-            "interface",
-            "analysis",
-            "wording",
-            "drawing",
-        ],
-    ),
-    ("output", &["text", "drawing"]),
-    ("chart", &["text", "drawing"]),
-    (
-        "study",
-        &[
-            "geometry",
-            "scene",
-            "interface",
-            "assembly",
-            "effect",
-            "program",
-            "solve",
-            "proof",
-            "analysis",
-        ],
+        "products",
+        &["sources", "pictures", "mechanics", "geometry", "text"],
     ),
     (
-        "result",
+        "entry",
         &[
+            "products",
+            "sources",
+            "pictures",
+            "mechanics",
+            "geometry",
             "text",
-            "geometry",
-            "scene",
-            "interface",
-            "analysis",
-            "wording",
-            "study",
-            "import",
         ],
     ),
-    (
-        "report",
-        &[
-            "text",
-            "geometry",
-            "scene",
-            "interface",
-            "analysis",
-            "wording",
-            "figure",
-            "drawing",
-            "output",
-            "chart",
-            "study",
-            "import",
-            "result",
-        ],
-    ),
-    ("batch", &[]),
-    (
-        "session",
-        &["text", "geometry", "scene", "interface", "analysis"],
-    ),
-    (
-        "snapshot",
-        &[
-            "text",
-            "geometry",
-            "scene",
-            "analysis",
-            "figure",
-            "drawing",
-            "output",
-            // Its macros, which the language puts at the root.
-            "assert_scene",
-            "assert_scenes",
-            "assert_figure",
-        ],
-    ),
-    (
-        "cli",
-        &[
-            "text",
-            "snapshot",
-            "geometry",
-            "scene",
-            "interface",
-            "analysis",
-            "wording",
-            "figure",
-            "drawing",
-            "output",
-            "study",
-            "report",
-            "result",
-            "import",
-            "starter",
-            "batch",
-        ],
-    ),
-    ("doc", &[]),
 ];
 
-/// Where a foreign crate may be named: files, or a whole room where the path ends in a slash.
+/// Modules that a module may not use although they are listed before it: a proof must not trust what it proves.
+const FORBIDDEN: &[(&str, &[&str])] = &[("proof", &["program", "solve"])];
+
+/// Names that may be used everywhere: pages of documentation, and macros, which the language puts at the root.
+const EVERYWHERE: &[&str] = &["doc", "assert_scene", "assert_scenes", "assert_figure"];
+
+/// For each module of the crate the modules that it may use.
+struct Layers {
+    allowed: BTreeMap<String, Vec<String>>,
+}
+
+impl Layers {
+    /// Reads the order of the modules from the groups' `mod.rs`.
+    fn from_source(root: &Path) -> Layers {
+        let members: BTreeMap<&str, Vec<String>> = GROUP_RULES
+            .iter()
+            .map(|(group, _)| (*group, members_of(root, group)))
+            .collect();
+        let mut allowed = BTreeMap::new();
+        for (group, usable) in GROUP_RULES {
+            let own = &members[group];
+            for (place, module) in own.iter().enumerate() {
+                let forbidden = FORBIDDEN.iter().find(|f| f.0 == module);
+                let forbidden = forbidden.map_or(&[][..], |f| f.1);
+                let others = usable.iter().flat_map(|group| &members[group]);
+                let all = others.chain(&own[..place]);
+                let all = all.filter(|used| !forbidden.contains(&used.as_str()));
+                allowed.insert(module.clone(), all.cloned().collect());
+            }
+        }
+        Layers { allowed }
+    }
+}
+
+/// The modules of a group in their order, those of a group within it in its place; a module without groups alone.
+fn members_of(root: &Path, group: &str) -> Vec<String> {
+    let path = root.join(group).join("mod.rs");
+    let is_group = crate::source::GROUPS.contains(&group);
+    let Some(text) = fs::read_to_string(&path).ok().filter(|_| is_group) else {
+        let name = group.rsplit('/').next().unwrap_or(group);
+        return vec![name.to_owned()];
+    };
+    let text = bare(&text);
+    let modules = text.lines().filter_map(|line| {
+        let name = line.trim().strip_suffix(';')?.split_once("mod ")?.1;
+        Some(name.to_owned())
+    });
+    modules
+        .flat_map(
+            |name| match crate::source::GROUPS.contains(&name.as_str()) {
+                true => members_of(&root.join(group), &name),
+                false => vec![name],
+            },
+        )
+        .collect()
+}
+
+/// Where a foreign crate may be named: files, or a whole module if the path ends in a slash.
 const DOORS: &[(&str, &[&str])] = &[
     (
         "serde",
@@ -218,7 +167,7 @@ const DOORS: &[(&str, &[&str])] = &[
     ("simplecss", &["import/"]),
 ];
 
-/// Doors that are one file, but whose file is the owning room's to choose.
+/// Doors that are one file, but whose file the owning module may choose.
 const SINGLE: &[&str] = &["clarabel", "tempfile", "skrifa", "plotters"];
 
 /// Names that say nothing about what a file is.
@@ -236,6 +185,7 @@ fn every_arrow_points_the_right_way_and_every_crate_has_one_door() {
         "the walk found only {} files",
         files.len()
     );
+    let layers = Layers::from_source(&root);
     let mut faults = Vec::new();
     let mut sources = Vec::new();
     for file in files {
@@ -248,7 +198,7 @@ fn every_arrow_points_the_right_way_and_every_crate_has_one_door() {
         let Some(path) = without_groups(&path) else {
             continue;
         };
-        faults.extend(faults_of(path, &text));
+        faults.extend(faults_of(&layers, path, &text));
         sources.push((path.to_owned(), bare(&text)));
     }
     for name in SINGLE {
@@ -274,7 +224,7 @@ fn every_arrow_points_the_right_way_and_every_crate_has_one_door() {
 }
 
 /// Everything that is wrong with one source file, `path` given below `src`.
-fn faults_of(path: &str, text: &str) -> Vec<String> {
+fn faults_of(layers: &Layers, path: &str, text: &str) -> Vec<String> {
     let mut faults = Vec::new();
     // A visibility names the module's own full path.
     let code = bare(text).replace("pub(in crate::", "pub(in ");
@@ -288,30 +238,30 @@ fn faults_of(path: &str, text: &str) -> Vec<String> {
         faults.push(format!("{path}: the name says nothing about what it makes"));
     }
     if !matches!(own, "lib" | "main" | "internals") {
-        match ROOMS.iter().find(|r| r.0 == own) {
-            None => faults.push(format!("{path}: {own} is no room of the house")),
-            Some((_, allowed)) => {
-                for used in rooms_used(&code) {
-                    if used != own && !allowed.contains(&used.as_str()) {
-                        faults.push(format!("{path}: {own} may not use {used}"));
-                    }
+        match layers.allowed.get(own) {
+            None => faults.push(format!("{path}: {own} is not in a group's mod.rs")),
+            Some(allowed) => {
+                let used = modules_used(&code).into_iter();
+                let used = used.filter(|used| used != own && !EVERYWHERE.contains(&&used[..]));
+                for used in used.filter(|used| !allowed.contains(used)) {
+                    faults.push(format!("{path}: {own} may not use {used}"));
                 }
             }
         }
     }
-    // `super` in a room's mod.rs is the crate itself, and two of them leave any room of ours.
+    // `super` in a module's mod.rs is the crate itself, and two of them leave any module of ours.
     let climbs = code.matches("super::super::").count();
     let depth = path.matches('/').count() + usize::from(!path.ends_with("mod.rs"))
         - 1.min(path.matches('/').count());
     if climbs > 0 && depth < 2 {
-        faults.push(format!("{path}: super::super:: leaves the room"));
+        faults.push(format!("{path}: super::super:: leaves the module"));
     }
     let (outside_tests, _) = code.split_once("#[cfg(test)]").unwrap_or((&code, ""));
     if path.ends_with("/mod.rs")
         && path.matches('/').count() == 1
         && outside_tests.contains("super::")
     {
-        faults.push(format!("{path}: super:: leaves the room"));
+        faults.push(format!("{path}: super:: leaves the module"));
     }
     for (at, _) in code.match_indices("::*") {
         let path_of = &code[..at];
@@ -339,27 +289,46 @@ fn faults_of(path: &str, text: &str) -> Vec<String> {
     faults
 }
 
+/// The faults of a made-up file under the rules of the crate.
+fn faults(path: &str, text: &str) -> Vec<String> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    faults_of(&Layers::from_source(&root), path, text)
+}
+
+#[test]
+fn a_module_uses_what_is_listed_before_it_and_groups_below_its_own() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let layers = Layers::from_source(&root);
+    let may = |one: &str, other: &str| layers.allowed[one].contains(&other.to_owned());
+    assert!(may("analysis", "proof") && !may("proof", "analysis"));
+    assert!(may("program", "effect") && !may("effect", "program"));
+    assert!(!may("proof", "program") && !may("proof", "solve"));
+    assert!(may("figure", "drawing") && may("figure", "analysis"));
+    assert!(!may("drawing", "analysis") && !may("analysis", "drawing"));
+    assert!(may("cli", "report") && !may("report", "cli"));
+}
+
 #[test]
 fn a_picture_that_asks_the_mechanics_is_caught() {
     let bad = "use crate::analysis::Analysis;\nfn f() {}\n";
     assert_eq!(
-        faults_of("drawing/arrow.rs", bad),
+        faults("drawing/arrow.rs", bad),
         ["drawing/arrow.rs: drawing may not use analysis"]
     );
-    assert_eq!(faults_of("figure/forces.rs", bad), Vec::<String>::new());
+    assert_eq!(faults("figure/forces.rs", bad), Vec::<String>::new());
 }
 
 #[test]
 fn an_arrow_hidden_in_a_group_or_in_code_is_caught() {
     let group = "use crate::{geometry::{Point, Vector}, program::Columns};";
-    assert_eq!(rooms_used(group), ["geometry", "program"]);
+    assert_eq!(modules_used(group), ["geometry", "program"]);
     assert_eq!(
-        faults_of("proof.rs", group),
+        faults("proof.rs", group),
         ["proof.rs: proof may not use program"]
     );
     let call = "fn f() { let x = crate::solve::solve(1); }";
     assert_eq!(
-        faults_of("scene/frame.rs", call),
+        faults("scene/frame.rs", call),
         ["scene/frame.rs: scene may not use solve"]
     );
 }
@@ -374,9 +343,9 @@ fn a_second_door_is_caught() {
         "use clarabel;",
     ];
     for source in sources {
-        assert_eq!(faults_of("analysis/mod.rs", source).len(), 1, "{source}");
+        assert_eq!(faults("analysis/mod.rs", source).len(), 1, "{source}");
     }
-    assert!(faults_of("output/png.rs", "use resvg::usvg;").is_empty());
+    assert!(faults("output/png.rs", "use resvg::usvg;").is_empty());
 }
 
 #[test]
@@ -390,31 +359,28 @@ fn words_that_only_look_like_arrows_are_let_pass() {
         fn g<'a>(x: &'a str) -> &'a str { my_serde::f(x) }
         use crate::scene::png::Thing;
     "##;
-    assert_eq!(faults_of("interface/mod.rs", fine), Vec::<String>::new());
+    assert_eq!(faults("interface/mod.rs", fine), Vec::<String>::new());
 }
 
 #[test]
 fn globs_climbing_and_empty_names_are_caught() {
+    assert_eq!(faults("scene/shape.rs", "use crate::geometry::*;").len(), 1);
+    assert_eq!(faults("scene/shape.rs", "use super::*;").len(), 1);
     assert_eq!(
-        faults_of("scene/shape.rs", "use crate::geometry::*;").len(),
-        1
-    );
-    assert_eq!(faults_of("scene/shape.rs", "use super::*;").len(), 1);
-    assert_eq!(
-        faults_of(
+        faults(
             "scene/shape.rs",
             "#[cfg(test)]\nmod tests { use super::*; }"
         ),
         Vec::<String>::new()
     );
     assert_eq!(
-        faults_of("scene/mod.rs", "use super::geometry::Point;").len(),
+        faults("scene/mod.rs", "use super::geometry::Point;").len(),
         1
     );
     assert_eq!(
-        faults_of("scene/shape.rs", "use super::super::geometry::Point;").len(),
+        faults("scene/shape.rs", "use super::super::geometry::Point;").len(),
         1
     );
-    assert_eq!(faults_of("scene/utils.rs", "").len(), 1);
-    assert_eq!(faults_of("cellar/wine.rs", "").len(), 1);
+    assert_eq!(faults("scene/utils.rs", "").len(), 1);
+    assert_eq!(faults("cellar/wine.rs", "").len(), 1);
 }

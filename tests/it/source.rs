@@ -41,13 +41,23 @@ pub(crate) fn without_groups(path: &str) -> Option<&str> {
     (rest != "mod.rs").then_some(rest)
 }
 
-/// The rooms named in `crate::room` and `crate::{room::…, room::…}`.
-pub(crate) fn rooms_used(code: &str) -> Vec<String> {
-    let mut rooms = Vec::new();
-    for (at, _) in code.match_indices("crate::") {
-        let rest = &code[at + "crate::".len()..];
+/// The modules named in `crate::module` and `crate::{module::…, module::…}`.
+pub(crate) fn modules_used(code: &str) -> Vec<String> {
+    names_after(code, "crate::")
+}
+
+/// The first names of all paths that begin with `prefix`, also in braces: `prefix{a::b, c}` has `a` and `c`.
+///
+/// A longer path that ends in the prefix, such as `super::super::` for `super::`, does not count.
+pub(crate) fn names_after(code: &str, prefix: &str) -> Vec<String> {
+    let mut names = Vec::new();
+    for (at, _) in code.match_indices(prefix) {
+        if code[..at].ends_with("::") || ends_in_word(&code[..at]) {
+            continue;
+        }
+        let rest = &code[at + prefix.len()..];
         match rest.strip_prefix('{') {
-            None => rooms.extend(word_at(rest)),
+            None => names.extend(word_at(rest)),
             Some(group) => {
                 let mut depth = 0;
                 let mut begin = true;
@@ -58,7 +68,7 @@ pub(crate) fn rooms_used(code: &str) -> Vec<String> {
                         '}' => depth -= 1,
                         ',' if depth == 0 => begin = true,
                         c if begin && c.is_alphabetic() => {
-                            rooms.extend(word_at(&group[i..]));
+                            names.extend(word_at(&group[i..]));
                             begin = false;
                         }
                         _ => {}
@@ -67,9 +77,9 @@ pub(crate) fn rooms_used(code: &str) -> Vec<String> {
             }
         }
     }
-    rooms.sort();
-    rooms.dedup();
-    rooms
+    names.sort();
+    names.dedup();
+    names
 }
 
 pub(crate) fn word_at(text: &str) -> Option<String> {
@@ -82,10 +92,10 @@ pub(crate) fn word_at(text: &str) -> Option<String> {
 
 /// Whether the code names a foreign crate: as the head of a path, or in a `use` of the bare name.
 ///
-/// A module of ours may have the crate's name, as `output::png` has; a file that imports it means that one.
+/// A module of ours may have the crate's name, as `output::png` has; a file that imports or declares it means that one.
 pub(crate) fn names_crate(code: &str, name: &str) -> bool {
     let ours = [";", "::{self", ",", "}"].map(|end| format!("::{name}{end}"));
-    if ours.iter().any(|import| code.contains(import)) {
+    if ours.iter().any(|import| code.contains(import)) || code.contains(&format!("mod {name};")) {
         return false;
     }
     code.match_indices(name).any(|(at, _)| {

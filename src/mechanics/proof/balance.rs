@@ -1,14 +1,13 @@
-//! How well each body balances, by its own forces alone.
+//! The imbalance τ of each body, measured by the forces on that body alone.
 //!
-//! A body balances to τ when each force on it, changed by at most τ of its own amount and moved by at most τ of the body's
-//! own radius R, balances it exactly. Each force is a generator (F_x, F_y, M/R), R about the centroid: each corner's normal
-//! force, each friction force, each component of a robot, the weight, the listed loads. Moving them all widens the moment
-//! by Σ |F|. So τ is the smallest number for which what is left unbalanced lies in τ times their zonotope; it has no unit,
-//! and neither the heaviest block nor the size of anything else enters it.
+//! A body balances to τ if it balances exactly after each force on it is changed by at most τ of its own amount and moved by
+//! at most τ of the body's radius R. Each force is a vector (F_x, F_y, M/R), with its moment M about the centroid: each
+//! normal force, each friction force, each component of a robot, the weight, and the listed loads. Moving all forces by R
+//! changes M/R by at most Σ |F|. The imbalance is therefore the gauge of the residual in the zonotope of these vectors
+//! ([`zonotope_gauge`]). It has no unit, and does not depend on other bodies.
 //!
-//! Forces are products and sums of rounded numbers: what is left is summed with twice the digits, and a rounding of some
-//! 10⁻¹⁵ of Σ |F| is granted across the given forces where the body has something to take it up: friction within its cone,
-//! or τ of its load.
+//! Forces are rounded numbers. The residual is summed with twice the digits. A rounding of about 10⁻¹⁵ Σ |F| is granted in
+//! every direction in which the body can take it up: by friction within its cone, or by a change of its load by τ.
 
 use super::Forces;
 use crate::assembly::{Assembly, AssemblyBody};
@@ -17,28 +16,31 @@ use crate::geometry::{
     zonotope_gauge_bound,
 };
 
-/// Rounding of a few sums and products, in parts of what is summed.
+/// A bound of the relative rounding error of a few sums and products.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// The finest τ that is asked for: rounding is granted so that it suffices there.
-const FINEST: f64 = 1e-9;
+/// The smallest τ that any threshold requires. Rounding is granted such that it stays below τ there.
+const MIN_THRESHOLD: f64 = 1e-9;
 
-/// Below this an upper bound of τ is good enough, and quicker.
-const PLENTY: f64 = 1e-10;
+/// An upper bound of τ below this is returned in place of τ, because it is quicker and a tenth of any threshold.
+const GOOD_ENOUGH: f64 = 1e-10;
 
-/// Friction that a contact could give beside what it gives.
+/// The friction that a contact carries, and the friction that it could carry.
 struct Cone {
-    /// A unit of it, as a generator.
+    /// One newton of it as a vector (F_x, F_y, M/R).
     along: Vec3,
+    /// The friction that it carries, N.
     given: f64,
-    most: f64,
+    /// The largest friction that its normal forces allow, N.
+    available: f64,
 }
 
-/// All that acts on one body.
-struct Acting {
+/// All forces on one body.
+struct BodyForces {
     centroid: Point,
     radius: f64,
-    left: [CompensatedSum; 3],
+    /// The sums of F_x, F_y and M.
+    residual: [CompensatedSum; 3],
     generators: Vec<Vec3>,
     cones: Vec<Cone>,
     /// Σ |F|.
@@ -47,12 +49,12 @@ struct Acting {
     load: f64,
 }
 
-impl Acting {
-    fn on(body: &AssemblyBody, pull: Vector, load_factor: f64) -> Acting {
-        let mut acting = Acting {
+impl BodyForces {
+    fn on(body: &AssemblyBody, pull: Vector, load_factor: f64) -> BodyForces {
+        let mut acting = BodyForces {
             centroid: body.centroid,
             radius: body.radius(),
-            left: [CompensatedSum::default(); 3],
+            residual: [CompensatedSum::default(); 3],
             generators: Vec::with_capacity(16),
             cones: Vec::with_capacity(8),
             total: 0.0,
@@ -65,9 +67,9 @@ impl Acting {
     }
 
     fn load(&mut self, force: Vector, moment: f64) {
-        self.left[0].add(force.x);
-        self.left[1].add(force.y);
-        self.left[2].add(moment);
+        self.residual[0].add(force.x);
+        self.residual[1].add(force.y);
+        self.residual[2].add(moment);
         self.generators
             .push([force.x, force.y, moment / self.radius]);
         self.total += force.norm();
@@ -76,37 +78,37 @@ impl Acting {
 
     fn force(&mut self, at: Point, force: Vector) {
         let arm = at - self.centroid;
-        self.left[0].add(force.x);
-        self.left[1].add(force.y);
-        self.left[2].add_product(arm.x, force.y);
-        self.left[2].add_product(-arm.y, force.x);
+        self.residual[0].add(force.x);
+        self.residual[1].add(force.y);
+        self.residual[2].add_product(arm.x, force.y);
+        self.residual[2].add_product(-arm.y, force.x);
         self.generators
             .push([force.x, force.y, cross(arm, force) / self.radius]);
         self.total += force.norm();
     }
 
     fn torque(&mut self, torque: f64) {
-        self.left[2].add(torque);
+        self.residual[2].add(torque);
         self.generators.push([0.0, 0.0, torque / self.radius]);
     }
 
-    /// What is left unbalanced, N.
-    fn left(&self) -> Vec3 {
-        let [x, y, moment] = self.left.map(CompensatedSum::value);
+    /// The unbalanced force and moment over radius, N.
+    fn residual(&self) -> Vec3 {
+        let [x, y, moment] = self.residual.map(CompensatedSum::value);
         [x, y, moment / self.radius]
     }
 
-    /// Adds what every body may lean on beside its forces: that they may be moved, and rounding.
-    fn complete(&mut self) {
+    /// Adds the generators that do not depend on a single force: moving all forces, and rounding.
+    fn add_common_generators(&mut self) {
         self.generators.push([0.0, 0.0, self.total]);
-        let rounding = ROUNDING / FINEST * self.total;
+        let rounding = ROUNDING / MIN_THRESHOLD * self.total;
         for cone in &self.cones {
-            let spare = rounding.min(cone.most) - cone.given;
+            let spare = rounding.min(cone.available) - cone.given;
             if spare > 0.0 {
                 self.generators.push(cone.along.map(|v| v * spare));
             }
         }
-        // Where nothing loads a body, nothing drives it through a rounding either.
+        // A body without load takes up rounding anyway: nothing drives it.
         let turned = match self.load {
             0.0 => rounding,
             load => rounding.min(load),
@@ -115,46 +117,46 @@ impl Acting {
         self.generators.push([0.0, turned, 0.0]);
     }
 
-    /// The smallest τ to which the body balances, once it is complete.
+    /// The smallest τ to which the body balances. Requires [`Self::add_common_generators`].
     fn imbalance(&self) -> f64 {
-        let left = self.left();
-        if left == [0.0; 3] {
+        let residual = self.residual();
+        if residual == [0.0; 3] {
             return 0.0;
         }
-        match zonotope_gauge_bound(&self.generators, left) {
-            Some(enough) if enough <= PLENTY => enough,
-            _ => zonotope_gauge(&self.generators, left),
+        match zonotope_gauge_bound(&self.generators, residual) {
+            Some(enough) if enough <= GOOD_ENOUGH => enough,
+            _ => zonotope_gauge(&self.generators, residual),
         }
     }
 }
 
-/// The smallest τ to which each body balances, in their order; infinite where no such change would do.
+/// The smallest τ to which each body balances, in the order of the bodies; infinite if no change of its forces helps.
 ///
-/// What is below 10⁻¹⁰ is an upper bound of it.
+/// Values below 10⁻¹⁰ are upper bounds of τ.
 pub fn imbalances(assembly: &Assembly, forces: &Forces) -> Vec<f64> {
-    let mut all = acting(assembly, forces);
-    all.iter_mut().for_each(Acting::complete);
-    all.iter().map(Acting::imbalance).collect()
+    let mut all = forces_by_body(assembly, forces);
+    all.iter_mut().for_each(BodyForces::add_common_generators);
+    all.iter().map(BodyForces::imbalance).collect()
 }
 
-/// The worst imbalance of all bodies, and the worst of what is left of one in parts of its own load.
+/// The largest imbalance τ of all bodies, and the largest residual of a body in parts of its own load.
 ///
-/// Only bodies that may be the worst are looked at closely, those with the largest bound first.
+/// τ is computed only for bodies that can have the largest one, in the order of their upper bounds.
 pub(super) fn worst(assembly: &Assembly, forces: &Forces) -> (f64, f64) {
-    let mut all = acting(assembly, forces);
+    let mut all = forces_by_body(assembly, forces);
     let mut share: f64 = 0.0;
     let mut bounds: Vec<(f64, usize)> = Vec::with_capacity(all.len());
-    for (number, acting) in all.iter_mut().enumerate() {
-        let left = acting.left();
-        if left == [0.0; 3] {
+    for (number, body) in all.iter_mut().enumerate() {
+        let residual = body.residual();
+        if residual == [0.0; 3] {
             continue;
         }
-        let [x, y, moment] = left;
-        if acting.load > 0.0 {
-            share = share.max(libm::hypot(x, y).max(moment.abs()) / acting.load);
+        let [x, y, moment] = residual;
+        if body.load > 0.0 {
+            share = share.max(libm::hypot(x, y).max(moment.abs()) / body.load);
         }
-        acting.complete();
-        let bound = quick_gauge_bound(&acting.generators, left).unwrap_or(f64::INFINITY);
+        body.add_common_generators();
+        let bound = quick_gauge_bound(&body.generators, residual).unwrap_or(f64::INFINITY);
         bounds.push((bound, number));
     }
     bounds.sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
@@ -168,10 +170,11 @@ pub(super) fn worst(assembly: &Assembly, forces: &Forces) -> (f64, f64) {
     (imbalance, share)
 }
 
-fn acting(assembly: &Assembly, forces: &Forces) -> Vec<Acting> {
+/// The forces on each body: its loads, and the forces at its contacts and grips.
+fn forces_by_body(assembly: &Assembly, forces: &Forces) -> Vec<BodyForces> {
     let bodies = assembly.bodies.iter();
-    let mut acting: Vec<Acting> = bodies
-        .map(|body| Acting::on(body, assembly.pull, assembly.load_factor))
+    let mut acting: Vec<BodyForces> = bodies
+        .map(|body| BodyForces::on(body, assembly.pull, assembly.load_factor))
         .collect();
     for (contact, pressed) in assembly.contacts.iter().zip(&forces.contacts) {
         let [first, second] = pressed.normal;
@@ -194,7 +197,7 @@ fn acting(assembly: &Assembly, forces: &Forces) -> Vec<Acting> {
             acting.cones.push(Cone {
                 along: [along.x, along.y, cross(arm, along) / acting.radius],
                 given: pressed.friction.abs(),
-                most: contact.friction * (first + second),
+                available: contact.friction * (first + second),
             });
         }
     }

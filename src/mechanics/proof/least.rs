@@ -1,15 +1,15 @@
-//! What a motion says of the least sum of forces that balance: weak duality, summed from the geometry.
+//! A lower bound of the sum of forces that balance an assembly: weak duality, computed from the geometry.
 //!
-//! Forces that balance exactly do no work along any motion: what the loads give, contacts and grips take. A contact's force
-//! takes at most δ of N + |T|, with δ the worst violation of the motion, a robot's component at most its amount times its
-//! speed. So with loads of power P no forces of a sum below P/δ balance. Of a robot with a limit only what its speed is
-//! beyond δ counts, limit times that, against P.
+//! Forces that balance do no work along any motion: contacts and grips absorb the power P of the loads. A contact force
+//! absorbs at most δ(N + |T|), where δ is the worst violation of the motion. A robot's component absorbs at most its amount
+//! times its speed. No forces with a sum below P/δ therefore balance. A robot with a limit may absorb more than δ per
+//! newton; the excess, limit · (speed − δ), is subtracted from P.
 
 use super::{Forces, Motion, NON_BINDING, ROUNDING, moving_load, power_of_loads, worst_violation};
 use crate::assembly::Assembly;
 
 impl Forces {
-    /// Σ (N1 + N2 + |T|) + Σ (|Fx| + |Fy| + |M|/L), N, with L in metres.
+    /// The sum of all forces in newtons, Σ (N1 + N2 + |T|) + Σ (|Fx| + |Fy| + |M|/L); `length` is L in metres.
     pub fn sum(&self, length: f64) -> f64 {
         let contacts = self.contacts.iter();
         let contacts = contacts.map(|c| c.normal[0] + c.normal[1] + c.friction.abs());
@@ -19,8 +19,10 @@ impl Forces {
     }
 }
 
-/// A number of newtons below which no admissible forces sum that balance an assembly exactly; 0 where the motion says
-/// nothing. Speeds are those against which a unit of force costs 1; sums count torques over the assembly's L.
+/// A lower bound, in newtons, of [`Forces::sum`] for all admissible forces that balance an assembly exactly.
+///
+/// The motion must be scaled like the dual variables: a force may act against a speed of at most 1. The bound is 0 if the
+/// motion proves nothing. Torques count as forces over the assembly's L.
 pub fn force_sum_lower_bound(assembly: &Assembly, motions: &[Motion]) -> f64 {
     let binding = NON_BINDING * moving_load(assembly, motions);
     let mut worst = worst_violation(assembly, motions).max(1.0);

@@ -1,17 +1,19 @@
-//! The verdict's proof, from geometry and forces alone.
+//! [`Proof`]: the certificate of a verdict, computed from geometry and forces alone.
 //!
-//! Makes [`Proof`]. Nothing here knows of programs, columns or solvers: the balance is summed again in metres and newtons
-//! from the assembly's bodies, contacts and grips, the contact law is checked force by force, so a mistake in the program
-//! cannot hide here. What the assembly itself says is held against the outlines by a test that shares no code with it.
+//! Nothing here uses programs, columns or solvers. The balance is summed again in metres and newtons from the assembly's
+//! bodies, contacts and grips, and the contact law is checked force by force, so that a mistake in the program cannot hide.
+//! A test that shares no code with the assembly compares the assembly with the outlines.
 //!
-//! *Stable* is proved by forces: every block balances, nothing pulls, nothing slips, no robot exceeds its limits. Each is
-//! judged where it acts: a block's balance by its own forces, a contact's law by the forces at that contact, so that
-//! neither the heaviest block nor the typical length decides about the smallest stone.
-//! *Unstable* is proved by a motion: the loads do work along it, and no admissible force can object, because every
-//! contact only opens or slides apart. If forces of a sum Σ(N + |T|) = F did balance, then power ≤ violation · F; a
-//! motion with violation δ therefore rules out every balance with less force than power/δ ([`Proof::excluded_force_sum`]). Power
-//! counts in parts of the loads of what moves. What the sums below may be off by in f64 counts against the motion, so a
-//! violation of 0 is none at all.
+//! *Stable* is proved by forces: every block balances, no contact pulls or slips, no robot exceeds its limits. Each error is
+//! measured where it occurs, in parts of the forces on that block or at that contact. Neither the heaviest block nor the
+//! typical length therefore decides about the smallest stone.
+//!
+//! *Unstable* is proved by a motion (a collapse mechanism): the loads do work along it, and every contact only opens or
+//! slides apart, so that no admissible force can resist. These are the static and the kinematic theorem of limit analysis
+//! (Livesley 1978), and weak duality of linear programs. If forces with
+//! the sum Σ(N + |T|) = F balanced, then power ≤ violation · F. A motion with violation δ therefore rules out every balance
+//! with less force than power/δ ([`Proof::excluded_force_sum`]). Power is given in parts of the loads of the moving bodies.
+//! The rounding errors of the sums count against the motion, so that a violation of 0 is exact.
 
 mod balance;
 mod least;
@@ -26,73 +28,74 @@ use crate::geometry::{Point, Vector, quarter_turn};
 use crate::interface::ContactKind;
 use crate::scene::{BlockId, Scene};
 
-/// How well a verdict is proved, from geometry and forces alone.
+/// How well a verdict is proved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Proof {
-    /// Forces that balance, each number without unit.
+    /// Forces that balance the loads. All numbers are without unit; 0 is exact.
     Forces {
-        /// The smallest τ for which each force on a block, changed by at most τ of its own amount and moved by at most τ of
-        /// the block's own radius, balances it exactly; the worst of all blocks ([`imbalances`]).
+        /// The largest τ of all blocks. A block balances to τ if it balances exactly after each force on it is changed by at
+        /// most τ of its own amount and moved by at most τ of the block's radius ([`imbalances`]).
         worst_imbalance: f64,
-        /// Worst imbalance of a block in parts of its own load, force or moment over its radius: for information.
+        /// The largest unbalanced force, or moment over the radius, of a block in parts of its own load: for information only.
         worst_share: f64,
-        /// Worst pull at an application point, in parts of the forces at its contact.
+        /// The largest tensile force at an application point, in parts of the forces at its contact.
         worst_pull: f64,
-        /// Worst friction beyond μN, in parts of the forces at its contact, or robot component beyond its limit, in parts of
-        /// the component.
+        /// The largest friction beyond μN, in parts of the forces at its contact, or robot component beyond its limit, in
+        /// parts of that component.
         worst_slip: f64,
     },
-    /// A mechanism; velocities relative to its fastest point.
+    /// A collapse mechanism. Velocities are relative to that of its fastest point.
     Mechanism {
-        /// Power of the loads along it less what robots can hold, in parts of the loads of what moves, each by how far it moves
-        /// ([`moving_load`]); above 0. At least so much, whatever the rounding.
+        /// A lower bound, rounding included, of the power of the loads minus the power that robots can resist. It is given
+        /// in parts of [`moving_load`], the loads of the moving bodies weighted by their speeds.
         power: f64,
-        /// Worst velocity against which an admissible force could act, so many watts per newton of N + |T|: of a contact
-        /// that closes or slides within its friction, or of a grip that is torn. At most so much, whatever the rounding.
+        /// An upper bound, rounding included, of the velocity against which an admissible force could act, in watts per
+        /// newton of N + |T|: at a contact that closes or slides within its friction cone, or at a grip that is torn off.
         worst_violation: f64,
     },
 }
 
 impl Proof {
-    /// Forces balance when changing each by no more than this share of its own amount, and moving it by no more than this
-    /// share of its block's own radius, balances every block.
+    /// The largest imbalance, pull and slip of forces that prove a verdict.
     ///
-    /// It is also the band within which a structure that just falls is called standing: by a push on a block of this share
-    /// of the forces that act on it, or a centre of gravity this share of the block's radius outside its support.
+    /// It is also the band within which a structure that just falls counts as stable: a block is pushed by this fraction of
+    /// the forces that act on it, or its centre of gravity lies this fraction of its radius outside of its support. A tenth
+    /// is near the accuracy of the interior-point solver, so that more verdicts stay undecided. Ten times as much would
+    /// widen the band to a millionth, which a user can see in a six-digit margin.
     pub const IMBALANCE_TOL: f64 = 1e-7;
 
-    /// A motion convinces when it rules out every balance of less than so many times the loads of what moves.
+    /// A motion proves a verdict if it rules out every balance with forces below this many times the moving loads.
     ///
-    /// Motions are freed of what a solver left undone before they are judged. What remains where a contact can neither open
-    /// nor close is the rounding of speeds, some 10⁻¹⁵, so that a motion is believed as soon as it does work beyond
+    /// The solver's inaccuracy is removed from motions before they are checked. What remains at contacts that neither open
+    /// nor close is the rounding of speeds, about 10⁻¹⁵. A motion therefore proves the verdict as soon as its power exceeds
     /// [`Proof::IMBALANCE_TOL`].
     pub const MIN_POWER_RATIO: f64 = 1e7;
 
-    /// Whether the proof convinces as [`ProofThreshold::STANDARD`] wants it.
+    /// Whether the proof meets [`ProofThreshold::STANDARD`].
     pub fn holds(&self) -> bool {
         self.meets(ProofThreshold::STANDARD)
     }
 
-    /// Whether the proof comes to what is demanded.
-    pub fn meets(&self, demand: ProofThreshold) -> bool {
+    /// Whether the proof meets a threshold.
+    pub fn meets(&self, threshold: ProofThreshold) -> bool {
         match *self {
             Proof::Forces {
                 worst_imbalance,
                 worst_pull,
                 worst_slip,
                 ..
-            } => worst_imbalance.max(worst_pull).max(worst_slip) <= demand.imbalance,
+            } => worst_imbalance.max(worst_pull).max(worst_slip) <= threshold.imbalance,
             Proof::Mechanism {
                 power,
                 worst_violation,
-            } => power > 1e-12 && power >= demand.power_ratio * worst_violation,
+            } => power > 1e-12 && power >= threshold.power_ratio * worst_violation,
         }
     }
 
-    /// Below which sum of forces Σ(N + |T|), in loads of what moves, a motion rules out every balance: power / violation.
+    /// The sum of forces Σ(N + |T|), in parts of the moving loads, below which a motion rules out every balance.
     ///
-    /// What unlimited robots give counts among these forces. Infinite where nothing is violated: then no forces balance,
-    /// however large. 0 for a proof by forces, which rules nothing out.
+    /// It is power / violation, and counts the forces of robots without limits too. It is infinite if nothing is violated:
+    /// then no forces balance, however large. It is 0 for a proof by forces.
     pub fn excluded_force_sum(&self) -> f64 {
         match *self {
             Proof::Mechanism {
@@ -104,48 +107,48 @@ impl Proof {
     }
 }
 
-/// What a proof must come to before its verdict is believed.
+/// The accuracy that a proof must have for its verdict to be accepted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProofThreshold {
-    /// Worst imbalance, pull or slip of forces that balance, each in parts of the forces it acts among.
+    /// The largest accepted imbalance, pull and slip of forces.
     pub imbalance: f64,
-    /// Power of a motion in parts of its worst violation.
+    /// The smallest accepted ratio of a motion's power to its worst violation.
     pub power_ratio: f64,
 }
 
 impl ProofThreshold {
-    /// For every verdict.
+    /// The threshold for every verdict.
     pub const STANDARD: ProofThreshold = ProofThreshold {
         imbalance: Proof::IMBALANCE_TOL,
         power_ratio: Proof::MIN_POWER_RATIO,
     };
 
-    /// A hundred times narrower in forces, a thousand times in motions.
+    /// The threshold of `--accuracy proved`: a hundred times stricter for forces, a thousand times for motions.
     pub const STRICT: ProofThreshold = ProofThreshold {
         imbalance: 1e-9,
         power_ratio: 1e10,
     };
 }
 
-/// Forces on an assembly, in the order of its contacts and grips.
+/// The forces at all contacts and grips of an assembly.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Forces {
-    /// What each contact carries.
+    /// The forces at each contact.
     pub contacts: Vec<ContactForces>,
-    /// What each grip gives.
+    /// The forces at each grip.
     pub grips: Vec<GripForces>,
 }
 
 /// The forces at one contact, newtons.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ContactForces {
-    /// Normal forces at the application points.
+    /// Normal forces at the two application points, pressure positive.
     pub normal: [f64; 2],
-    /// Friction along (−n_y, n_x).
+    /// Friction on the first body, positive along (−n_y, n_x).
     pub friction: f64,
 }
 
-/// What a robot gives to the body it holds.
+/// The force and torque of a robot on the body that it holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GripForces {
     /// Force on the body, N.
@@ -155,7 +158,7 @@ pub struct GripForces {
 }
 
 impl Forces {
-    /// No force anywhere.
+    /// Zero forces at all contacts and grips of an assembly.
     pub fn none(assembly: &Assembly) -> Forces {
         let held = GripForces {
             force: Vector::zeros(),
@@ -168,7 +171,7 @@ impl Forces {
     }
 }
 
-/// A block's velocity.
+/// The velocity of a block as a rigid body, relative to the fastest point of its mechanism.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Motion {
@@ -176,7 +179,7 @@ pub struct Motion {
     pub block: BlockId,
     /// Velocity of its centroid.
     pub velocity: Vector,
-    /// Turning, anticlockwise positive, per metre of the fastest point's way.
+    /// Angular velocity, anticlockwise positive: radians per metre that the fastest point moves.
     pub spin: f64,
 }
 
@@ -203,25 +206,29 @@ impl Motion {
         speeds.fold(0.0, f64::max)
     }
 
-    /// The size of what each component of a point's velocity is summed from, of which its rounding is a share: a block that
-    /// slides along a level joint does not rise by the rounding of its sliding.
+    /// The sum of the absolute terms of each component of a point's velocity: its rounding error is a fraction of that.
+    ///
+    /// Each component has its own sum, so that the rounding of a horizontal sliding motion counts as no vertical motion.
     fn summed(&self, centroid: Point, point: Point) -> Vector {
         self.velocity.abs() + (quarter_turn(point - centroid) * self.spin).abs()
     }
 }
 
-/// Speed of the fastest corner of a body.
+/// The speed of the fastest corner of a body.
 pub fn fastest(body: &AssemblyBody, motion: &Motion) -> f64 {
     motion.fastest_of(body.centroid, &body.corners)
 }
 
-/// A limit of so many loads of what moves holds a grip as if it had none.
+/// A grip whose limit exceeds this many times the moving loads counts as unlimited: it must not give way at all.
+///
+/// A tenth would refuse motions that tear a robot off which holds a thousand times the load. Ten times as much would turn the
+/// rounding of a speed (10⁻¹⁵) times the limit into noticeable power.
 const NON_BINDING: f64 = 1e4;
 
-/// Checks forces on an assembly: balance, pull, slip, limits.
+/// Checks forces on an assembly: the balance of each body, tension, slip, and the limits of robots.
 pub fn check_forces(assembly: &Assembly, forces: &Forces) -> Proof {
     let (mut worst_pull, mut worst_slip): (f64, f64) = (0.0, 0.0);
-    // In parts of what acts there; where nothing does, nothing can be broken.
+    // A relative excess; 0 where the law is satisfied, so that it is never 0/0.
     let share = |beyond: f64, of: f64| if beyond > 0.0 { beyond / of } else { 0.0 };
     for (contact, pressed) in assembly.contacts.iter().zip(&forces.contacts) {
         let [first, second] = pressed.normal;
@@ -253,32 +260,39 @@ pub fn check_forces(assembly: &Assembly, forces: &Forces) -> Proof {
     }
 }
 
-/// The loads of what moves, N: of every body its weight and listed loads, each by its fastest point's speed in parts of
-/// the fastest of all.
+/// The loads of the moving bodies, N: the sum of [`gross_load`] of each body, weighted by its speed.
+///
+/// The speed of a body is that of its fastest point, in parts of the fastest point of all bodies.
 pub fn moving_load(assembly: &Assembly, motions: &[Motion]) -> f64 {
-    let (mut sum, mut most): (f64, f64) = (0.0, 0.0);
+    let (mut sum, mut max_speed): (f64, f64) = (0.0, 0.0);
     for (body, motion) in assembly.bodies.iter().zip(motions) {
         let speed = fastest(body, motion);
         sum += gross_load(assembly, body) * speed;
-        most = most.max(speed);
+        max_speed = max_speed.max(speed);
     }
-    if most > 0.0 { sum / most } else { 0.0 }
+    if max_speed > 0.0 {
+        sum / max_speed
+    } else {
+        0.0
+    }
 }
 
-/// Weight and listed loads of a body, N, a moment over its radius; not less where they act against each other.
+/// The sum of the amounts of a body's weight, listed force and listed moment over its radius, N.
+///
+/// Loads that act against each other do not cancel in it.
 pub fn gross_load(assembly: &Assembly, body: &AssemblyBody) -> f64 {
     let listed = body.listed.times(assembly.load_factor);
     let moment = listed.moment.abs() / body.radius();
     assembly.pull.norm() * body.weight + listed.force.norm() + moment
 }
 
-/// Several times the rounding of one sum of a few products.
+/// A bound of the relative rounding error of a sum of a few products.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
-/// The worst velocity against which a contact's force could act, per unit of N + |T|, with its rounding; 0 where every
-/// contact opens.
+/// The largest velocity against which a contact force with N + |T| = 1 could act, rounding included; 0 if every contact
+/// opens.
 fn worst_violation(assembly: &Assembly, motions: &[Motion]) -> f64 {
-    // A point's velocity, and what it is summed from.
+    // The velocity of a point, and the absolute terms of which it is the sum.
     let velocity = |body: Option<usize>, at: Point| match body {
         None => (Vector::zeros(), Vector::zeros()),
         Some(number) => {
@@ -298,7 +312,8 @@ fn worst_violation(assembly: &Assembly, motions: &[Motion]) -> f64 {
             let apart = one - other;
             let (normal, tangent) = (contact.normal, contact.tangent());
             let (opens, slides) = (normal.dot(&apart), tangent.dot(&apart));
-            // A force of N + |T| = 1 can use most of this pressing alone, or with all the friction it has.
+            // The worst force is either the normal force alone, or the normal force with full friction against the
+            // sliding: the two kinds of edges of the friction cone.
             let friction = contact.friction;
             let used = (friction * slides.abs() - opens) / (1.0 + friction);
             let unsure = normal.abs().dot(&summed) + friction * tangent.abs().dot(&summed);
@@ -308,7 +323,7 @@ fn worst_violation(assembly: &Assembly, motions: &[Motion]) -> f64 {
     violation
 }
 
-/// The power of the loads along a motion, and the sum of the amounts it is summed from.
+/// The power of the loads along a motion, and the sum of the amounts of its terms.
 fn power_of_loads(assembly: &Assembly, motions: &[Motion]) -> (f64, f64) {
     let (mut power, mut summed) = (0.0, 0.0);
     for (body, motion) in assembly.bodies.iter().zip(motions) {
@@ -319,8 +334,8 @@ fn power_of_loads(assembly: &Assembly, motions: &[Motion]) -> (f64, f64) {
     (power, summed)
 }
 
-/// Checks a motion of an assembly, one entry for each of its bodies: the loads' power, and whether any contact or grip
-/// objects.
+/// Checks a motion of an assembly, one entry per body: the power of the loads, and the velocity against which contacts or
+/// grips could act.
 pub fn check_mechanism(assembly: &Assembly, motions: &[Motion]) -> Proof {
     let load = moving_load(assembly, motions);
     let speeds = assembly
@@ -348,7 +363,7 @@ pub fn check_mechanism(assembly: &Assembly, motions: &[Motion]) -> Proof {
             (at_grip.y, limits.fy, unsure.y),
             (spin, limits.torque / assembly.length, 0.0),
         ] {
-            // A limit far beyond the loads would turn the rounding of a speed into power: such a grip must not give way.
+            // A limit far above the loads would turn the rounding of a speed into power: such a grip must not give way.
             if limit > NON_BINDING * load {
                 violation = violation.max(speed.abs() + unsure);
             } else {
@@ -357,6 +372,7 @@ pub fn check_mechanism(assembly: &Assembly, motions: &[Motion]) -> Proof {
             }
         }
     }
+    // The rounding error of the sum grows with its number of terms.
     power -= (motions.len() + 8) as f64 * f64::EPSILON * summed;
     Proof::Mechanism {
         power: power / (load * fastest),

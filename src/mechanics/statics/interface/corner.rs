@@ -1,79 +1,91 @@
-//! Corner contacts: a tip on an edge, or on another tip, where no edge interface of the same pair already reaches.
+//! Corner contacts: a corner that touches an edge or another corner, where no edge interface of the two bodies lies.
 //!
-//! The source leaves them out as unreliable; a scene asks for them with `"corner_contacts": true`. Normal of a tip on an
-//! edge: the edge's. Of a tip on a tip: the bisector of the two corners' own bisectors.
-
-use rstar::{AABB, RTree, RTreeObject};
+//! The source leaves them out as unreliable; a scene requests them with `"corner_contacts": true`. The normal of a corner
+//! on an edge is the edge's normal. The normal of two corners is the bisector of the two corners' own bisectors.
 
 use super::{ContactKind, Interface, bodies, ordered};
-use crate::geometry::{Edge, Point, Vector, cross};
+use crate::geometry::{Aabb, BoxIndex, Edge, Point, Vector, cross};
 use crate::scene::{BodyId, Scene};
+
+/// Two corners whose bisectors differ by less than this have no direction in which they press on each other.
+const PARALLEL_BISECTORS: f64 = 1e-9;
+
+/// A corner contact within this many tolerances of another contact of the two bodies is part of it.
+///
+/// The ends of an interface are off by up to a tolerance each, and so is the corner.
+const SAME_CONTACT_REACH: f64 = 4.0;
+
+/// On a lattice, points are equal or at least half a side apart: any small fraction of the side serves as tolerance.
+const LATTICE_TOLERANCE_PER_SIDE: f64 = 1e-6;
 
 /// A corner with the two sides that meet in it.
 struct Tip {
     body: BodyId,
     at: Point,
+    /// The vector of the side that ends here.
     before: Vector,
+    /// The vector of the side that begins here.
     after: Vector,
 }
 
 impl Tip {
-    /// Whether material fills less than a half turn.
+    /// Whether the inner angle is less than 180°.
     fn is_convex(&self) -> bool {
         cross(self.before, self.after) > 0.0
     }
 
-    /// Unit vector along the corner's bisector into the material.
+    /// The unit vector along the bisector, into the material.
     fn inward(&self) -> Vector {
         let along = (self.before.normalize() + self.after.normalize()).normalize();
         Vector::new(-along.y, along.x)
     }
 }
 
-struct Place {
+/// A corner and the side that begins in it.
+struct CornerSide {
+    /// Its index among all corners of the scene.
+    number: usize,
     side: Edge,
     tip: Tip,
 }
 
-impl RTreeObject for Place {
-    type Envelope = AABB<[f64; 2]>;
-    fn envelope(&self) -> Self::Envelope {
-        AABB::from_corners(
-            [self.side.from.x, self.side.from.y],
-            [self.side.to.x, self.side.to.y],
-        )
-    }
-}
-
-/// All corner contacts beside the edge interfaces already known.
+/// All corner contacts in addition to the edge interfaces that are `known`.
 pub(super) fn find(scene: &Scene, known: &[Interface]) -> Vec<Interface> {
-    // On a lattice points are equal or at least half a side apart; any small length serves.
-    let near_of = |a: BodyId, b: BodyId| match (&scene.lattice, scene.exact) {
-        (Some(lattice), true) => 1e-6 * lattice.side,
+    let tolerance_between = |a: BodyId, b: BodyId| match (&scene.lattice, scene.exact) {
+        (Some(lattice), true) => LATTICE_TOLERANCE_PER_SIDE * lattice.side,
         _ => scene.tolerance_between(a, b).gap,
     };
-    let tree = RTree::bulk_load(places(scene));
+    let index = BoxIndex::new(corner_sides(scene), |place| place.side.bounds());
+    // In the order of the scene: of several corners in one place the first one becomes the contact.
+    let mut places: Vec<&CornerSide> = index.all().map(|(_, place)| place).collect();
+    places.sort_unstable_by_key(|place| place.number);
     let mut found: Vec<Interface> = Vec::new();
-    for place in tree.iter().filter(|p| p.tip.is_convex()) {
+    for place in places.into_iter().filter(|p| p.tip.is_convex()) {
         let (tip, at) = (&place.tip, place.tip.at);
-        let near = near_of(tip.body, tip.body);
-        let around = AABB::from_corners([at.x - near, at.y - near], [at.x + near, at.y + near]);
-        for other in tree.locate_in_envelope_intersecting(around) {
+        let reach = tolerance_between(tip.body, tip.body);
+        let point = [at.x, at.y];
+        let query = Aabb {
+            min: point,
+            max: point,
+        };
+        let mut candidates: Vec<&CornerSide> = index.intersecting(query.grown(reach)).collect();
+        candidates.sort_unstable_by_key(|candidate| candidate.number);
+        for other in candidates {
             let Some(pair) =
                 ordered(tip.body, other.tip.body).filter(|_| tip.body != other.tip.body)
             else {
                 continue;
             };
-            let near = near_of(pair[0], pair[1]);
-            let Some(into_tip) = normal(tip, other, near) else {
+            let tolerance = tolerance_between(pair[0], pair[1]);
+            let Some(into_tip) = normal(tip, other, tolerance) else {
                 continue;
             };
-            let covered = known
+            let is_covered = known
                 .iter()
                 .chain(&found)
                 .filter(|i| i.bodies == pair)
-                .any(|i| distance(at, i.ends) <= 4.0 * near);
-            if !covered {
+                .any(|i| distance_to_segment(at, i.ends) <= SAME_CONTACT_REACH * tolerance);
+            if !is_covered {
                 let normal = if pair[0] == tip.body {
                     into_tip
                 } else {
@@ -93,7 +105,8 @@ pub(super) fn find(scene: &Scene, known: &[Interface]) -> Vec<Interface> {
     found
 }
 
-fn places(scene: &Scene) -> Vec<Place> {
+/// All corners of a scene with the sides that begin in them.
+fn corner_sides(scene: &Scene) -> Vec<CornerSide> {
     let mut places = Vec::new();
     for body in bodies(scene) {
         for ring in scene.body(body).polygon.rings() {
@@ -109,7 +122,8 @@ fn places(scene: &Scene) -> Vec<Place> {
                     before: at - before,
                     after: after - at,
                 };
-                places.push(Place {
+                places.push(CornerSide {
+                    number: places.len(),
                     side: Edge {
                         from: at,
                         to: after,
@@ -122,21 +136,22 @@ fn places(scene: &Scene) -> Vec<Place> {
     places
 }
 
-/// The normal into the tip's body where `tip` touches the corner or the inside of the side of `other`.
-fn normal(tip: &Tip, other: &Place, near: f64) -> Option<Vector> {
-    if (other.side.from - tip.at).norm() <= near {
+/// The unit normal into the body of `tip` if `tip` touches the corner of `other`, or its side between the ends.
+fn normal(tip: &Tip, other: &CornerSide, tolerance: f64) -> Option<Vector> {
+    if (other.side.from - tip.at).norm() <= tolerance {
         let between = tip.inward() - other.tip.inward();
-        return (between.norm() > 1e-9).then(|| between.normalize());
+        return (between.norm() > PARALLEL_BISECTORS).then(|| between.normalize());
     }
     let along = other.side.vector();
     let length = along.norm();
     let s = along.dot(&(tip.at - other.side.from)) / length;
-    let inside = s > near && s < length - near;
-    (inside && cross(along, tip.at - other.side.from).abs() <= near * length)
+    let is_between_ends = s > tolerance && s < length - tolerance;
+    (is_between_ends && cross(along, tip.at - other.side.from).abs() <= tolerance * length)
         .then(|| other.side.outward())
 }
 
-fn distance(p: Point, ends: [Point; 2]) -> f64 {
+/// The distance of a point from a segment; the segment may be a point.
+fn distance_to_segment(p: Point, ends: [Point; 2]) -> f64 {
     let along = ends[1] - ends[0];
     let square = along.norm_squared();
     let s = if square > 0.0 {
