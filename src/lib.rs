@@ -70,17 +70,15 @@
 //! | [`proof`] | how well that is proved | an assembly and forces alone |
 //! | [`resultant`] | one force per interface | its corner forces |
 //! | [`Analysis`] | all that was found out | all of the above |
-//! | [`wording`] | sentences, and numbers with units | an analysis |
 //! | [`figure::forces`] | [`drawing::Drawing`] | an analysis |
 //! | [`output::svg::write`] | SVG text | a drawing |
 //! | [`output::png::render`] | PNG bytes | that text |
 //! | [`output::pdf::write`] | a PDF page | a drawing, through that text |
-//! | [`study::study`] | what accuracy costs | scenes |
+//! | [`study::study`] | times and errors of solvers and tolerances | scenes |
 //! | [`result::to_json`] | JSON for other programs | an analysis |
-//! | [`batch`] | answers in order, by several threads | many scenes, one by one |
 //! | [`session::Session`] | a verdict after every step | blocks placed and held one by one |
-//! | [`snapshot`] | what is not as it was | scenes and what is kept beside them |
-//! | [`text`] | words that do nothing | text of others |
+//! | [`snapshot`] | a comparison with stored references | scenes and their figures |
+//! | [`text`] | escaped text for each output format | untrusted text |
 //!
 //! Why it is built so stands in [`doc::design`]; axes, units and signs in [`doc::conventions`]; tolerances and traps in
 //! [`doc::numerics`].
@@ -139,23 +137,26 @@ mod entry;
 pub mod internals;
 
 // Every module of a group is also named by its short path, `crate::scene` for `crate::mechanics::scene`.
-pub use mechanics::{analysis, batch, scene, session};
+pub use mechanics::{analysis, scene, session};
 pub use pictures::{drawing, output};
 #[cfg(feature = "snapshot")]
 pub use products::snapshot;
-pub use products::{figure, report, result, wording};
+pub use products::{figure, report, result};
 #[cfg(feature = "import")]
 pub use sources::import;
 pub use sources::starter;
 
 #[cfg(feature = "cli")]
 use entry::cli;
+#[cfg(feature = "cli")]
+use mechanics::batch;
 use mechanics::statics::{assembly, effect, interface, resultant};
 use mechanics::{program, proof, solve};
 #[cfg(feature = "report")]
 use pictures::chart;
 #[cfg(feature = "report")]
 use products::study;
+use products::wording;
 
 /// The nalgebra of [`scene::Point`] and [`scene::Vector`], whose version is part of this crate's interface: another one
 /// comes with another version of this crate.

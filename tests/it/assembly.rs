@@ -18,6 +18,7 @@ use drystone::scene::{BodyId, Frame};
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
 
+use crate::random::Random;
 use crate::structure::{arch, on_slope, rectangle, wall};
 
 /// The scenes of the source's figures, and some that lie askew.
@@ -272,13 +273,8 @@ fn an_effect_that_is_not_called_for_leaves_no_trace_in_the_assembly() {
 
 /// A building sequence from a seed: bricks of many widths on a floor, robots that hold some of them for a while.
 fn sequence(seed: u64) -> Value {
-    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
-    let mut random = |n: u64| {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        state % n
-    };
+    let mut numbers = Random::new(seed);
+    let mut random = |n: u64| numbers.next() % n;
     let mut blocks = Vec::new();
     let mut steps = Vec::new();
     let mut heights = [0.0; 4];

@@ -80,7 +80,7 @@ fn every_broken_scene_is_told_with_its_chapter_and_line() {
         .expect_err("all are broken")
         .to_string();
     for said in [
-        "outer.md, line 4: the scene is wrong",
+        "outer.md, line 4: the scene is not valid",
         "inner.md, line 1: cannot read",
         "nowhere.json",
         "inner.md, line 4: there is no kind of figure \"spiral\"; known are forces, mechanism",

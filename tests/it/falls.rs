@@ -15,14 +15,7 @@ use drystone::internals::solve::{Conditioning, Status, TOLERANCE, solve};
 use drystone::scene::{BodyId, Scene};
 use serde_json::{Value, json};
 
-use crate::structure::{arch, block, first, on_floor, rectangle, scene, wall};
-
-/// The same file with gravity turned to the right.
-fn turned(mut file: Value, degrees: f64) -> Value {
-    let (sin, cos) = libm::sincos(degrees.to_radians());
-    file["gravity"] = json!([9.81 * sin, -9.81 * cos]);
-    file
-}
+use crate::structure::{arch, block, first, on_floor, rectangle, scene, tilted, wall};
 
 /// The worst force and moment over the length 1 m that weights, contacts and what sticks leave on a block, in newtons.
 fn left(scene: &Scene, frame: &FrameAnalysis) -> f64 {
@@ -68,7 +61,7 @@ fn amount(failure: &Failure) -> f64 {
 }
 
 fn named(file: Value, degrees: f64) {
-    let scene = scene(&turned(file, degrees));
+    let scene = scene(&tilted(file, degrees));
     let frame = Analysis::new(&scene).frames.remove(0);
     assert_eq!(frame.verdict, Verdict::Unstable, "{degrees}°");
     assert!(
@@ -134,7 +127,7 @@ fn the_verdict_alone_is_proved_and_says_what_it_leaves_out() {
         (arch(101, 0.3, 0.7), 40.0, Verdict::Unstable),
     ];
     for (file, degrees, verdict) in files {
-        let scene = scene(&turned(file, degrees));
+        let scene = scene(&tilted(file, degrees));
         let frame = Analysis::with(&scene, &asked).frames.remove(0);
         let whole = Analysis::new(&scene).frames.remove(0);
         assert_eq!(
@@ -185,7 +178,7 @@ fn a_high_turned_stack_takes_no_program() {
         .collect();
     let asked = Options::default().verdict_only(true);
     for programs in [0, 1] {
-        let scene = scene(&turned(on_floor(0.7, bricks.clone()), 26.0));
+        let scene = scene(&tilted(on_floor(0.7, bricks.clone()), 26.0));
         let frame = Analysis::with(&scene, &asked).frames.remove(0);
         assert_eq!(frame.verdict, Verdict::Unstable);
         assert!(frame.proof.holds());
@@ -207,7 +200,7 @@ fn the_verdict_alone_of_ten_thousand_blocks_one_on_the_other_takes_few_programs(
     let asked = Options::default().verdict_only(true);
     for (bricks, most) in [(alone, 0), (with_it, 8)] {
         for (degrees, verdict) in [(0.0, Verdict::Stable), (40.0, Verdict::Unstable)] {
-            let scene = scene(&turned(on_floor(0.7, bricks.clone()), degrees));
+            let scene = scene(&tilted(on_floor(0.7, bricks.clone()), degrees));
             let frame = Analysis::with(&scene, &asked).frames.remove(0);
             assert_eq!(frame.verdict, verdict, "{degrees}°");
             let solve = &frame.solve;
@@ -268,7 +261,7 @@ fn program(scene: &Scene) -> Program {
 fn two_solvers_find_the_same_of_a_thousand_bricks_standing_and_falling() {
     let file = wall(30, 30);
     for (degrees, stands) in [(0.0, true), (40.0, false)] {
-        let program = program(&scene(&turned(file.clone(), degrees)));
+        let program = program(&scene(&tilted(file.clone(), degrees)));
         let (loads, all) = (&program.loads, columns(&program));
         let hard = kinematic_dual(loads, &all, |c| c.cost).0;
         let any = force_primal(loads, &all, |_| 0.0, None);
@@ -298,7 +291,7 @@ fn two_solvers_find_the_same_of_a_thousand_bricks_standing_and_falling() {
 #[test]
 fn a_wall_short_of_its_edge_by_a_hundred_thousandth_is_balanced_at_once() {
     let edge = 24.299_095;
-    let program = program(&scene(&turned(wall(30, 30), edge * (1.0 - 1e-5))));
+    let program = program(&scene(&tilted(wall(30, 30), edge * (1.0 - 1e-5))));
     let all = columns(&program);
     let largest = program.loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     let loads: Vec<f64> = program.loads.iter().map(|v| v / largest).collect();
@@ -323,7 +316,7 @@ fn what_a_wall_lacks_just_past_its_edge_is_the_least_that_could_hold_it() {
     let upright = Analysis::with(scene(&file), &options).frames.remove(0);
     let tilt = upright.margins.expect("asked for").tilt;
     let edge = tilt.right.at().expect("it falls");
-    let scene = scene(&turned(file, edge + 1e-4));
+    let scene = scene(&tilted(file, edge + 1e-4));
     let frame = Analysis::new(&scene).frames.remove(0);
     assert_eq!(frame.verdict, Verdict::Unstable);
 

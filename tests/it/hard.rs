@@ -4,25 +4,12 @@ use drystone::Analysis;
 use drystone::analysis::{Proof, Verdict};
 use serde_json::{Value, json};
 
-use crate::structure::{arch, block, first, on_floor, on_slope, rectangle, scene, verdict, wall};
+use crate::structure::{
+    arch, block, first, on_floor, on_slope, rectangle, scene, tower, verdict, wall,
+};
 
 const STANDS: Verdict = Verdict::Stable;
 const FALLS: Verdict = Verdict::Unstable;
-
-pub fn tower(n: usize, height: f64) -> Value {
-    on_floor(
-        0.5,
-        (0..n)
-            .map(|k| {
-                block(
-                    &format!("{k}"),
-                    rectangle(0.0, k as f64 * height, 1.0, height),
-                    6.0,
-                )
-            })
-            .collect(),
-    )
-}
 
 /// A frictionless wedge between two slopes, its sides off the vertical by `half_angle`.
 pub fn wedge(half_angle: f64) -> Value {

@@ -8,7 +8,8 @@ use drystone::scene::{BodyId, Frame, ToleranceSource};
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
 
-use crate::structure::first;
+use crate::random::Random;
+use crate::structure::{corners, first};
 
 type Outline = Vec<[f64; 2]>;
 
@@ -55,31 +56,6 @@ impl Written {
     }
 }
 
-/// Numbers from 0 to 1 that look like chance.
-struct Chance(u64);
-
-impl Chance {
-    fn next(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 33) as f64 / f64::from(1_u32 << 31)
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.next()
-    }
-
-    fn count(&mut self, low: usize, high: usize) -> usize {
-        low + (self.next() * (high - low + 1) as f64) as usize
-    }
-}
-
-fn rectangle(x: f64, y: f64, w: f64, h: f64) -> Outline {
-    vec![[x, y], [x + w, y], [x + w, y + h], [x, y + h]]
-}
-
 /// A running bond with half bricks at its ends, so that no centre of gravity lies on an edge.
 fn bond(columns: usize, rows: usize, height: f64) -> Built {
     let length = columns as f64;
@@ -87,16 +63,16 @@ fn bond(columns: usize, rows: usize, height: f64) -> Built {
     for row in 0..rows {
         let y = row as f64 * height;
         if row % 2 == 0 {
-            blocks.extend((0..columns).map(|c| rectangle(c as f64, y, 1.0, height)));
+            blocks.extend((0..columns).map(|c| corners(c as f64, y, 1.0, height)));
         } else {
-            blocks.push(rectangle(0.0, y, 0.5, height));
-            blocks.extend((1..columns).map(|c| rectangle(c as f64 - 0.5, y, 1.0, height)));
-            blocks.push(rectangle(length - 0.5, y, 0.5, height));
+            blocks.push(corners(0.0, y, 0.5, height));
+            blocks.extend((1..columns).map(|c| corners(c as f64 - 0.5, y, 1.0, height)));
+            blocks.push(corners(length - 0.5, y, 0.5, height));
         }
     }
     Built {
         name: format!("bond of {columns} by {rows}, {height:.3} m"),
-        ground: vec![rectangle(-1.0, -1.0, length + 2.0, 1.0)],
+        ground: vec![corners(-1.0, -1.0, length + 2.0, 1.0)],
         blocks,
     }
 }
@@ -111,8 +87,8 @@ fn arch(count: usize, inner: f64, thickness: f64) -> Built {
     Built {
         name: format!("arch of {count}, {inner:.3} m, {thickness:.3} m"),
         ground: vec![
-            rectangle(-middle - 1.0, -1.0, 2.0, 1.0),
-            rectangle(middle - 1.0, -1.0, 2.0, 1.0),
+            corners(-middle - 1.0, -1.0, 2.0, 1.0),
+            corners(middle - 1.0, -1.0, 2.0, 1.0),
         ],
         blocks: (0..count)
             .map(|k| {
@@ -128,7 +104,7 @@ fn arch(count: usize, inner: f64, thickness: f64) -> Built {
 }
 
 /// A point set into every side, somewhere.
-fn split(outline: &Outline, chance: &mut Chance) -> Outline {
+fn split(outline: &Outline, chance: &mut Random) -> Outline {
     let mut out = Vec::new();
     for (i, a) in outline.iter().enumerate() {
         let b = outline[(i + 1) % outline.len()];
@@ -140,7 +116,7 @@ fn split(outline: &Outline, chance: &mut Chance) -> Outline {
 }
 
 impl Built {
-    fn file(&self, degrees: f64, written: Written, mut extra: Option<Chance>) -> Value {
+    fn file(&self, degrees: f64, written: Written, mut extra: Option<Random>) -> Value {
         let (sin, cos) = libm::sincos(degrees.to_radians());
         let mut bodies = |outlines: &[Outline]| -> Value {
             let body = |outline: &Outline| {
@@ -181,15 +157,15 @@ fn same(name: &str, meant: (Verdict, f64), file: &Value, written: Written) {
 #[test]
 fn walls_and_arches_turned_and_rounded_keep_their_verdict_and_forces() {
     for seed in 0..12 {
-        let mut chance = Chance(seed);
+        let mut chance = Random::new(seed);
         let built = if seed % 2 == 0 {
             bond(
-                chance.count(2, 4),
-                chance.count(2, 6),
+                chance.whole(2, 4) as usize,
+                chance.whole(2, 6) as usize,
                 chance.between(0.4, 0.8),
             )
         } else {
-            let count = chance.count(4, 9);
+            let count = chance.whole(4, 9) as usize;
             let radius = count as f64 * chance.between(0.3, 0.4);
             arch(2 * count + 1, radius, radius * chance.between(0.2, 0.35))
         };
@@ -200,15 +176,15 @@ fn walls_and_arches_turned_and_rounded_keep_their_verdict_and_forces() {
             let name = format!("{}, {degrees:.1}°", built.name);
             let plain = built.file(degrees, written, None);
             same(&name, (verdict, total), &plain, written);
-            let extra = built.file(degrees, written, Some(Chance(seed)));
+            let extra = built.file(degrees, written, Some(Random::new(seed)));
             same(&format!("{name}, split"), (verdict, total), &extra, written);
         }
     }
 }
 
 /// Courses of stones of unequal length against one upright wall or between two.
-fn stones_beside_walls(chance: &mut Chance) -> Built {
-    let (width, courses) = (chance.count(3, 5), chance.count(2, 4));
+fn stones_beside_walls(chance: &mut Random) -> Built {
+    let (width, courses) = (chance.whole(3, 5) as usize, chance.whole(2, 4) as usize);
     let length = width as f64;
     let (mut y, mut blocks) = (0.0, Vec::new());
     for _ in 0..courses {
@@ -219,19 +195,19 @@ fn stones_beside_walls(chance: &mut Chance) -> Built {
         ends.push(length);
         let mut x = 0.0;
         for end in ends {
-            if chance.next() < 0.85 {
-                blocks.push(rectangle(x, y, end - x, height));
+            if chance.share() < 0.85 {
+                blocks.push(corners(x, y, end - x, height));
             }
             x = end;
         }
         y += height;
     }
     let mut ground = vec![
-        rectangle(-2.0, -1.0, length + 4.0, 1.0),
-        rectangle(length, 0.0, 2.0, y * chance.between(0.4, 1.2)),
+        corners(-2.0, -1.0, length + 4.0, 1.0),
+        corners(length, 0.0, 2.0, y * chance.between(0.4, 1.2)),
     ];
-    if chance.next() < 0.5 {
-        ground.push(rectangle(-2.0, 0.0, 2.0, y * chance.between(0.4, 0.9)));
+    if chance.share() < 0.5 {
+        ground.push(corners(-2.0, 0.0, 2.0, y * chance.between(0.4, 0.9)));
     }
     Built {
         name: format!("{} stones beside a wall", blocks.len()),
@@ -246,7 +222,7 @@ fn stones_beside_walls(chance: &mut Chance) -> Built {
 fn stones_beside_upright_walls_keep_their_verdict_and_forces() {
     let (mut stand, mut fall) = (0, 0);
     for seed in 0..25 {
-        let mut chance = Chance(seed);
+        let mut chance = Random::new(seed);
         let built = stones_beside_walls(&mut chance);
         let degrees = chance.between(-12.0, 12.0);
         let (verdict, total, doubt) = judged(&built.file(0.0, Written::InFull, None));
@@ -269,9 +245,9 @@ fn structures_that_fall_are_not_healed_into_standing() {
     // A corbel of four, each 0.4 m beyond the one below; and an arch too thin.
     let corbel = Built {
         name: "corbel".into(),
-        ground: vec![rectangle(-1.0, -1.0, 3.0, 1.0)],
+        ground: vec![corners(-1.0, -1.0, 3.0, 1.0)],
         blocks: (0..4)
-            .map(|k| rectangle(0.4 * f64::from(k), 0.5 * f64::from(k), 1.0, 0.5))
+            .map(|k| corners(0.4 * f64::from(k), 0.5 * f64::from(k), 1.0, 0.5))
             .collect(),
     };
     for built in [corbel, arch(11, 3.0, 0.25)] {

@@ -139,13 +139,8 @@ fn structures() -> Vec<(&'static str, Value)> {
 
 /// An untidy heap of bricks, row on row with gaps, from a little generator.
 fn pile(seed: u64) -> Value {
-    let mut state = seed;
-    let mut random = move || {
-        state = state
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
-        (state >> 33) as f64 / (1u64 << 31) as f64
-    };
+    let mut numbers = crate::random::Random::new(seed);
+    let mut random = move || numbers.share();
     let mut blocks = Vec::new();
     for row in 0..4 {
         let mut x = random() * 0.8;

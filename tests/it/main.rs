@@ -43,6 +43,7 @@ mod print;
 mod problems;
 mod mutant;
 mod program;
+mod random;
 mod report;
 mod scenes;
 mod session;

@@ -13,6 +13,8 @@ use drystone::result::{Layout, Timing, to_json};
 use drystone::{Scene, figure, output};
 use serde_json::{Map, Value, json};
 
+use crate::random::Random;
+
 /// So many mutants are made of each scene.
 const EACH: u64 = 24;
 
@@ -60,27 +62,6 @@ const WORDS: &[&str] = &[
     "👩\u{200d}🔬",
 ];
 
-/// Numbers that look random and are the same in every run (splitmix64).
-struct Seeded(u64);
-
-impl Seeded {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    fn below(&mut self, count: usize) -> usize {
-        (self.next() % count.max(1) as u64) as usize
-    }
-
-    fn of<'a, T>(&mut self, list: &'a [T]) -> &'a T {
-        &list[self.below(list.len())]
-    }
-}
-
 /// How many values there are in a value, itself included.
 fn count(value: &Value) -> usize {
     1 + match value {
@@ -104,12 +85,12 @@ fn at<'v>(value: &'v mut Value, number: &mut usize) -> Option<&'v mut Value> {
 }
 
 /// Changes one value.
-fn change(value: &mut Value, random: &mut Seeded) {
+fn change(value: &mut Value, random: &mut Random) {
     match value {
         Value::Number(old) => {
             let old = old.as_f64().unwrap_or(0.0);
             *value = match random.below(8) {
-                0..=3 => json!(random.of(NUMBERS)),
+                0..=3 => json!(random.choose(NUMBERS)),
                 4 => json!(-old),
                 // The next number there is: what just touched no longer does.
                 5 => json!(f64::from_bits(old.to_bits().wrapping_add(1))),
@@ -117,7 +98,7 @@ fn change(value: &mut Value, random: &mut Seeded) {
                 _ => json!(format!("{old}")),
             };
         }
-        Value::String(_) => *value = json!(random.of(WORDS)),
+        Value::String(_) => *value = json!(random.choose(WORDS)),
         Value::Bool(flag) => *flag = !*flag,
         Value::Null => *value = json!([]),
         Value::Array(list) => match random.below(4) {
@@ -125,7 +106,7 @@ fn change(value: &mut Value, random: &mut Seeded) {
             1 => list.reverse(),
             _ if list.is_empty() => list.push(Value::Null),
             2 => {
-                let again = random.of(list).clone();
+                let again = random.choose(list).clone();
                 list.push(again);
             }
             _ => {
@@ -136,9 +117,9 @@ fn change(value: &mut Value, random: &mut Seeded) {
         Value::Object(map) => {
             let keys: Vec<String> = map.keys().cloned().collect();
             if keys.is_empty() || random.below(6) == 0 {
-                map.insert((*random.of(WORDS)).to_owned(), json!(0));
+                map.insert((*random.choose(WORDS)).to_owned(), json!(0));
             } else {
-                let gone = random.of(&keys).clone();
+                let gone = random.choose(&keys).clone();
                 map.remove(&gone);
             }
         }
@@ -146,7 +127,7 @@ fn change(value: &mut Value, random: &mut Seeded) {
 }
 
 /// Steps that place what stands, remove what is held, and hold with everything at once.
-fn contradict(scene: &mut Map<String, Value>, random: &mut Seeded) {
+fn contradict(scene: &mut Map<String, Value>, random: &mut Random) {
     let ids = |key: &str| -> Vec<String> {
         let list = scene.get(key).and_then(Value::as_array);
         let entries = list.into_iter().flatten();
@@ -162,16 +143,16 @@ fn contradict(scene: &mut Map<String, Value>, random: &mut Seeded) {
     for _ in 0..=random.below(4) {
         let mut hold = Map::new();
         for robot in &robots {
-            hold.insert(robot.clone(), json!(random.of(&blocks)));
+            hold.insert(robot.clone(), json!(random.choose(&blocks)));
         }
-        steps.push(json!({ "place": [random.of(&blocks), random.of(&blocks)], "remove": [random.of(&blocks)],
+        steps.push(json!({ "place": [random.choose(&blocks), random.choose(&blocks)], "remove": [random.choose(&blocks)],
             "hold": hold, "release": robots.iter().take(random.below(3)).collect::<Vec<_>>() }));
     }
     scene.insert("steps".into(), json!(steps));
 }
 
 fn mutant(original: &Value, seed: u64) -> Value {
-    let mut random = Seeded(seed);
+    let mut random = Random::new(seed);
     let mut scene = original.clone();
     if random.below(6) == 0
         && let Some(map) = scene.as_object_mut()

@@ -19,22 +19,7 @@ use std::process::{Command, Stdio};
 
 use tempfile::TempDir;
 
-const STANDS: &str = r#"{ "drystone": 1, "title": "A lintel", "friction": 0.6,
-  "ground": [{ "polygon": [[-1, -1], [7, -1], [7, 0], [-1, 0]] }],
-  "blocks": [
-    { "id": "left",   "polygon": [[0, 0], [1, 0], [1, 3], [0, 3]], "weight": 6 },
-    { "id": "right",  "polygon": [[5, 0], [6, 0], [6, 3], [5, 3]], "weight": 7 },
-    { "id": "lintel", "polygon": [[0, 3], [6, 3], [6, 4], [0, 4]], "weight": 11 } ] }"#;
-
-/// The lintel rests on one post; in the second frame a robot holds its free end.
-const FALLS: &str = r#"{ "drystone": 1, "title": "Half a lintel", "friction": 0.6,
-  "ground": [{ "polygon": [[-1, -1], [7, -1], [7, 0], [-1, 0]] }],
-  "blocks": [
-    { "id": "left",   "polygon": [[0, 0], [1, 0], [1, 3], [0, 3]], "weight": 6 },
-    { "id": "lintel", "polygon": [[0, 3], [6, 3], [6, 4], [0, 4]], "weight": 11 } ],
-  "robots": [{ "id": "crane" }],
-  "steps": [ { "title": "Alone", "place": ["left", "lintel"] },
-             { "title": "Held", "hold": { "crane": { "block": "lintel", "at": [5, 3.5] } } } ] }"#;
+use crate::structure::{HALF_LINTEL as FALLS, LINTEL as STANDS};
 
 const WRONG: &str = r#"{ "drystone": 1,
   "blocks": [

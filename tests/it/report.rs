@@ -10,22 +10,7 @@ use std::process::{Command, Stdio};
 use pulldown_cmark::{Event, Options, Parser};
 use tempfile::TempDir;
 
-const STANDS: &str = r#"{ "drystone": 1, "title": "A lintel", "friction": 0.6,
-  "ground": [{ "polygon": [[-1, -1], [7, -1], [7, 0], [-1, 0]] }],
-  "blocks": [
-    { "id": "left",   "polygon": [[0, 0], [1, 0], [1, 3], [0, 3]], "weight": 6 },
-    { "id": "right",  "polygon": [[5, 0], [6, 0], [6, 3], [5, 3]], "weight": 7 },
-    { "id": "lintel", "polygon": [[0, 3], [6, 3], [6, 4], [0, 4]], "weight": 11 } ] }"#;
-
-/// Falls in its first step, and is held in its second.
-const FALLS: &str = r#"{ "drystone": 1, "title": "Half a lintel", "friction": 0.6,
-  "ground": [{ "polygon": [[-1, -1], [7, -1], [7, 0], [-1, 0]] }],
-  "blocks": [
-    { "id": "left",   "polygon": [[0, 0], [1, 0], [1, 3], [0, 3]], "weight": 6 },
-    { "id": "lintel", "polygon": [[0, 3], [6, 3], [6, 4], [0, 4]], "weight": 11 } ],
-  "robots": [{ "id": "crane" }],
-  "steps": [ { "title": "Alone", "place": ["left", "lintel"] },
-             { "title": "Held", "hold": { "crane": { "block": "lintel", "at": [5, 3.5] } } } ] }"#;
+use crate::structure::{HALF_LINTEL as FALLS, LINTEL as STANDS};
 
 /// Text that would act if it were taken for anything but text.
 const HOSTILE: &str = r#"{ "drystone": 1, "title": "<script>alert(1)</script> 𝔘🧱 שלום \u202egnihton",
@@ -138,7 +123,7 @@ fn a_broken_scene_among_sound_ones_is_listed_and_nothing_is_lost() {
         "blocks[0].weight",
         "-0.25",
         "Half a lintel",
-        "1 stands, 1 falls; 1 file is no scene",
+        "1 stands, 1 falls; 1 file is not a valid scene",
     ] {
         assert!(page.contains(words), "{words}");
     }

@@ -7,7 +7,8 @@ use drystone::session::Session;
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
 
-use crate::oracle::random::{self, Chance};
+use crate::oracle::random;
+use crate::random::Random;
 use crate::structure::{arch, harmonic, on_slope, rectangle, scene, wall};
 
 fn file(value: &Value) -> SceneFile {
@@ -49,10 +50,10 @@ struct Tally {
 fn played(
     number: u64,
     base: Value,
-    candidate: impl Fn(&mut Chance, usize) -> Value,
+    candidate: impl Fn(&mut Random, usize) -> Value,
     tally: &mut Tally,
 ) {
-    let mut chance = Chance::new(number);
+    let mut chance = Random::new(number);
     let mut session = Session::new(file(&base)).unwrap();
     let mut beside = Beside { file: base };
     let mut standing: Vec<String> = Vec::new();
@@ -157,14 +158,14 @@ fn robots() -> Value {
 fn a_session_on_a_lattice_says_what_a_file_says() {
     let mut tally = Tally::default();
     for number in 0..60 {
-        let mut chance = Chance::new(900 + number);
+        let mut chance = Random::new(900 + number);
         let ground: Vec<Value> = (-6..=6)
             .map(|x| json!({ "cells": [[x, 0, "down"]] }))
             .collect();
         let base = json!({ "drystone": 1, "friction": chance.one_of(&[0.3, 0.7, 1.2]), "kernel": chance.one_of(&[0.0, 0.2]),
             "grid": { "kind": "triangular" }, "ground": ground, "robots": robots(), "blocks": [] });
         let shapes = ["up", "down", "hexagon", "linkh", "linkr", "linkl"];
-        let candidate = |chance: &mut Chance, placed: usize| {
+        let candidate = |chance: &mut Random, placed: usize| {
             let high = 1 + placed as i64 / 2;
             json!({ "shape": chance.one_of(&shapes), "at": [chance.whole(-4, 4), chance.whole(0, high)], "weight": chance.whole(1, 9) })
         };
@@ -175,7 +176,7 @@ fn a_session_on_a_lattice_says_what_a_file_says() {
         let ground: Vec<Value> = (-5..=5).map(|x| json!({ "cells": [[x, -1]] })).collect();
         let base = json!({ "drystone": 1, "friction": 0.6, "grid": { "kind": "square", "side": 0.5 }, "ground": ground,
             "robots": robots(), "blocks": [] });
-        let candidate = |chance: &mut Chance, placed: usize| {
+        let candidate = |chance: &mut Random, placed: usize| {
             let (x, y) = (chance.whole(-3, 3), chance.whole(0, 1 + placed as i64 / 3));
             let wide = chance.whole(1, 3);
             let cells: Vec<Value> = (0..wide).map(|k| json!([x + k, y])).collect();
@@ -199,7 +200,7 @@ fn a_session_of_bricks_says_what_a_file_says() {
     for number in 200..240 {
         let base = json!({ "drystone": 1, "friction": 0.6, "ground": [{ "polygon": rectangle(-20.0, -1.0, 40.0, 1.0) }],
             "robots": robots(), "blocks": [] });
-        let candidate = |chance: &mut Chance, placed: usize| {
+        let candidate = |chance: &mut Random, placed: usize| {
             let x = 0.25 * chance.whole(-6, 6) as f64;
             let y = 0.5 * chance.whole(0, 1 + placed as i64 / 2) as f64;
             json!({ "polygon": rectangle(x, y, 1.0, 0.5), "weight": chance.whole(1, 5) })

@@ -7,8 +7,10 @@ use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
 
 use crate::hard::wedge;
-use crate::oracle::random::Chance;
-use crate::structure::{arch, block, harmonic, on_floor, on_slope, rectangle, verdict, wall};
+use crate::random::Random;
+use crate::structure::{
+    arch, block, harmonic, on_floor, on_slope, rectangle, rotated, verdict, wall,
+};
 
 const STANDS: Verdict = Verdict::Stable;
 const FALLS: Verdict = Verdict::Unstable;
@@ -49,25 +51,6 @@ fn topped(bricks: usize, size: f64, beyond: f64) -> Value {
         "ground": [{ "polygon": rectangle(-20.0, -1.0, 40.0, 1.0) }], "blocks": blocks })
 }
 
-/// A file with its gravity turned about the origin, in degrees. By 0 it stays as it is written.
-fn turned(file: &Value, degrees: f64) -> Value {
-    if degrees == 0.0 {
-        return file.clone();
-    }
-    let (s, c) = libm::sincos(degrees.to_radians());
-    let mut file = file.clone();
-    for list in ["ground", "blocks"] {
-        for body in file[list].as_array_mut().expect("a list") {
-            for corner in body["polygon"].as_array_mut().expect("corners") {
-                let [x, y] = [0, 1].map(|k| corner[k].as_f64().expect("a number"));
-                *corner = json!([c * x - s * y, s * x + c * y]);
-            }
-        }
-    }
-    file["gravity"] = json!([9.81 * s, -9.81 * c]);
-    file
-}
-
 /// Size ratios of 1 to 10⁻⁶, weights to 10⁻¹², towers of 1 to 30, upright and turned by odd angles: the only question is on
 /// which side of the edge the stone's centre of gravity lies.
 #[test]
@@ -82,7 +65,7 @@ fn stones_on_towers() {
                 (0.99, FALLS),
             ] {
                 for degrees in [0.0, 17.3, 41.3] {
-                    let file = turned(&topped(bricks, size, beyond), degrees);
+                    let file = rotated(&topped(bricks, size, beyond), degrees);
                     assert_eq!(
                         verdict(&file),
                         expected,
@@ -119,7 +102,7 @@ fn stones_that_slide_on_towers() {
                     blocks.push(json!({ "id": "stone", "polygon": stone, "friction": friction }));
                     for degrees in [0.0, 17.3] {
                         assert_eq!(
-                            verdict(&turned(&file, degrees)),
+                            verdict(&rotated(&file, degrees)),
                             expected,
                             "{bricks}, {size:e}, {slope} {friction}, {degrees}°"
                         );
@@ -159,7 +142,7 @@ fn large_blocks_stand_on_small_tips() {
                 let stands = [0.0, 0.17, -0.29, 0.33, -0.41, 0.49];
                 let falls = [0.51 + band, -0.7 - band, 1.5 + band];
                 for off in stands.into_iter().chain(falls) {
-                    let file = turned(&on_a_tip(base, off, height), degrees);
+                    let file = rotated(&on_a_tip(base, off, height), degrees);
                     let expected = if off.abs() < 0.5 { STANDS } else { FALLS };
                     let what = format!("{base:e} {height} {degrees}° {off}");
                     match verdict(&file) {
@@ -235,7 +218,7 @@ fn pins_keep_a_gap_open_however_low() {
             let above = rectangle(x, 1.0 + height, 2.0, 1.0);
             blocks.push(json!({ "id": "above", "polygon": above }));
             for degrees in [0.0, 17.3] {
-                let found = verdict(&turned(&file, degrees));
+                let found = verdict(&rotated(&file, degrees));
                 assert_eq!(found, expected, "{height:e} {x} {degrees}°");
             }
         }
@@ -375,7 +358,7 @@ fn hung(polygon: &Value, edge: usize, size: f64) -> Option<Value> {
 /// Adding a falling pebble of any size anywhere makes any standing structure fall.
 #[test]
 fn a_falling_pebble_makes_any_structure_fall() {
-    let mut chance = Chance::new(2024);
+    let mut chance = Random::new(2024);
     let mut tried = 0;
     for round in 0..200 {
         let n = chance.whole(1, 5) as usize;

@@ -1,4 +1,4 @@
-//! Structures the tests build: as scene files, so that every test goes through the front door.
+//! Scene files for tests, built once for all of them.
 
 use drystone::analysis::{FrameAnalysis, Verdict};
 use drystone::{Analysis, Scene};
@@ -26,14 +26,71 @@ pub fn verdict(file: &Value) -> Verdict {
     first(file).verdict
 }
 
+/// Two posts and a lintel, which stand.
+pub const LINTEL: &str = r#"{ "drystone": 1, "title": "A lintel", "friction": 0.6,
+  "ground": [{ "polygon": [[-1, -1], [7, -1], [7, 0], [-1, 0]] }],
+  "blocks": [
+    { "id": "left",   "polygon": [[0, 0], [1, 0], [1, 3], [0, 3]], "weight": 6 },
+    { "id": "right",  "polygon": [[5, 0], [6, 0], [6, 3], [5, 3]], "weight": 7 },
+    { "id": "lintel", "polygon": [[0, 3], [6, 3], [6, 4], [0, 4]], "weight": 11 } ] }"#;
+
+/// A lintel on one post. It falls in the first frame; in the second, a robot holds its free end.
+pub const HALF_LINTEL: &str = r#"{ "drystone": 1, "title": "Half a lintel", "friction": 0.6,
+  "ground": [{ "polygon": [[-1, -1], [7, -1], [7, 0], [-1, 0]] }],
+  "blocks": [
+    { "id": "left",   "polygon": [[0, 0], [1, 0], [1, 3], [0, 3]], "weight": 6 },
+    { "id": "lintel", "polygon": [[0, 3], [6, 3], [6, 4], [0, 4]], "weight": 11 } ],
+  "robots": [{ "id": "crane" }],
+  "steps": [ { "title": "Alone", "place": ["left", "lintel"] },
+             { "title": "Held", "hold": { "crane": { "block": "lintel", "at": [5, 3.5] } } } ] }"#;
+
 /// Corners of an axis-parallel rectangle.
-pub fn rectangle(x: f64, y: f64, width: f64, height: f64) -> Value {
-    json!([
+pub fn corners(x: f64, y: f64, width: f64, height: f64) -> Vec<[f64; 2]> {
+    vec![
         [x, y],
         [x + width, y],
         [x + width, y + height],
-        [x, y + height]
-    ])
+        [x, y + height],
+    ]
+}
+
+/// The same as JSON.
+pub fn rectangle(x: f64, y: f64, width: f64, height: f64) -> Value {
+    json!(corners(x, y, width, height))
+}
+
+/// The same file with gravity rotated to the right.
+pub fn tilted(mut file: Value, degrees: f64) -> Value {
+    let (sin, cos) = libm::sincos(degrees.to_radians());
+    file["gravity"] = json!([9.81 * sin, -9.81 * cos]);
+    file
+}
+
+/// The same file with gravity and all polygons rotated about the origin. By 0° it stays as it is written.
+pub fn rotated(file: &Value, degrees: f64) -> Value {
+    if degrees == 0.0 {
+        return file.clone();
+    }
+    let (s, c) = libm::sincos(degrees.to_radians());
+    let mut file = file.clone();
+    for list in ["ground", "blocks"] {
+        for body in file[list].as_array_mut().expect("a list") {
+            for corner in body["polygon"].as_array_mut().expect("corners") {
+                let [x, y] = [0, 1].map(|k| corner[k].as_f64().expect("a number"));
+                *corner = json!([c * x - s * y, s * x + c * y]);
+            }
+        }
+    }
+    tilted(file, degrees)
+}
+
+/// A tower of n blocks, 1 m wide.
+pub fn tower(n: usize, height: f64) -> Value {
+    let brick = |k: usize| {
+        let at = rectangle(0.0, k as f64 * height, 1.0, height);
+        block(&format!("{k}"), at, 6.0)
+    };
+    on_floor(0.5, (0..n).map(brick).collect())
 }
 
 /// A block of weight in newtons.

@@ -2,16 +2,17 @@
 
 use std::time::{Duration, Instant};
 
-use clap::{Args, ValueEnum};
+use clap::Args;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
 use crate::analysis::{Accuracy, Options};
 
 /// How accurate, and whether by wedging.
 #[derive(Clone, Copy, Debug, Args)]
 pub(crate) struct AnalysisArgs {
-    /// draft: any balance, soon. standard: the unique forces. proved: no verdict without a hundred times better proof
-    #[arg(long, value_enum, value_name = "LEVEL", default_value = "standard")]
-    accuracy: Name,
+    /// standard: the unique forces. proved: the same, and no verdict without a proof that is a hundred times better
+    #[arg(long, value_name = "LEVEL", default_value = "standard", value_parser = accuracy_parser())]
+    accuracy: Accuracy,
     /// Tell whether each standing frame stands only by a self-stress that its loads do not build up from rest
     #[arg(long)]
     wedging: bool,
@@ -24,13 +25,6 @@ pub(crate) struct AnalysisArgs {
     time_limit: Option<Duration>,
 }
 
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum Name {
-    Draft,
-    Standard,
-    Proved,
-}
-
 impl AnalysisArgs {
     /// Whether `--wedging` was given.
     pub(crate) fn requests_wedging(self) -> bool {
@@ -39,12 +33,14 @@ impl AnalysisArgs {
 
     /// Each option with its value in words, as a record of what an answer depends on.
     pub(crate) fn described(self) -> [(&'static str, String); 4] {
-        let level = self.accuracy.to_possible_value();
-        let level = level.map_or_else(String::new, |value| value.get_name().to_owned());
+        let level = match self.accuracy {
+            Accuracy::Standard => "standard",
+            Accuracy::Proved => "proved",
+        };
         let tolerance = self.contact_tolerance.map(|metres| format!("{metres} m"));
         let limit = self.time_limit.map(|limit| format!("{limit:?}"));
         [
-            ("--accuracy", level),
+            ("--accuracy", level.to_owned()),
             ("--wedging", if self.wedging { "yes" } else { "no" }.into()),
             (
                 "--contact-tolerance",
@@ -56,13 +52,8 @@ impl AnalysisArgs {
 
     /// What an analysis is asked; a limit of time counts from here.
     pub(crate) fn options(self) -> Options {
-        let accuracy = match self.accuracy {
-            Name::Draft => Accuracy::Draft,
-            Name::Standard => Accuracy::Standard,
-            Name::Proved => Accuracy::Proved,
-        };
         Options {
-            accuracy,
+            accuracy: self.accuracy,
             wedging: self.wedging,
             deadline: self
                 .time_limit
@@ -70,6 +61,17 @@ impl AnalysisArgs {
             ..Options::default()
         }
     }
+}
+
+/// Reads a level of accuracy. `draft` was a third level, and its message says what replaces it.
+fn accuracy_parser() -> impl TypedValueParser<Value = Accuracy> {
+    let names = ["standard", "proved", "draft"];
+    let values = names.map(|name| PossibleValue::new(name).hide(name == "draft"));
+    PossibleValuesParser::new(values).try_map(|name| match name.as_str() {
+        "proved" => Ok(Accuracy::Proved),
+        "draft" => Err("the level \"draft\" was removed because it was not faster; use \"standard\", the default"),
+        _ => Ok(Accuracy::Standard),
+    })
 }
 
 fn length(typed: &str) -> Result<f64, String> {

@@ -356,7 +356,7 @@ impl Report {
                 scene.title = read[0].0.stem();
             }
             let measured = study(&[scene], &TOLERANCES, &mut |_| {});
-            entry.measured(&measured).map_err(|e| undone(&e))?;
+            entry.add_study(&measured).map_err(|e| undone(&e))?;
         }
         let piece = Piece::new(&entry, number, form, &self.stem()).map_err(|e| undone(&e))?;
         Ok(Ok((piece, ending.unwrap_or(ExitStatus::Done))))

@@ -14,7 +14,7 @@ use crate::cli::progress::{Progress, Shown};
 use crate::cli::terminal::Terminal;
 use crate::output::file::{Existing, WriteError};
 use crate::snapshot::check::{Acceptance, folders};
-use crate::snapshot::store::{self, Use};
+use crate::snapshot::store::{self, Access};
 use crate::snapshot::{CheckOutcome, DiscoveryError, check, ci, discover, review};
 
 /// Check scenes and their pictures against the references beside them, in words
@@ -65,8 +65,8 @@ impl Snapshot {
             Shown::Never
         };
         let folders = folders(found.jobs.iter().flat_map(|j| &j.parts).map(|p| &p.file));
-        let usage = if accepts { Use::Accept } else { Use::Check };
-        let turn = store::turn(folders, usage);
+        let access = if accepts { Access::Write } else { Access::Read };
+        let turn = store::lock_folders(folders, access);
         let progress = Progress::begin(found.jobs.len(), shown);
         let mut report = check(found, &|name| {
             progress.doing(name);
@@ -82,9 +82,9 @@ impl Snapshot {
             _ => String::new(),
         };
         let unwritten = if accepts {
-            report.settle(Acceptance::Accept)
+            report.store(Acceptance::Accept)
         } else {
-            report.settle(Acceptance::Beside)
+            report.store(Acceptance::Propose)
         };
         let mut written = Vec::new();
         if let Some(Some(file)) = &self.review {
@@ -192,7 +192,7 @@ impl Snapshot {
             return Ok(());
         }
         terminal.note(&report.summary());
-        if !report.holds() {
+        if !report.matches() {
             let places: Vec<String> = self
                 .folders
                 .iter()
@@ -208,7 +208,7 @@ impl Snapshot {
 fn ending(report: &CheckOutcome) -> ExitStatus {
     if !report.faults.is_empty() {
         ExitStatus::WrongInput
-    } else if report.holds() {
+    } else if report.matches() {
         ExitStatus::Done
     } else {
         ExitStatus::Unstable
@@ -229,9 +229,9 @@ fn complaints(faults: Vec<DiscoveryError>) -> Vec<CliError> {
             name: name(&path),
             problems,
         },
-        DiscoveryError::Unread { path, why } => CliError::NotRead {
+        DiscoveryError::Unreadable { path, reason } => CliError::NotRead {
             what: name(&path),
-            why,
+            why: reason,
         },
         DiscoveryError::Settings { path, problem } => {
             CliError::CommandLine(format!("{}:{problem}", path.display()))

@@ -34,9 +34,6 @@ pub struct Options {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Accuracy {
-    /// Any balance at all, from a solver that stops at [`Accuracy::LOOSE`]; verdicts are as honest as in `Standard`, but where a
-    /// load can go several ways the forces shown are one way of many, and may depend on the order of the file.
-    Draft,
     /// The unique forces; a verdict is believed as [`ProofThreshold::STANDARD`] says.
     #[default]
     Standard,
@@ -45,13 +42,10 @@ pub enum Accuracy {
 }
 
 impl Accuracy {
-    /// Where a draft's solver stops. See [`doc::accuracy`](crate::doc::accuracy).
-    pub const LOOSE: f64 = 1e-8;
-
     /// What a proof must come to.
     pub fn demand(self) -> ProofThreshold {
         match self {
-            Accuracy::Draft | Accuracy::Standard => ProofThreshold::STANDARD,
+            Accuracy::Standard => ProofThreshold::STANDARD,
             Accuracy::Proved => ProofThreshold::STRICT,
         }
     }
@@ -90,22 +84,14 @@ impl Options {
     /// The settings with which a program is tried, one after the other until a proof convinces.
     pub(super) fn solver_settings(self) -> Vec<SolverSettings> {
         let full = match self.accuracy {
-            Accuracy::Draft | Accuracy::Standard => SolverSettings::from(Conditioning::Full),
+            Accuracy::Standard => SolverSettings::from(Conditioning::Full),
             // A motion's violation is the solver's own: only a closer look makes it smaller.
             Accuracy::Proved => SolverSettings {
                 tolerance: TOLERANCE * 1e-2,
                 ..Conditioning::Full.into()
             },
         };
-        let draft = SolverSettings {
-            tolerance: Accuracy::LOOSE,
-            choice: Choice::Any,
-            ..Conditioning::Plain.into()
-        };
         let mut list = vec![SolverSettings::from(Conditioning::Plain), full];
-        if self.accuracy == Accuracy::Draft {
-            list.insert(0, draft);
-        }
         for one in &mut list {
             if self.verdict_only {
                 one.choice = Choice::Any;

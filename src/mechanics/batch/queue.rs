@@ -1,7 +1,8 @@
-//! [`in_order`]: work on a stream by several threads, answers in the order of the stream, within bounded memory.
+//! [`in_order`]: an ordered parallel map over a stream, with bounded memory.
 //!
-//! One thread reads, several work, and the caller's own takes the answers. An item counts from when it is read until its
-//! answer was taken, so that a slow item, or a slow taker, holds the reader back and not the memory full.
+//! One thread reads the items, several workers compute the answers, and the calling thread receives them. An item counts
+//! towards the [`Capacity`] from when it is read until its answer has been received. A slow item or a slow receiver
+//! therefore stops the reader, and the memory stays bounded.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::ops::ControlFlow;
@@ -9,19 +10,19 @@ use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 
-/// How much is under way at once.
+/// Limits for the items that are in progress at the same time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Capacity {
-    /// Threads that work.
+    /// The number of worker threads.
     pub threads: usize,
-    /// Items read whose answers were not taken yet, at most.
+    /// The largest number of items in progress.
     pub items: usize,
-    /// Bytes of these, at most; a single item may be larger.
+    /// The largest number of bytes in progress. A single item may be larger.
     pub bytes: usize,
 }
 
 impl Capacity {
-    /// For so many threads.
+    /// The limits for a number of threads: 64 items for each, so that a slow item stops no other thread, and 64 MiB.
     pub fn new(threads: usize) -> Capacity {
         let threads = threads.max(1);
         Capacity {
@@ -32,45 +33,52 @@ impl Capacity {
     }
 }
 
-/// How many bytes an item holds.
+/// The memory that an item occupies.
 pub trait ByteSize {
-    /// In bytes, about.
-    fn weight(&self) -> usize;
+    /// The approximate size in bytes.
+    fn byte_size(&self) -> usize;
 }
 
+/// The queue between the reader and the workers.
 struct State<T> {
+    /// Items that no worker has taken yet, with their numbers.
     waiting: VecDeque<(u64, T)>,
+    /// Items in progress, and their bytes.
     items: usize,
     bytes: usize,
+    /// Whether the reader has reached the end of the input.
     ended: bool,
+    /// Whether the receiver needs no more answers.
     stopped: bool,
 }
 
 struct Shared<T> {
     state: Mutex<State<T>>,
+    /// Signalled when an item is waiting or the input has ended.
     work: Condvar,
-    room: Condvar,
+    /// Signalled when an answer was received, which leaves space for an item.
+    space: Condvar,
 }
 
 impl<T> Shared<T> {
     fn lock(&self) -> MutexGuard<'_, State<T>> {
-        // Counts and a list are sound at every moment, whoever held them last.
+        // A poisoned lock is safe to use: no thread leaves the counts or the list half changed.
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-/// Answers every item of a stream and hands the answers to `taken` in the stream's order.
+/// Calls `work` for every item of a stream and `receive` for every answer, in the order of the stream.
 ///
-/// `taken` is called with `None` whenever no answer is ready, which is the time to flush, and ends everything by
-/// `Break`. The reader is left behind where it waits for input that nobody needs any more.
+/// `receive` gets `None` whenever no answer is ready, which is the time to flush an output. It stops everything with
+/// `Break`. A reader that is waiting for input at that moment keeps its thread until the input comes.
 ///
 /// # Panics
-/// `work` must not panic: its answer would be waited for in vain.
+/// `work` must not panic: `in_order` would wait for its answer for ever.
 pub fn in_order<T, R>(
     input: impl Iterator<Item = T> + Send + 'static,
-    room: Capacity,
+    capacity: Capacity,
     work: impl Fn(T) -> R + Send + Sync + 'static,
-    mut taken: impl FnMut(Option<R>) -> ControlFlow<()>,
+    mut receive: impl FnMut(Option<R>) -> ControlFlow<()>,
 ) where
     T: ByteSize + Send + 'static,
     R: Send + 'static,
@@ -84,35 +92,37 @@ pub fn in_order<T, R>(
             stopped: false,
         }),
         work: Condvar::new(),
-        room: Condvar::new(),
+        space: Condvar::new(),
     });
     let (sender, answers) = channel();
     let work = Arc::new(work);
-    for _ in 0..room.threads.max(1) {
+    for _ in 0..capacity.threads.max(1) {
         let (shared, work, sender) = (Arc::clone(&shared), Arc::clone(&work), sender.clone());
         thread::spawn(move || answer_all(&shared, &*work, &sender));
     }
     drop(sender);
     let reading = Arc::clone(&shared);
-    thread::spawn(move || read_all(&reading, input, room));
-    take_all(&shared, &answers, &mut taken);
+    thread::spawn(move || read_all(&reading, input, capacity));
+    receive_all(&shared, &answers, &mut receive);
     let mut state = shared.lock();
     state.stopped = true;
     state.waiting.clear();
     drop(state);
     shared.work.notify_all();
-    shared.room.notify_all();
+    shared.space.notify_all();
 }
 
-fn read_all<T: ByteSize>(shared: &Shared<T>, input: impl Iterator<Item = T>, room: Capacity) {
+/// The reader: queues items while there is space for them.
+fn read_all<T: ByteSize>(shared: &Shared<T>, input: impl Iterator<Item = T>, capacity: Capacity) {
     for (number, item) in (0..).zip(input) {
-        let weight = item.weight();
+        let size = item.byte_size();
         let mut state = shared.lock();
-        let is_full =
-            |s: &State<T>| s.items > 0 && (s.items >= room.items || s.bytes + weight > room.bytes);
+        let is_full = |s: &State<T>| {
+            s.items > 0 && (s.items >= capacity.items || s.bytes + size > capacity.bytes)
+        };
         while is_full(&state) && !state.stopped {
             state = shared
-                .room
+                .space
                 .wait(state)
                 .unwrap_or_else(PoisonError::into_inner);
         }
@@ -120,7 +130,7 @@ fn read_all<T: ByteSize>(shared: &Shared<T>, input: impl Iterator<Item = T>, roo
             return;
         }
         state.items += 1;
-        state.bytes += weight;
+        state.bytes += size;
         state.waiting.push_back((number, item));
         drop(state);
         shared.work.notify_one();
@@ -129,6 +139,7 @@ fn read_all<T: ByteSize>(shared: &Shared<T>, input: impl Iterator<Item = T>, roo
     shared.work.notify_all();
 }
 
+/// A worker: takes items and sends their answers until the input has ended.
 fn answer_all<T: ByteSize, R>(
     shared: &Shared<T>,
     work: &impl Fn(T) -> R,
@@ -152,26 +163,27 @@ fn answer_all<T: ByteSize, R>(
             }
         };
         drop(state);
-        let weight = item.weight();
-        if answers.send((number, weight, work(item))).is_err() {
+        let size = item.byte_size();
+        if answers.send((number, size, work(item))).is_err() {
             return;
         }
     }
 }
 
-fn take_all<T, R>(
+/// The receiver: puts the answers into order and passes them on.
+fn receive_all<T, R>(
     shared: &Shared<T>,
     answers: &Receiver<(u64, usize, R)>,
-    taken: &mut impl FnMut(Option<R>) -> ControlFlow<()>,
+    receive: &mut impl FnMut(Option<R>) -> ControlFlow<()>,
 ) {
-    // Answers that came before their turn.
+    // Answers that arrived before those of earlier items.
     let mut early: BTreeMap<u64, (usize, R)> = BTreeMap::new();
     let mut next = 0;
     loop {
-        let (number, weight, answer) = match answers.try_recv() {
+        let (number, size, answer) = match answers.try_recv() {
             Ok(answer) => answer,
             Err(TryRecvError::Empty) => {
-                if taken(None).is_break() {
+                if receive(None).is_break() {
                     return;
                 }
                 match answers.recv() {
@@ -180,17 +192,17 @@ fn take_all<T, R>(
                 }
             }
             Err(TryRecvError::Disconnected) => {
-                let _ = taken(None);
+                let _ = receive(None);
                 return;
             }
         };
-        early.insert(number, (weight, answer));
+        early.insert(number, (size, answer));
         let (mut items, mut bytes) = (0, 0);
-        while let Some((weight, answer)) = early.remove(&next) {
+        while let Some((size, answer)) = early.remove(&next) {
             next += 1;
             items += 1;
-            bytes += weight;
-            if taken(Some(answer)).is_break() {
+            bytes += size;
+            if receive(Some(answer)).is_break() {
                 return;
             }
         }
@@ -199,7 +211,7 @@ fn take_all<T, R>(
             state.items -= items;
             state.bytes -= bytes;
             drop(state);
-            shared.room.notify_one();
+            shared.space.notify_one();
         }
     }
 }
@@ -212,12 +224,12 @@ mod tests {
     use super::*;
 
     impl ByteSize for usize {
-        fn weight(&self) -> usize {
+        fn byte_size(&self) -> usize {
             100
         }
     }
 
-    const ROOM: Capacity = Capacity {
+    const CAPACITY: Capacity = Capacity {
         threads: 4,
         items: 16,
         bytes: 1_000_000,
@@ -229,17 +241,26 @@ mod tests {
             thread::sleep(Duration::from_micros((n * 7919 % 13) as u64 * 100));
             n
         };
-        let mut described = Vec::new();
-        in_order(0..500, ROOM, work, |answer| {
-            described.extend(answer);
+        let mut received = Vec::new();
+        in_order(0..500, CAPACITY, work, |answer| {
+            received.extend(answer);
             ControlFlow::Continue(())
         });
-        assert_eq!(described, (0..500).collect::<Vec<_>>());
+        assert_eq!(received, (0..500).collect::<Vec<_>>());
     }
 
     #[test]
-    fn no_more_is_read_than_there_is_room_for() {
-        for (room, most) in [(ROOM, 16), (Capacity { bytes: 500, ..ROOM }, 5)] {
+    fn no_more_items_are_read_than_the_capacity_allows() {
+        for (capacity, most) in [
+            (CAPACITY, 16),
+            (
+                Capacity {
+                    bytes: 500,
+                    ..CAPACITY
+                },
+                5,
+            ),
+        ] {
             let read = Arc::new(AtomicUsize::new(0));
             let counted = Arc::clone(&read);
             let input = (0..200).inspect(move |_| {
@@ -249,10 +270,10 @@ mod tests {
             let mut worst = 0;
             in_order(
                 input,
-                room,
+                capacity,
                 |n: usize| n,
                 |answer| {
-                    // The one that waits for room has been read too.
+                    // The item that waits for space has been read too.
                     worst = worst.max(read.load(Ordering::SeqCst) - taken);
                     taken += answer.iter().count();
                     thread::sleep(Duration::from_micros(50));
@@ -260,57 +281,63 @@ mod tests {
                 },
             );
             assert_eq!(taken, 200);
-            assert!(worst <= most + 1, "{worst} under way in a room for {most}");
+            assert!(
+                worst <= most + 1,
+                "{worst} in progress, and the limit is {most}"
+            );
         }
     }
 
     #[test]
-    fn one_item_larger_than_the_room_goes_through() {
-        let mut described = 0;
-        let room = Capacity { bytes: 10, ..ROOM };
+    fn an_item_larger_than_the_capacity_goes_through() {
+        let mut received = 0;
+        let capacity = Capacity {
+            bytes: 10,
+            ..CAPACITY
+        };
         in_order(
             0..20,
-            room,
+            capacity,
             |n: usize| n,
             |answer| {
-                described += answer.iter().count();
+                received += answer.iter().count();
                 ControlFlow::Continue(())
             },
         );
-        assert_eq!(described, 20);
+        assert_eq!(received, 20);
     }
 
     #[test]
-    fn a_taker_who_has_enough_ends_it_though_the_input_never_ends() {
-        let mut described = 0;
+    fn a_receiver_stops_an_input_that_never_ends() {
+        let mut received = 0;
         in_order(
             0..,
-            ROOM,
+            CAPACITY,
             |n: usize| n,
             |answer| {
-                described += answer.iter().count();
-                match described {
+                received += answer.iter().count();
+                match received {
                     100 => ControlFlow::Break(()),
                     _ => ControlFlow::Continue(()),
                 }
             },
         );
-        assert_eq!(described, 100);
+        assert_eq!(received, 100);
     }
 
     #[test]
     fn an_answer_is_handed_on_before_the_next_item_comes() {
         let (sender, receiver) = channel::<usize>();
         sender.send(0).expect("open");
-        let mut described = Vec::new();
+        let mut received = Vec::new();
         in_order(
             receiver.into_iter(),
-            ROOM,
+            CAPACITY,
             |n| n,
             |answer| {
-                described.extend(answer);
-                // The next item is sent only once the last was answered.
-                match (answer, described.len()) {
+                received.extend(answer);
+                // The next item is sent only after the last answer.
+                match (answer, received.len()) {
                     (Some(_), 3) => return ControlFlow::Break(()),
                     (Some(n), _) => sender.send(n + 1).expect("open"),
                     (None, _) => {}
@@ -318,6 +345,6 @@ mod tests {
                 ControlFlow::Continue(())
             },
         );
-        assert_eq!(described, [0, 1, 2]);
+        assert_eq!(received, [0, 1, 2]);
     }
 }

@@ -1,4 +1,4 @@
-//! [`Records`]: the scenes of a batch as bytes, read one at a time.
+//! [`Records`]: reads the scenes of a batch as bytes, one at a time.
 
 use std::fmt;
 use std::fs::File;
@@ -9,33 +9,33 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::ByteSize;
 
-/// The longest record that is read, bytes: a line that never ends must not fill the memory.
-pub const LONGEST: usize = 1 << 28;
+/// The longest record in bytes, 256 MiB. The limit keeps a line that never ends from filling the memory.
+const MAX_RECORD_BYTES: usize = 1 << 28;
 
-/// One scene as it was found.
+/// The text of one scene, not parsed yet.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Record {
-    /// The file it stands in, as given; absent for standard input.
+    /// Its file, as given by the user; `None` for standard input.
     pub file: Option<PathBuf>,
-    /// The line it is, from 1; absent where it is a file of its own.
+    /// Its line, counted from 1; `None` for a scene in a file of its own.
     pub line: Option<usize>,
-    /// Its bytes without the line's end, or why they could not be read.
+    /// Its bytes without the line ending, or the reason why they could not be read.
     pub bytes: Result<Vec<u8>, String>,
 }
 
 impl ByteSize for Record {
-    fn weight(&self) -> usize {
+    fn byte_size(&self) -> usize {
         self.bytes.as_ref().map_or(0, Vec::len)
     }
 }
 
-/// Where records come from.
+/// A source of records.
 pub enum Input {
     /// A scene on every line.
     Lines {
-        /// The file, where it is one.
+        /// The file, unless it is a stream.
         file: Option<PathBuf>,
-        /// What is read; opened when its turn comes where absent.
+        /// The open stream. If `None`, the file is opened when the earlier inputs have been read.
         reader: Option<Box<dyn Read + Send>>,
     },
     /// A scene in a file of its own.
@@ -52,7 +52,7 @@ impl fmt::Debug for Input {
 }
 
 impl Input {
-    /// Lines of a stream that is open.
+    /// The lines of an open stream.
     pub fn lines(file: Option<PathBuf>, reader: Box<dyn Read + Send>) -> Input {
         Input::Lines {
             file,
@@ -61,8 +61,8 @@ impl Input {
     }
 }
 
-/// The records of some inputs, one after the other. Every line is a record, an empty one too, so that the answers can be
-/// laid beside the lines; the end of the last line may be missing.
+/// An iterator over the records of several inputs. Every line is a record, also an empty one, so that answer N belongs to
+/// line N. The last line needs no line ending.
 #[derive(Debug)]
 pub struct Records {
     inputs: std::vec::IntoIter<Input>,
@@ -92,7 +92,7 @@ impl Records {
         }
     }
 
-    /// How many bytes have been read, for as long as anybody wants to know.
+    /// A shared counter of the bytes read so far, for progress displays.
     pub fn read(&self) -> Arc<AtomicU64> {
         Arc::clone(&self.read)
     }
@@ -103,13 +103,15 @@ impl Records {
 
     fn whole(&self, path: PathBuf) -> Record {
         let mut bytes = Vec::new();
-        let read = File::open(&path)
-            .and_then(|file| file.take(LONGEST as u64 + 1).read_to_end(&mut bytes));
+        let read = File::open(&path).and_then(|file| {
+            file.take(MAX_RECORD_BYTES as u64 + 1)
+                .read_to_end(&mut bytes)
+        });
         self.add(bytes.len());
         let bytes = match read {
-            Ok(size) if size > LONGEST => Err(too_long()),
+            Ok(size) if size > MAX_RECORD_BYTES => Err(too_long()),
             Ok(_) => Ok(bytes),
-            Err(error) => Err(unread(&error)),
+            Err(error) => Err(unreadable(&error)),
         };
         Record {
             file: Some(path),
@@ -134,7 +136,7 @@ impl Iterator for Records {
                         line: Some(number),
                         bytes,
                     };
-                    // A stream that fails once is not asked again: it might fail for ever.
+                    // Do not read on after an error: the stream could return the same error for ever.
                     if size == 0 {
                         self.open = None;
                     }
@@ -165,7 +167,7 @@ impl Iterator for Records {
                             return Some(Record {
                                 file,
                                 line: None,
-                                bytes: Err(unread(&error)),
+                                bytes: Err(unreadable(&error)),
                             });
                         }
                     }
@@ -175,7 +177,7 @@ impl Iterator for Records {
     }
 }
 
-/// How many bytes the next line took, its end included, and the line; 0 bytes at the end of the stream.
+/// The next line, and the number of bytes it took with its line ending: 0 at the end of the stream.
 fn next_line(reader: &mut impl BufRead) -> (usize, Result<Vec<u8>, String>) {
     let mut line = Vec::new();
     let mut size = 0;
@@ -183,15 +185,15 @@ fn next_line(reader: &mut impl BufRead) -> (usize, Result<Vec<u8>, String>) {
         let found = match reader.fill_buf() {
             Ok(found) => found,
             Err(error) if error.kind() == io::ErrorKind::Interrupted => continue,
-            Err(error) => return (0, Err(unread(&error))),
+            Err(error) => return (0, Err(unreadable(&error))),
         };
         if found.is_empty() {
             break;
         }
         let end = found.iter().position(|b| *b == b'\n');
         let piece = &found[..end.unwrap_or(found.len())];
-        // What is too long is read to its end and not kept.
-        if size + piece.len() <= LONGEST {
+        // Read the rest of a line that is too long, but do not keep it.
+        if size + piece.len() <= MAX_RECORD_BYTES {
             line.extend_from_slice(piece);
         }
         let used = piece.len() + usize::from(end.is_some());
@@ -201,7 +203,7 @@ fn next_line(reader: &mut impl BufRead) -> (usize, Result<Vec<u8>, String>) {
             break;
         }
     }
-    if size > LONGEST + 1 {
+    if size > MAX_RECORD_BYTES + 1 {
         return (size, Err(too_long()));
     }
     if line.last() == Some(&b'\r') {
@@ -211,10 +213,10 @@ fn next_line(reader: &mut impl BufRead) -> (usize, Result<Vec<u8>, String>) {
 }
 
 fn too_long() -> String {
-    format!("it is longer than {} MiB", LONGEST >> 20)
+    format!("it is longer than {} MiB", MAX_RECORD_BYTES >> 20)
 }
 
-fn unread(error: &io::Error) -> String {
+fn unreadable(error: &io::Error) -> String {
     format!("it cannot be read: {error}")
 }
 
@@ -222,14 +224,14 @@ fn unread(error: &io::Error) -> String {
 mod tests {
     use super::*;
 
-    /// A stream of so many bytes, `x` after `x`, then an end of line and one more line.
+    /// `size` times `x`, a line ending, and one more line.
     fn endless(size: usize) -> impl Read {
         io::repeat(b'x').take(size as u64).chain(&b"\nafter\n"[..])
     }
 
     #[test]
-    fn a_line_that_is_too_long_is_told_and_the_next_is_read() {
-        let input = Input::lines(None, Box::new(endless(LONGEST + 5)));
+    fn a_line_that_is_too_long_is_reported_and_the_next_is_read() {
+        let input = Input::lines(None, Box::new(endless(MAX_RECORD_BYTES + 5)));
         let records: Vec<Record> = Records::new(vec![input]).collect();
         assert_eq!(records.len(), 2);
         assert!(
@@ -242,14 +244,14 @@ mod tests {
     }
 
     #[test]
-    fn ends_of_lines_are_no_part_of_them() {
+    fn records_do_not_contain_line_endings() {
         let input = Input::lines(None, Box::new(&b"a\r\n\nb"[..]));
         let bytes: Vec<_> = Records::new(vec![input]).map(|r| r.bytes).collect();
         assert_eq!(bytes, [Ok(b"a".to_vec()), Ok(vec![]), Ok(b"b".to_vec())]);
     }
 
     #[test]
-    fn a_file_that_is_not_there_is_a_record_that_says_so() {
+    fn a_missing_file_gives_a_record_with_an_error() {
         let gone = PathBuf::from("no/such/file.json");
         let inputs = vec![
             Input::Whole(gone.clone()),

@@ -1,15 +1,17 @@
-//! [`Session`]: a structure that grows and shrinks by one block at a time, with a verdict after every step.
+//! [`Session`]: places and removes blocks one by one, with a verdict after every step.
 //!
-//! For loops that ask after each step, as a planner or a training loop does. What was found for the last step is the first
-//! guess for the next, and is believed for its proof alone: a verdict of a session is the one that the same blocks and
-//! holds have in a scene file of their own. On a lattice a step costs what is new; elsewhere the blocks are read anew with
-//! each one that comes, since the tolerance within which edges touch is that of all coordinates together.
+//! A session is for planners and training loops that need a verdict after each step. The solution of the last step is the
+//! warm start for the next. It is accepted only with a proof, so a session gives the same verdict as a scene file with the
+//! same blocks and holds.
+//!
+//! On a lattice, a step costs only what is new: contacts are decided by whole numbers. In other scenes, every new block can
+//! change the contact tolerance, which depends on all coordinates. The scene is therefore read again after each step.
 
-mod refusal;
+mod error;
 
 use std::collections::BTreeMap;
 
-pub use refusal::SessionError;
+pub use error::SessionError;
 
 use crate::analysis::{
     Analysis, MarginKinds, Margins, Options, Source, Verdict, WarmStart, hinges_on_gaps,
@@ -41,13 +43,13 @@ use crate::scene::{BlockId, BodyId, Hold, RobotId, Scene, SceneError};
 /// ```
 #[derive(Clone, Debug)]
 pub struct Session {
-    /// What was given, with the blocks that stand and without who holds what.
+    /// The given scene file with the blocks placed so far, without holds.
     file: SceneFile,
-    /// The same without bodies, robots and loads: what a block is read by.
+    /// The same without bodies, robots and loads: the context for reading a single block.
     bare: SceneFile,
-    /// Who holds which block, where it was said at which point.
+    /// The block that each robot holds, with the grip point if it was given.
     grips: BTreeMap<RobotId, (String, Option<Point>)>,
-    /// The same, checked, its one frame being what stands. On a lattice blocks that were removed are still in it.
+    /// The checked scene. Its only frame contains the placed blocks. On a lattice, it still contains blocks that were removed.
     scene: Scene,
     found: Interfaces,
     lookup: Lookup,
@@ -57,26 +59,25 @@ pub struct Session {
     source: Source,
 }
 
-/// What is looked up of the blocks that stand.
+/// Indices of the placed blocks.
 #[derive(Clone, Debug, Default)]
 struct Lookup {
     numbers: BTreeMap<String, BlockId>,
-    /// On a lattice: who is in which cell, and who has which edges.
+    /// On a lattice: the body in each cell, and the bodies at each edge.
     cells: BTreeMap<Cell, BodyId>,
     edges: LatticeEdges,
 }
 
 impl Session {
-    /// Begins with a scene: its ground, robots, shapes and materials, and the blocks that stand already.
+    /// Starts with a scene: ground, robots, shapes, materials, and the blocks that are placed already.
     ///
     /// # Errors
-    /// What is wrong with the scene; and steps, which are the session's own.
+    /// If the scene is not valid, or has steps.
     pub fn new(file: SceneFile) -> Result<Session, SessionError> {
         Session::with(file, Options::default())
     }
 
-    /// Begins with a scene, and verdicts as accurate as asked for. Margins and wedging are not found out; a deadline is one
-    /// for all steps.
+    /// Starts with a scene and options. Margins and wedging are not computed. A deadline applies to all steps together.
     ///
     /// # Errors
     /// As [`Session::new`].
@@ -115,32 +116,32 @@ impl Session {
         for (block, read) in session.file.blocks.iter_mut().zip(&session.scene.blocks) {
             block.id = Some(read.id.clone());
         }
-        session.judge();
+        session.update_verdict();
         Ok(session)
     }
 
-    /// Places a block. Without an id it has the least number, from 1, that is no other's.
+    /// Places a block. Without an id, it gets the smallest number from 1 that no other block has.
     ///
     /// # Errors
-    /// Everything that is wrong with it, such as an overlap with what stands; nothing is placed then.
+    /// If the block is not valid, for example because it overlaps another block. It is not placed then.
     pub fn place(&mut self, mut block: BlockEntry) -> Result<Verdict, SessionError> {
         let id = block.id.get_or_insert_with(|| self.free_number()).clone();
         if self.lookup.numbers.contains_key(&id) {
             return Err(SessionError::Twice(id));
         }
-        let grown = self.grows() && self.grow(&block)?;
+        let added = self.is_incremental() && self.add_cells(&block)?;
         self.file.blocks.push(block);
-        if !grown && let Err(problems) = self.read_anew() {
+        if !added && let Err(problems) = self.read_again() {
             self.file.blocks.pop();
             return Err(problems.into());
         }
-        Ok(self.judge())
+        Ok(self.update_verdict())
     }
 
-    /// Takes a block away, with the loads on it.
+    /// Removes a block and the loads on it.
     ///
     /// # Errors
-    /// No such block stands, or a robot holds it; nothing is taken away then.
+    /// If no such block is placed, or a robot holds it. Nothing is removed then.
     pub fn remove(&mut self, block: &str) -> Result<Verdict, SessionError> {
         let number = self.block(block)?;
         if let Some(hold) = self.scene.frames[0]
@@ -154,7 +155,7 @@ impl Session {
         self.file.loads.retain(|load| load.block != block);
         let named = |entry: &BlockEntry| entry.id.as_deref() == Some(block);
         self.file.blocks.retain(|entry| !named(entry));
-        if self.grows() {
+        if self.is_incremental() {
             let id = BodyId::Block(number);
             let cells = self.scene.blocks[number.0].body.cells.clone();
             self.lookup.remove(block, id, &cells.unwrap_or_default());
@@ -162,17 +163,17 @@ impl Session {
             self.scene.loads.retain(|load| load.block != number);
             self.scene.frames[0].placed.retain(|b| *b != number);
         } else {
-            // Numbers and the tolerance are others now.
+            // Reading the scene again changes block numbers and the tolerance, so the last solution does not fit any more.
             self.guess = WarmStart::default();
-            self.read_anew()?;
+            self.read_again()?;
         }
-        Ok(self.judge())
+        Ok(self.update_verdict())
     }
 
-    /// Has a robot hold a block, at a point in metres or at its centroid.
+    /// Makes a robot hold a block, at a point in metres or at its centroid.
     ///
     /// # Errors
-    /// No such robot, no such block, a point that is no number, or the robot holds another block.
+    /// If the robot or block does not exist, the point is not valid, or the robot holds another block.
     pub fn hold(
         &mut self,
         robot: &str,
@@ -199,13 +200,13 @@ impl Session {
         });
         holds.sort_by_key(|hold| hold.robot);
         self.grips.insert(robot_id, (block.into(), at));
-        Ok(self.judge())
+        Ok(self.update_verdict())
     }
 
-    /// Has a robot let go.
+    /// Makes a robot release its block.
     ///
     /// # Errors
-    /// No such robot, or it holds nothing.
+    /// If the robot does not exist or holds nothing.
     pub fn release(&mut self, robot: &str) -> Result<Verdict, SessionError> {
         let id = self.robot(robot)?;
         let holds = &mut self.scene.frames[0].holds;
@@ -215,32 +216,32 @@ impl Session {
             return Err(SessionError::HoldsNothing(robot.into()));
         }
         self.grips.remove(&id);
-        Ok(self.judge())
+        Ok(self.update_verdict())
     }
 
-    /// The verdict on what stands.
+    /// The verdict on the placed blocks.
     pub fn verdict(&self) -> Verdict {
         self.verdict
     }
 
-    /// What that verdict came from.
+    /// How this verdict was obtained.
     pub fn source(&self) -> Source {
         self.source
     }
 
-    /// What stands as a scene of one frame, for figures and for all that a verdict does not tell. On a lattice the blocks
-    /// that were removed are in it too, in no frame.
+    /// The placed blocks as a scene with one frame, for figures and further analysis. On a lattice, it also contains removed
+    /// blocks, which are in no frame.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
 
-    /// Everything there is to find out about what stands.
+    /// The complete analysis of the placed blocks.
     pub fn analysis(&self) -> Analysis {
         Analysis::with(&self.scene, &self.options)
     }
 
-    /// At which values of friction, tilt, loads, kernel and robot limits what stands does so: the margins that
-    /// [`Session::analysis`] finds with [`Options::margins`].
+    /// The margins of the placed blocks: the values of friction, tilt, loads, kernel and robot limits at which they stand. They
+    /// are those of [`Session::analysis`] with [`Options::margins`].
     ///
     /// ```
     /// use drystone::scene::format::BlockEntry;
@@ -258,7 +259,8 @@ impl Session {
         frames.into_iter().next()?.margins
     }
 
-    fn judge(&mut self) -> Verdict {
+    /// Computes the verdict after a step.
+    fn update_verdict(&mut self) -> Verdict {
         (self.verdict, self.source) = if hinges_on_gaps(&self.scene, &self.found) {
             let frames = Analysis::with(&self.scene, &self.options).frames;
             let verdict = frames.first().map_or(Verdict::Stable, |f| f.verdict);
@@ -275,14 +277,14 @@ impl Session {
         self.verdict
     }
 
-    /// Whether what is new is all that a block brings: on a lattice, where no other block changes what touches.
-    fn grows(&self) -> bool {
+    /// Whether a new block leaves all other contacts unchanged: on a lattice without corner contacts.
+    fn is_incremental(&self) -> bool {
         self.scene.exact && !self.scene.corner_contacts
     }
 
-    /// Adds a block of cells to what stands; false where that takes a closer look, at a block that is none or that is in
-    /// the way of another.
-    fn grow(&mut self, block: &BlockEntry) -> Result<bool, SceneError> {
+    /// Adds a block of cells without reading the scene again. Returns false if the block has no cells or overlaps another
+    /// block: reading the scene then gives the error message.
+    fn add_cells(&mut self, block: &BlockEntry) -> Result<bool, SceneError> {
         let alone = Scene::new(SceneFile {
             blocks: vec![block.clone()],
             ..self.bare.clone()
@@ -307,8 +309,8 @@ impl Session {
         Ok(true)
     }
 
-    /// Reads all blocks that stand as one scene; where something is wrong with it, all stays as it is.
-    fn read_anew(&mut self) -> Result<(), SceneError> {
+    /// Reads all placed blocks as one scene. After an error, the session is unchanged.
+    fn read_again(&mut self) -> Result<(), SceneError> {
         let mut scene = Scene::new(self.file.clone())?;
         self.lookup = Lookup::new(&scene);
         let grips = self.grips.iter();

@@ -3,7 +3,7 @@
 use super::verdict::word;
 use super::words::letter;
 use crate::analysis::{Analysis, Verdict};
-use crate::wording::verdict::lacks;
+use crate::wording::verdict::reasons;
 
 /// What a figure of an analysis shows: its title, and for every frame its verdict and what it lacks to stand.
 ///
@@ -29,17 +29,17 @@ pub fn caption(analysis: &Analysis) -> String {
             Verdict::Undecided => format!("is {verdict}"),
             _ => verdict.to_owned(),
         };
-        let lacks = lacks(scene, found);
-        let lacks = if lacks.is_empty() {
+        let reasons = reasons(scene, found);
+        let reasons = if reasons.is_empty() {
             String::new()
         } else {
-            format!(": {lacks}")
+            format!(": {reasons}")
         };
         let title = &scene.frames[number].title;
         sentences.push(match (several, title.as_str()) {
-            (false, _) => format!("It {verdict}{lacks}."),
-            (true, "") => format!("({}) It {verdict}{lacks}.", letter(number)),
-            (true, title) => format!("({}) {title}: it {verdict}{lacks}.", letter(number)),
+            (false, _) => format!("It {verdict}{reasons}."),
+            (true, "") => format!("({}) It {verdict}{reasons}.", letter(number)),
+            (true, title) => format!("({}) {title}: it {verdict}{reasons}.", letter(number)),
         });
     }
     sentences.join(" ")

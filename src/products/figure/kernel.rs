@@ -10,7 +10,7 @@ use super::legend::{self, Entry};
 use super::panel::composed;
 use super::pen::Pen;
 use super::verdict;
-use super::words::{ALL, percent, quantity};
+use super::words::{FULL, percent, quantity};
 use crate::analysis::{Contact, FrameAnalysis, Verdict};
 use crate::drawing::{Camera, Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
 use crate::geometry::{Bounds, Point};
@@ -113,7 +113,7 @@ impl PanelContent for Kernel {
         let at_end = bearings
             .iter()
             .filter_map(share)
-            .filter(|s| *s >= ALL)
+            .filter(|s| *s >= FULL)
             .count();
         if at_end > 1 {
             return format!(
@@ -138,7 +138,7 @@ impl PanelContent for Kernel {
 
 /// Whether a resultant sits at an end of its safe stretch.
 fn at_end(bearing: &Bearing) -> bool {
-    bearing.eccentricity.is_some_and(|share| share >= ALL)
+    bearing.eccentricity.is_some_and(|share| share >= FULL)
 }
 
 fn bold(unit: f64) -> f64 {

@@ -12,7 +12,7 @@ use super::legend::{self, Entry};
 use super::panel::composed;
 use super::pen::Pen;
 use super::verdict;
-use super::words::{ALL, counted, percent, quantity};
+use super::words::{FULL, counted, percent, quantity};
 use crate::analysis::{Contact, FrameAnalysis, Verdict};
 use crate::drawing::{Camera, Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
 use crate::geometry::Bounds;
@@ -53,7 +53,7 @@ impl PanelContent for Utilisation {
         for contact in &found.contacts {
             let [from, to] = contact.interface.ends.map(|p| camera.place(p));
             ink.line(from, to, bold + 2.0);
-            if contact.friction_used >= ALL {
+            if contact.friction_used >= FULL {
                 let [from, to] = across(&pen, contact);
                 ink.line(from, to, 3.0);
             }
@@ -85,7 +85,7 @@ impl PanelContent for Utilisation {
         let spent = frames
             .iter()
             .flat_map(|f| &f.robots)
-            .any(|r| r.limit_used >= ALL);
+            .any(|r| r.limit_used >= FULL);
         if spent || all.iter().flatten().any(full) {
             let all = if spent {
                 "all of it".to_owned()
@@ -121,7 +121,7 @@ impl PanelContent for Utilisation {
 }
 
 fn full(bearing: &Bearing) -> bool {
-    bearing.friction.is_some_and(|share| share >= ALL)
+    bearing.friction.is_some_and(|share| share >= FULL)
 }
 
 fn limited(scene: &Scene, robot: usize) -> bool {
@@ -311,7 +311,7 @@ fn robots(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
         let mut drawn = Group::with_class("limit")
             .titled(title)
             .with(disc.with_stroke(rim));
-        if robot.limit_used >= ALL {
+        if robot.limit_used >= FULL {
             let bar = Outline::line([at.moved(0.0, -1.25 * radius), at.moved(0.0, 1.25 * radius)]);
             drawn = drawn.with(Path::stroked(bar, Stroke::new(theme.ink, 1.4)));
         }

@@ -1,7 +1,9 @@
-//! What accuracy costs, for people: a page, a table, a picture.
+//! Writes an accuracy study as a page, a table or a picture.
 //!
-//! All are made from one [`Study`] and dated by the version that was measured, not by a clock. The JSON form is
-//! [`result::accuracy_json`](crate::result::accuracy_json).
+//! All forms come from one [`Study`]. They state the version of drystone, but no date. [`result::accuracy_json`] writes the
+//! same study as JSON.
+//!
+//! [`result::accuracy_json`]: crate::result::accuracy_json
 
 mod picture;
 
@@ -18,10 +20,10 @@ use crate::study::{Case, Mark, Method, Run, Study, Summary, summary};
 use crate::text;
 use crate::wording::verdict::plain;
 
-/// Errors below this are drawn and told as this: nothing in f64 is nearer than its last bit.
-const LEAST: f64 = 1e-16;
-/// An error is drawn no higher than this, and a point without one there.
-const MOST: f64 = 1.0;
+/// Smaller errors are shown as this: the unit roundoff of f64 is 1.1e-16, so they are rounding.
+const MIN_SHOWN_ERROR: f64 = 1e-16;
+/// Larger errors, and runs without an error, are drawn at this value.
+const MAX_SHOWN_ERROR: f64 = 1.0;
 
 const STYLE: &str = include_str!("../../../assets/accuracy.css");
 
@@ -33,11 +35,11 @@ fn frames(study: &Study) -> String {
     }
 }
 
-/// How every page begins: which version, and on what the numbers depend.
+/// The first sentences of every page: the version, and what the numbers depend on.
 pub fn heading(study: &Study) -> String {
     format!(
-        "drystone {}, {}. Times are medians of this run and mean something only beside each other; verdicts, errors \
-         and iterations are the same everywhere.",
+        "drystone {}, {}. Times are medians of this run, and only their ratios are meaningful. Verdicts, errors and \
+         iterations are the same on every machine.",
         env!("CARGO_PKG_VERSION"),
         frames(study)
     )
@@ -52,21 +54,23 @@ fn colour(method: Method) -> [u8; 3] {
         Method::ForceForm => [150, 150, 150],
         Method::Kinematic => [120, 185, 225],
         Method::Unique => [40, 125, 190],
-        Method::Level(Accuracy::Draft) => [150, 200, 110],
         Method::Level(Accuracy::Standard) => [55, 145, 70],
         Method::Level(Accuracy::Proved) => [15, 85, 50],
     }
 }
 
-/// Time against error, a line per method, the front of what no other beats, and wrong verdicts struck out in red.
+/// A chart of time against error: a line for each method, the Pareto front, and red crosses for wrong verdicts.
 ///
 /// # Errors
-/// Where the picture cannot be drawn.
+/// If the chart cannot be drawn.
 pub fn svg(study: &Study) -> Result<String, ChartError> {
     let lines = summary(study);
     let place = |line: &Summary| Point {
         x: line.time.max(1e-6),
-        y: line.total_error.unwrap_or(MOST).clamp(LEAST, MOST),
+        y: line
+            .total_error
+            .unwrap_or(MAX_SHOWN_ERROR)
+            .clamp(MIN_SHOWN_ERROR, MAX_SHOWN_ERROR),
         wrong: line.wrong > 0,
     };
     let shown = |line: &&Summary| line.total_error.is_some() || line.wrong > 0;
@@ -92,22 +96,22 @@ pub fn svg(study: &Study) -> Result<String, ChartError> {
             frames(study),
             env!("CARGO_PKG_VERSION")
         ),
-        x: "time, in parts of that of standard".into(),
+        x: "time, relative to standard".into(),
         y: "worst relative error of the total force".into(),
         series: series.into(),
         wrong: "wrong verdicts".into(),
-        front: ("nothing is faster and better".into(), front),
+        front: ("Pareto front".into(), front),
     })
 }
 
 fn small(value: Option<f64>) -> String {
     value.map_or("–".into(), |v| match v {
-        v if v < LEAST => "0".into(),
+        v if v < MIN_SHOWN_ERROR => "0".into(),
         v => format!("{v:.1e}"),
     })
 }
 
-/// One line per frame, method and tolerance, for spreadsheets.
+/// A CSV table with a line for each frame, method and tolerance.
 pub fn csv(study: &Study) -> String {
     let mut text = String::from(
         "drystone,frame,blocks,truth,method,tolerance,seconds,iterations,verdict,mark,total_error,largest_error,\
@@ -116,7 +120,7 @@ pub fn csv(study: &Study) -> String {
     let number = |v: Option<f64>| v.map_or(String::new(), |v| format!("{v:e}"));
     for case in &study.cases {
         for run in &case.runs {
-            // A `String` takes every character; this cannot fail.
+            // Writing to a `String` cannot fail.
             let _ = writeln!(
                 text,
                 "{},{},{},{},{},{:e},{:e},{},{},{},{},{},{},{},{}",
@@ -150,7 +154,7 @@ fn mark(mark: Mark) -> &'static str {
     }
 }
 
-/// The summary as a table in Markdown.
+/// The summary as a Markdown table.
 pub fn markdown(study: &Study) -> String {
     let mut text = String::from(
         "| method | tolerance | time | iterations | error of total: median | worst | of largest force: worst | wrong | undecided |\n\
@@ -177,10 +181,10 @@ pub fn markdown(study: &Study) -> String {
     text
 }
 
-/// A page: the picture, the summary, and every run of every frame to unfold.
+/// An HTML page: the chart, the summary, and a collapsible table of runs for each frame.
 ///
 /// # Errors
-/// Where the picture cannot be drawn.
+/// If the chart cannot be drawn.
 pub fn page(study: &Study) -> Result<String, ChartError> {
     let picture = svg(study)?;
     let page = html! {
@@ -197,9 +201,9 @@ pub fn page(study: &Study) -> Result<String, ChartError> {
                 p { (heading(study)) }
                 (PreEscaped(picture))
                 p.small {
-                    "Errors are those of the total force (of the total sticking where a frame falls) against a reference in "
-                    "extended precision that is certified by its own bound. A red cross: at least one frame got the wrong "
-                    "verdict. The band of gold: no other method is both faster and more precise."
+                    "Errors are relative errors of the total force, or of the total sticking if a frame falls. The reference is "
+                    "computed in extended precision and certified by its own bound. A red cross marks at least one wrong "
+                    "verdict. The golden band is the Pareto front: no other method is both faster and more accurate."
                 }
                 h2 { "All frames together" }
                 (lines(&summary(study)))
@@ -249,7 +253,7 @@ fn frame(case: &Case) -> maud::Markup {
                 @match (truth.verdict, truth.total) {
                     (Verdict::Undecided, _) => { "No reference could be certified." }
                     (_, Some(total)) => { "Reference " (format!("{total:.15e}")) " N, certified to " (small(Some(truth.gap))) "." }
-                    (_, None) => { "The verdict is certified; there is no finite sum to compare." }
+                    (_, None) => { "The verdict is certified; there is no finite total to compare." }
                 }
                 @if let Some(largest) = truth.largest { " Largest force " (format!("{largest:.15e}")) " N." }
             }

@@ -1,16 +1,16 @@
-//! [`illustrate`]: the chapters of an mdBook with their scenes drawn, as mdBook's preprocessors exchange them.
+//! [`illustrate`]: an mdBook preprocessor that draws the scenes in the chapters of a book.
 //!
-//! A fenced block that begins with `drystone` holds a scene, or names one with `file=…`; it becomes the figure with its
-//! caption. What follows the word are options, `name=value` or `name` alone:
+//! A fenced block that begins with `drystone` contains a scene, or names a file with `file=…`. The preprocessor replaces it
+//! by a figure with a caption. Options follow the word, as `name=value` or `name`:
 //!
-//! | option | what it says |
+//! | option | meaning |
 //! |---|---|
 //! | `file=scene.json` | the scene, relative to the chapter's own file |
-//! | `kind=mechanism` | what the figure shows: `forces`, `mechanism`, `thrust`, `kernel`, `utilisation`, `polygon` or `freebody` |
+//! | `kind=mechanism` | the kind of figure: `forces`, `mechanism`, `thrust`, `kernel`, `utilisation`, `polygon` or `freebody` |
 //! | `block=a` | the block of a free-body diagram |
 //! | `theme=dark` | the theme |
-//! | `width=600` | width of the page, pixels |
-//! | `amounts` | every arrow bears its amount |
+//! | `width=600` | the width in pixels |
+//! | `amounts` | every arrow has a label with its force |
 //! | `nocaption` | no caption below the figure |
 
 use std::fs;
@@ -26,41 +26,41 @@ use crate::output::svg;
 use crate::scene::{BlockId, Scene};
 use crate::text;
 
-/// The word with which a block of ours begins.
+/// The first word of a block for drystone.
 const WORD: &str = "drystone";
 
-/// Everything that keeps a book from being illustrated.
+/// All problems of a book.
 #[derive(Debug, thiserror::Error)]
 #[error("{}", .0.join("\n\n"))]
 pub struct BookError(pub Vec<String>);
 
-/// The book of a preprocessor's input, `[context, book]` as JSON text, with its scenes drawn, as JSON text.
+/// Draws the scenes of a book. The input of an mdBook preprocessor is the JSON text `[context, book]`; the output is the book.
 ///
 /// # Errors
-/// Text that is no such input; and of every block whose scene cannot be drawn the chapter, the line and why.
+/// If the input has another form. Otherwise the chapter, line and reason for every scene that cannot be drawn.
 pub fn illustrate(input: &str) -> Result<String, BookError> {
-    let no_book = |why: &str| {
+    let invalid = |why: &str| {
         BookError(vec![format!(
-            "this is no input of an mdBook preprocessor ({why}); mdbook runs the command itself, from \
+            "this is not the input of an mdBook preprocessor ({why}); mdbook runs the command itself, from \
              [preprocessor.drystone] in book.toml"
         )])
     };
-    let mut input: Value = serde_json::from_str(input).map_err(|e| no_book(&e.to_string()))?;
+    let mut input: Value = serde_json::from_str(input).map_err(|e| invalid(&e.to_string()))?;
     let root = PathBuf::from(input[0]["root"].as_str().unwrap_or("."));
     let source = input[0]["config"]["book"]["src"].as_str().unwrap_or("src");
     let source = root.join(source);
     let Some(mut book) = input.get_mut(1).map(Value::take) else {
-        return Err(no_book("it has no second part"));
+        return Err(invalid("it has no second part"));
     };
     let mut problems = Vec::new();
-    // mdBook 0.5 calls the chapters items, its forerunners sections.
+    // mdBook 0.5 names the chapters `items`, earlier versions `sections`.
     let key = if book["items"].is_array() {
         "items"
     } else {
         "sections"
     };
     let Some(items) = book.get_mut(key).and_then(Value::as_array_mut) else {
-        return Err(no_book("the book has no chapters"));
+        return Err(invalid("the book has no chapters"));
     };
     for found in items.iter_mut().filter_map(|i| i.get_mut("Chapter")) {
         chapter(found, &source, &mut problems);
@@ -87,7 +87,7 @@ fn chapter(chapter: &mut Value, source: &Path, problems: &mut Vec<String>) {
     }
 }
 
-/// A chapter's text with every block of ours replaced by its figure.
+/// The text of a chapter, with every drystone block replaced by its figure.
 fn illustrated(content: &str, path: &Path, problems: &mut Vec<String>) -> String {
     let mut drawn = String::new();
     let mut done = 0;
@@ -127,14 +127,14 @@ fn illustrated(content: &str, path: &Path, problems: &mut Vec<String>) -> String
     drawn
 }
 
-/// What every line of a block that begins at `start` begins with: inside a list or a quotation it would end there otherwise.
+/// The indentation for all lines of a block that begins at `start`. Without it, the block would leave its list or quotation.
 fn margin(content: &str, start: usize) -> String {
     let line = content[..start].rfind('\n').map_or(0, |end| end + 1);
     let kept = |c: char| if c == '>' { c } else { ' ' };
     content[line..start].chars().map(kept).collect()
 }
 
-/// What the words after ours ask for.
+/// The options of a block.
 struct FigureRequest {
     file: Option<String>,
     kind: String,
@@ -194,20 +194,23 @@ fn figure(words: &str, body: &str, chapter: &Path) -> Result<String, String> {
     };
     let scene = Scene::from_json(&text).map_err(|problems| {
         let whose = match &wanted.file {
-            Some(file) => text::line(&format!("the scene {file} is wrong; lines are its own")),
-            None => "the scene is wrong; lines count from the block's first".to_owned(),
+            Some(file) => text::line(&format!(
+                "the scene {file} is not valid; lines are counted in that file"
+            )),
+            None => "the scene is not valid; lines are counted from the first line of the block"
+                .to_owned(),
         };
         format!("{whose}:\n{problems}")
     })?;
     let analysis = Analysis::new(&scene);
     let drawing = drawing(&analysis, &wanted)?;
     let words = svg::Options {
-        // A reader's machine need not have our fonts, and letters as outlines look alike on all.
+        // Letters as outlines look the same on machines without the fonts.
         words: svg::Words::Outlines,
         ..svg::Options::default()
     };
     let svg = svg::write_with(&drawing, &words).map_err(|e| e.to_string())?;
-    // Markdown ends a block of HTML at an empty line.
+    // An empty line would end the HTML block in Markdown.
     let lines: Vec<&str> = svg.lines().filter(|l| !l.trim().is_empty()).collect();
     let caption = if wanted.caption {
         maud::html! { figcaption { (text::line(&figure::caption(&analysis))) } }.into_string()
@@ -228,7 +231,7 @@ fn drawing(analysis: &Analysis, wanted: &FigureRequest) -> Result<Drawing, Strin
                 Some(id) => scene.blocks.iter().position(|b| b.id == *id),
                 None => (scene.blocks.len() == 1).then_some(0),
             };
-            let block = BlockId(block.ok_or("block= names no block of the scene")?);
+            let block = BlockId(block.ok_or("block= must name a block of the scene")?);
             let frame = scene.frames.iter().rposition(|f| f.placed.contains(&block));
             return frame
                 .and_then(|f| figure::freebody(analysis, f, block, &wanted.options))

@@ -1,7 +1,7 @@
-//! What other programs and people read: the [`result`](crate::result) of an analysis as JSON, a report of many scenes as one [`page`], and
-//! what [`accuracy`] costs.
+//! Reports for people: many scenes on one [`page`], scenes in an mdBook ([`book`]), and the [`accuracy`] study.
 //!
-//! The names in results are a contract. Fields are added, never renamed; pictures are not made here.
+//! [`entry`] collects the text, numbers and drawings of one scene. `html`, `markdown` and `print` write it in three formats.
+//! [`result`](crate::result) writes results as JSON for programs.
 
 #[cfg(feature = "report")]
 pub mod accuracy;

@@ -1,8 +1,8 @@
-//! [`Report`]: many scenes on one page, in any of four forms.
+//! [`Report`]: a report on many scenes, in one of five forms.
 //!
-//! A scene becomes an [`Entry`], and that at once its [`Piece`] of the page in the form that is wanted; then the entry, its
-//! figures and its analysis are gone. So a report of a thousand scenes takes the memory of its own text and no more, and
-//! scenes can be made in any order and by many threads.
+//! Each scene becomes an [`Entry`], which is written at once as a [`Piece`] in the requested form. The entry, its figures
+//! and its analysis are then dropped. A report on a thousand scenes therefore needs only the memory of its own text, and
+//! several threads can write the pieces in any order.
 
 use super::entry::{Entry, Row};
 use super::{html, markdown, print};
@@ -13,37 +13,37 @@ use crate::scene::Problem;
 use crate::text;
 use crate::wording::number::counted;
 
-/// What a report is written as.
+/// The form of a report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
-    /// One file that holds everything, for a browser.
+    /// One HTML file that contains everything.
     Html,
-    /// An index and a page for each scene, for a browser.
+    /// An HTML index, and an HTML page for each scene.
     Split,
-    /// Markdown, with figures beside it.
+    /// Markdown, with the figures in files next to it.
     Markdown,
-    /// For print.
+    /// A PDF for print.
     Pdf,
-    /// For other programs.
+    /// JSON for programs.
     Json,
 }
 
-/// A file that is no scene, and why.
+/// A file that is not a valid scene, with its problems.
 #[derive(Clone, Debug)]
 pub struct Refused {
-    /// The file as it was given.
+    /// The path as given by the user.
     pub name: String,
-    /// What is wrong with it: the problems of a scene, or one without a place where the file cannot be read.
+    /// The problems of the scene. A file that cannot be read has one problem without a place.
     pub problems: Vec<Problem>,
 }
 
-/// A file beside others: its name, with `/` between folders, and what is in it.
+/// A file to write: its name, with `/` between folders, and its content.
 pub type OutputFile = (String, Vec<u8>);
 
-/// A scene's part of a report.
+/// The part of a report for one scene.
 #[derive(Debug)]
 pub struct Piece {
-    /// Its line in the table of all scenes.
+    /// Its row in the table of all scenes.
     pub row: Row,
     body: Body,
 }
@@ -55,24 +55,24 @@ enum Body {
     Sheets(Vec<print::Page>),
 }
 
-/// Many scenes on one page.
+/// A report on many scenes.
 #[derive(Debug)]
 pub struct Report {
-    /// What stands above all.
+    /// The title of the page.
     pub title: String,
-    /// The scenes, in their order.
+    /// The scenes, in the given order.
     pub pieces: Vec<Piece>,
-    /// The files that are none.
+    /// The files that are not valid scenes.
     pub refused: Vec<Refused>,
-    /// What else is to be reported above the scenes, a sentence each.
+    /// More sentences for the top of the page.
     pub notes: Vec<String>,
     /// Whether each piece compares two scenes.
     pub compares: bool,
-    /// A theme whose page is dark or light whatever the reader's system says.
+    /// Whether the page is dark (`true`) or light; `None` to follow the reader's system.
     pub dark: Option<bool>,
 }
 
-/// A form that could not be written.
+/// An error while writing a report.
 #[derive(Debug, thiserror::Error)]
 #[error("the report could not be written: {0}")]
 pub struct ReportError(String);
@@ -90,10 +90,10 @@ impl From<crate::output::svg::OutlineError> for ReportError {
 }
 
 impl Piece {
-    /// A scene's part of a report: its number from 1, the file's stem for files of its own.
+    /// Writes the part of a report for one scene. `number` counts from 1; `stem` begins the names of figure files.
     ///
     /// # Errors
-    /// Where a figure's words cannot be laid out.
+    /// If the text of a figure cannot be laid out.
     pub fn new(entry: &Entry, number: usize, form: Form, stem: &str) -> Result<Piece, ReportError> {
         let body = match form {
             Form::Html | Form::Split => Body::Text(html::section(entry, number)),
@@ -111,7 +111,7 @@ impl Piece {
     }
 }
 
-/// The results of an entry; of a comparison an object of both and what is reported of them.
+/// The result of an entry as JSON. A comparison gives an object with both results and the changes.
 fn json(entry: &Entry) -> String {
     match entry.results.as_slice() {
         [one] => one.clone(),
@@ -131,7 +131,7 @@ fn json(entry: &Entry) -> String {
 }
 
 impl Report {
-    /// How the scenes came out.
+    /// The number of scenes with each verdict.
     pub fn counts(&self) -> Counts {
         let of = |verdict| {
             let rows = self.pieces.iter().map(|p| &p.row);
@@ -145,8 +145,8 @@ impl Report {
         }
     }
 
-    /// `12 scenes: 9 stand, 2 fall, 1 is undecided; 1 file is no scene`; of comparisons how many verdicts changed, and how
-    /// the second scenes came out.
+    /// A summary: `12 scenes: 9 stand, 2 fall, 1 is undecided; 1 file is not a valid scene`. For comparisons, it counts the
+    /// verdicts that changed and the verdicts of the second scenes.
     pub fn summary(&self) -> String {
         let counts = self.counts();
         let what = if self.compares { "comparison" } else { "scene" };
@@ -173,16 +173,20 @@ impl Report {
         }
         words.push_str(&parts.join(", "));
         if counts.refused > 0 {
-            let refused = verb(counts.refused, "file is no scene", "files are no scenes");
+            let refused = verb(
+                counts.refused,
+                "file is not a valid scene",
+                "files are not valid scenes",
+            );
             words.push_str(&format!("; {refused}"));
         }
         words
     }
 
-    /// The files of the report, the main one first; `stem` is its name without its ending.
+    /// The files of the report, the main file first. `stem` is its name without the extension.
     ///
     /// # Errors
-    /// Where a PDF cannot be written.
+    /// If a PDF cannot be written.
     pub fn files(self, form: Form, stem: &str) -> Result<Vec<OutputFile>, ReportError> {
         let summary = self.summary();
         match form {
@@ -243,7 +247,7 @@ impl Piece {
 }
 
 impl Refused {
-    /// The problems, each as one line: where, what, and what to do about it.
+    /// The problems, one line each: place, message and remedy.
     pub fn lines(&self) -> Vec<String> {
         let described = self.problems.iter().map(|problem| {
             let place = match (problem.line, problem.path.as_str()) {

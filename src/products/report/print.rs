@@ -1,7 +1,7 @@
-//! A report as a PDF: pages of A4, figures as they are drawn, words in our own fonts that can be searched.
+//! Writes a report as PDF: A4 pages with figures and searchable text.
 //!
-//! A page is a drawing of words and lines, and figures in their places on it. Tables break between lines and begin again
-//! with their heads; a figure is made smaller where it must be and never cut.
+//! A [`Flow`] places text, tables and figures on pages from top to bottom. A page is a drawing with figures at positions on
+//! it. Tables break between rows and repeat their heads. Figures are scaled down to fit, and never cut.
 
 use super::entry::{Chart, Entry, Grid, Step};
 use super::page::{Report, ReportError};
@@ -14,39 +14,39 @@ use crate::output::pdf::{self, Content, Heading, Inset, Sheet};
 use crate::text::line;
 use crate::wording::verdict::plain;
 
-/// Width and height of A4, pixels, 96 to the inch.
+/// Width and height of A4 in pixels, 96 per inch.
 const PAGE: (f64, f64) = (793.7, 1122.5);
-/// The edge that stays empty, 15 mm.
-const EDGE: f64 = 56.7;
-/// Width of the words.
-const ROOM: f64 = PAGE.0 - 2.0 * EDGE;
-/// Where words end below.
-const BOTTOM: f64 = PAGE.1 - EDGE - 16.0;
-/// Size of the words, pixels: 9 pt.
-const SIZE: f64 = 12.0;
-/// Size of the heading of a step.
+/// The margin of a page, 15 mm.
+const MARGIN: f64 = 56.7;
+/// The width between the margins.
+const TEXT_WIDTH: f64 = PAGE.0 - 2.0 * MARGIN;
+/// The lower end of the text.
+const BOTTOM: f64 = PAGE.1 - MARGIN - 16.0;
+/// The font size in pixels: 9 pt.
+const TEXT_SIZE: f64 = 12.0;
+/// The font size of step headings.
 const HEADING: f64 = 14.0;
-/// Size of the words of tables, pixels: 7.9 pt.
+/// The font size of tables in pixels: 7.9 pt.
 const SMALL: f64 = 10.5;
-/// Height of a line in sizes of its words.
+/// The line height relative to the font size.
 const LINE: f64 = 1.38;
-/// A figure is no higher than this.
-const HIGHEST: f64 = 460.0;
-/// A table that takes no more than this share of a page is not broken.
-const SHORT: f64 = 0.4;
-/// Room between two columns of a table.
+/// The largest height of a figure.
+const MAX_FIGURE_HEIGHT: f64 = 460.0;
+/// A table up to this share of a page stays on one page.
+const UNBROKEN_SHARE: f64 = 0.4;
+/// Space between two columns of a table.
 const GAP: f64 = 12.0;
 
-/// A page: its words, and figures in their places.
+/// A page: a drawing with text, and figures at positions.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Page {
     items: Vec<Item>,
     figures: Vec<(Drawing, PagePoint, f64)>,
-    /// Charts as SVG, and what they show.
+    /// Charts as SVG, with their captions.
     charts: Vec<(String, String, PagePoint, f64)>,
 }
 
-/// What is put on pages from top to bottom.
+/// Places text, tables and figures on pages from top to bottom.
 struct Flow {
     pages: Vec<Page>,
     y: f64,
@@ -58,7 +58,7 @@ impl Flow {
     fn new() -> Flow {
         Flow {
             pages: vec![Page::default()],
-            y: EDGE,
+            y: MARGIN,
             fonts: Fonts::default(),
             theme: Theme::thesis(),
         }
@@ -72,11 +72,11 @@ impl Flow {
         &mut self.pages[last]
     }
 
-    /// Makes sure of so much room below, on a new page where there is too little.
-    fn make_room(&mut self, height: f64) {
-        if self.y + height > BOTTOM && self.y > EDGE {
+    /// Starts a new page if less than `height` is left.
+    fn reserve(&mut self, height: f64) {
+        if self.y + height > BOTTOM && self.y > MARGIN {
             self.pages.push(Page::default());
-            self.y = EDGE;
+            self.y = MARGIN;
         }
     }
 
@@ -86,65 +86,65 @@ impl Flow {
         self.page().items.push(text.into());
     }
 
-    /// Words that our fonts have: others are written as their code points.
+    /// Replaces characters that the fonts do not have by their code points.
     fn legible(&self, words: &str) -> String {
         self.fonts.spelled(&line(words)).into_owned()
     }
 
     fn words(&mut self, words: &str, face: Face, size: f64, colour: Colour) {
         let words = self.legible(words);
-        for row in wrap(&words, face, size, ROOM) {
-            self.make_room(LINE * size);
-            self.put(&row, EDGE, face, size, colour, Anchor::Start);
+        for row in wrap(&words, face, size, TEXT_WIDTH) {
+            self.reserve(LINE * size);
+            self.put(&row, MARGIN, face, size, colour, Anchor::Start);
             self.y += LINE * size;
         }
     }
 
     fn heading(&mut self, words: &str, size: f64) {
-        self.make_room(6.0 * size);
+        self.reserve(6.0 * size);
         self.y += 0.5 * size;
         self.words(words, Face::SerifBold, size, self.theme.ink);
         self.y += 0.25 * size;
     }
 
     fn paragraph(&mut self, words: &str) {
-        self.words(words, Face::Sans, SIZE, self.theme.ink);
-        self.y += 0.4 * SIZE;
+        self.words(words, Face::Sans, TEXT_SIZE, self.theme.ink);
+        self.y += 0.4 * TEXT_SIZE;
     }
 
     fn note(&mut self, words: &str) {
         self.words(words, Face::Sans, SMALL, self.theme.faint);
-        self.y += 0.4 * SIZE;
+        self.y += 0.4 * TEXT_SIZE;
     }
 
-    /// A figure and what it shows, as wide as the words or less.
+    /// A figure with its caption, at most as wide as the text.
     fn figure(&mut self, drawing: &Drawing, caption: &str) {
         let scale = fitted(drawing);
         let (wide, high) = (scale * drawing.width, scale * drawing.height);
-        self.make_room(high + 3.0 * SMALL);
-        let at = PagePoint::new(EDGE + (ROOM - wide) / 2.0, self.y);
+        self.reserve(high + 3.0 * SMALL);
+        let at = PagePoint::new(MARGIN + (TEXT_WIDTH - wide) / 2.0, self.y);
         self.page().figures.push((drawing.clone(), at, scale));
         self.y += high + 4.0;
         self.note(caption);
     }
 
-    /// Charts, so many beside each other, each with its caption below it.
+    /// Charts in rows of `across`, each with its caption.
     fn charts(&mut self, charts: &[Chart], across: usize) {
-        let wide = (ROOM - GAP * (across - 1) as f64) / across as f64;
+        let wide = (TEXT_WIDTH - GAP * (across - 1) as f64) / across as f64;
         for row in charts.chunks(across) {
             let sized = row.iter().filter_map(|chart| {
                 let svg = chart.document().into_owned();
                 let (width, height) = pdf::svg_size(&svg)?;
-                let scale = (wide / width).min(HIGHEST / height).min(1.0);
+                let scale = (wide / width).min(MAX_FIGURE_HEIGHT / height).min(1.0);
                 Some((chart, svg, scale, scale * height))
             });
             let sized: Vec<_> = sized.collect();
             let high = sized.iter().map(|s| s.3).fold(0.0, f64::max);
-            self.make_room(high + 4.0 * SMALL);
+            self.reserve(high + 4.0 * SMALL);
             let top = self.y;
             let mut end = top;
             for (place, (chart, svg, scale, _)) in sized.into_iter().enumerate() {
-                let x = EDGE + place as f64 * (wide + GAP);
+                let x = MARGIN + place as f64 * (wide + GAP);
                 let shows = self.legible(&chart.caption);
                 let picture = (svg, shows.clone(), PagePoint::new(x, top), scale);
                 self.page().charts.push(picture);
@@ -156,7 +156,7 @@ impl Flow {
                 }
                 end = f64::max(end, self.y);
             }
-            self.y = end + 0.6 * SIZE;
+            self.y = end + 0.6 * TEXT_SIZE;
         }
     }
 
@@ -177,34 +177,34 @@ impl Flow {
             LINE * SMALL * lines.max().unwrap_or(1).max(1) as f64 + 4.0
         };
         let head = height(&heads, Face::SansBold);
-        // A short table stays in one piece; of a long one at least two lines stay with its head.
+        // A short table stays on one page. A long one keeps at least two rows with its head.
         let whole: f64 = cells.iter().map(|row| height(row, Face::Sans)).sum();
-        let least = if whole < SHORT * (BOTTOM - EDGE) {
+        let least = if whole < UNBROKEN_SHARE * (BOTTOM - MARGIN) {
             whole
         } else {
             2.0 * LINE * SMALL
         };
-        self.make_room(3.0 * SIZE + head + least);
+        self.reserve(3.0 * TEXT_SIZE + head + least);
         if !grid.caption.is_empty() {
-            self.y += 0.4 * SIZE;
-            self.words(&grid.caption, Face::SansBold, SIZE, self.theme.ink);
+            self.y += 0.4 * TEXT_SIZE;
+            self.words(&grid.caption, Face::SansBold, TEXT_SIZE, self.theme.ink);
         }
         self.row(&heads, grid, &widths, Face::SansBold, head);
         for row in &cells {
             let high = height(row, Face::Sans);
             if self.y + high > BOTTOM {
                 self.pages.push(Page::default());
-                self.y = EDGE;
+                self.y = MARGIN;
                 self.row(&heads, grid, &widths, Face::SansBold, head);
             }
             self.row(row, grid, &widths, Face::Sans, high);
         }
-        self.y += 0.6 * SIZE;
+        self.y += 0.6 * TEXT_SIZE;
     }
 
     fn row(&mut self, row: &[String], grid: &Grid, widths: &[f64], face: Face, high: f64) {
         let top = self.y;
-        let mut x = EDGE;
+        let mut x = MARGIN;
         for (column, (cell, wide)) in row.iter().zip(widths).enumerate() {
             let number = grid.heads.get(column).is_some_and(|h| h.1);
             let (at, anchor) = if number {
@@ -214,16 +214,16 @@ impl Flow {
             };
             self.y = top;
             // A cell that would not fit a page loses its end; its whole text is in the other forms of the report.
-            let most = ((BOTTOM - EDGE) / (LINE * SMALL)) as usize - 4;
+            let most = ((BOTTOM - MARGIN) / (LINE * SMALL)) as usize - 4;
             for part in wrap(cell, face, SMALL, *wide).into_iter().take(most) {
                 self.put(&part, at, face, SMALL, self.theme.ink, anchor);
                 self.y += LINE * SMALL;
             }
             x += wide + GAP;
         }
-        self.y = top + high.min(BOTTOM - EDGE);
+        self.y = top + high.min(BOTTOM - MARGIN);
         let rule = Outline::line([
-            PagePoint::new(EDGE, self.y - 1.0),
+            PagePoint::new(MARGIN, self.y - 1.0),
             PagePoint::new(x - GAP, self.y - 1.0),
         ]);
         let stroke = Stroke::new(self.theme.rule, 0.7);
@@ -231,13 +231,13 @@ impl Flow {
     }
 }
 
-/// The scale at which a figure fits a page.
+/// The scale at which a figure fits on a page.
 fn fitted(drawing: &Drawing) -> f64 {
-    let across = ROOM / drawing.width;
-    across.min(HIGHEST / drawing.height).min(1.0)
+    let across = TEXT_WIDTH / drawing.width;
+    across.min(MAX_FIGURE_HEIGHT / drawing.height).min(1.0)
 }
 
-/// How wide the columns of a table are: as wide as their words where there is room, the widest narrowed where not.
+/// The widths of the columns of a table: the width of their text if there is space, otherwise the widest are narrowed.
 fn widths(heads: &[String], cells: &[Vec<String>]) -> Vec<f64> {
     let longest = |words: &str| {
         let parts = words.split_whitespace();
@@ -248,12 +248,12 @@ fn widths(heads: &[String], cells: &[Vec<String>]) -> Vec<f64> {
     let wide = |column: usize| {
         let own = cells.iter().filter_map(|row| row.get(column));
         let own = own.map(|c| width(c, Face::Sans, SMALL)).fold(0.0, f64::max);
-        // A head is broken at its spaces before it makes its column wider.
+        // A head breaks at its spaces and widens its column only by its longest word.
         let head = width(&heads[column], Face::SansBold, SMALL).min(110.0);
         own.max(head).max(longest(&heads[column])) + 2.0
     };
     let mut widths: Vec<f64> = (0..heads.len()).map(wide).collect();
-    let room = ROOM - GAP * heads.len().saturating_sub(1) as f64;
+    let room = TEXT_WIDTH - GAP * heads.len().saturating_sub(1) as f64;
     loop {
         let sum: f64 = widths.iter().sum();
         if sum <= room {
@@ -292,7 +292,7 @@ pub(super) fn head(report: &Report, summary: &str) -> Vec<Page> {
     if !report.refused.is_empty() {
         flow.heading("Files that are no scenes", 16.0);
         for file in &report.refused {
-            flow.words(&file.name, Face::SansBold, SIZE, flow.theme.ink);
+            flow.words(&file.name, Face::SansBold, TEXT_SIZE, flow.theme.ink);
             for line in file.lines() {
                 flow.paragraph(&line);
             }
@@ -342,9 +342,9 @@ pub(super) fn section(entry: &Entry) -> Vec<Page> {
         flow.note(remark);
     }
     for (number, step) in entry.steps.iter().enumerate() {
-        // A step's heading stands on the page of its figure; the first one's stands below the scene's.
+        // Keep the heading of a step on the page of its figure, and the first one below the heading of the scene.
         if number > 0 {
-            flow.make_room(opening(step).min(BOTTOM - EDGE));
+            flow.reserve(opening(step).min(BOTTOM - MARGIN));
         }
         self::step(&mut flow, step);
     }
@@ -352,24 +352,24 @@ pub(super) fn section(entry: &Entry) -> Vec<Page> {
     if let Some(study) = &entry.study {
         flow.charts(std::slice::from_ref(study), 1);
     }
-    flow.make_room(entry.commands.len() as f64 * (LINE * SMALL + 0.4 * SIZE));
+    flow.reserve(entry.commands.len() as f64 * (LINE * SMALL + 0.4 * TEXT_SIZE));
     for (_, command) in &entry.commands {
         flow.note(command);
     }
     flow.pages
 }
 
-/// How high a step's heading, its words and its first figure are together.
+/// The height of the heading, the text and the first figure of a step.
 fn opening(step: &Step) -> f64 {
     let lines = |words: &str, size: f64| {
-        LINE * size * wrap(words, Face::Sans, size, ROOM).len() as f64 + 0.4 * SIZE
+        LINE * size * wrap(words, Face::Sans, size, TEXT_WIDTH).len() as f64 + 0.4 * TEXT_SIZE
     };
     let remarks = step.remarks.iter().map(|r| lines(r, SMALL));
     let figure = step.plates.first().map_or(0.0, |plate| {
         let high = fitted(&plate.drawing) * plate.drawing.height;
         high + 4.0 + lines(&plate.caption, SMALL)
     });
-    3.0 * HEADING + lines(&step.sentence, SIZE) + remarks.sum::<f64>() + figure
+    3.0 * HEADING + lines(&step.sentence, TEXT_SIZE) + remarks.sum::<f64>() + figure
 }
 
 fn step(flow: &mut Flow, step: &Step) {
@@ -400,7 +400,7 @@ fn step(flow: &mut Flow, step: &Step) {
     flow.charts(&step.charts, 2);
 }
 
-/// The pages as a PDF, each with its number.
+/// Numbers the pages and writes them as PDF.
 pub(super) fn written(
     pages: &mut [Page],
     title: &str,
@@ -414,7 +414,7 @@ pub(super) fn written(
         .enumerate()
         .map(|(number, page)| {
             let mut items = std::mem::take(&mut page.items);
-            let at = PagePoint::new(PAGE.0 - EDGE, PAGE.1 - EDGE + 8.0);
+            let at = PagePoint::new(PAGE.0 - MARGIN, PAGE.1 - MARGIN + 8.0);
             let number = format!("{} of {count}", number + 1);
             let number = Text::new(at, number, Face::Sans, SMALL, theme.faint);
             items.push(number.anchored(Anchor::End).into());

@@ -13,6 +13,7 @@
 mod accuracy;
 #[cfg(feature = "import")]
 mod import;
+#[doc(hidden)]
 pub mod key;
 mod line;
 mod margin;

@@ -1,24 +1,33 @@
 //! The macros for tests: [`assert_scene!`](crate::assert_scene), [`assert_scenes!`](crate::assert_scenes) and [`assert_figure!`](crate::assert_figure).
 //!
-//! Paths begin at the folder of the crate that calls them. `UPDATE_SNAPSHOTS=1` writes references, never where `CI` is set; without
-//! it what was found lies beside them as `.new.*` and `.diff.png`, and the test fails with what changed in words. Under `CI`
-//! nothing is written at all. Every test takes its turn on the folder of its references, so that tests of one program and several
-//! programs at once, as nextest runs them, do not get in each other's way.
+//! Paths are relative to the folder of the crate that calls the macros. If a result differs, the test fails and describes
+//! the changes. What is written depends on two environment variables:
+//!
+//! | `CI` | `UPDATE_SNAPSHOTS` | written |
+//! |---|---|---|
+//! | not set | not set | the results, as `.new.*` and `.diff.png` next to the references |
+//! | not set | 1 | the references |
+//! | set | any | nothing |
+//!
+//! Each test locks the folder of its references. Tests of one process and tests of several processes, as nextest runs
+//! them, can therefore run at the same time.
 
 use std::path::{Component, Path, PathBuf};
 
 use super::check::{self, Acceptance, CheckOutcome, Snapshot, check, folders};
-use super::discovery::{DiscoveryError, discover, parts};
+use super::discovery::{DiscoveryError, discover};
+use super::layer::Layer;
+use super::reference::parts;
 use super::setting::{self, Settings};
-use super::store::{self, Use};
+use super::store::{self, Access};
 use crate::drawing::Drawing;
 
-/// The folder of the references of figures, in the crate's own.
+/// The folder for the references of figures, relative to the crate.
 const FIGURES: &str = "tests/snapshots";
 
-/// Fails where a scene is not as the references beside it say: `arch.txt`, `arch.svg` and `arch.png` for `arch.json`.
+/// Fails if a scene differs from the references next to it: `arch.txt`, `arch.svg` and `arch.png` for `arch.json`.
 ///
-/// The path begins at the folder of your crate.
+/// The path is relative to the folder of your crate.
 ///
 /// ```no_run
 /// #[test]
@@ -33,9 +42,9 @@ macro_rules! assert_scene {
     };
 }
 
-/// Fails where any scene in a folder, or below it, is not as the references beside it say, and where a reference has no scene.
+/// Fails if any scene in a folder or its subfolders differs from its references, or if a reference has no scene.
 ///
-/// The path begins at the folder of your crate.
+/// The path is relative to the folder of your crate.
 ///
 /// ```no_run
 /// #[test]
@@ -50,7 +59,7 @@ macro_rules! assert_scenes {
     };
 }
 
-/// Fails where a drawing is not as its references say: `tests/snapshots/NAME.svg` and `NAME.png` in the folder of your crate.
+/// Fails if a drawing differs from its references: `tests/snapshots/NAME.svg` and `NAME.png` in the folder of your crate.
 ///
 /// ```no_run
 /// use drystone::{Analysis, Scene, figure, snapshot::assert_figure};
@@ -73,36 +82,36 @@ macro_rules! assert_figure {
     };
 }
 
-/// What [`assert_scene!`](crate::assert_scene) calls: a scene, by its path from the folder of a crate.
+/// The function behind [`assert_scene!`](crate::assert_scene). The path is relative to `crate_folder`.
 ///
 /// # Panics
-/// Where a reference does not hold, and where the scene is wrong.
+/// If a reference does not match or the scene is not valid.
 #[track_caller]
 pub fn scene(crate_folder: &Path, path: &Path) {
     let place = place(crate_folder, path);
     scenes_at(&[place], &place_words(path));
 }
 
-/// What [`assert_scenes!`](crate::assert_scenes) calls: all scenes in a folder, by its path from the folder of a crate.
+/// The function behind [`assert_scenes!`](crate::assert_scenes). The path is relative to `crate_folder`.
 ///
 /// # Panics
-/// Where a reference does not hold or has no scene, and where a scene is wrong or there is none.
+/// If a reference does not match or has no scene, if a scene is not valid, or if there is no scene.
 #[track_caller]
 pub fn scenes(crate_folder: &Path, path: &Path) {
     let place = place(crate_folder, path);
     scenes_at(&[place], &place_words(path));
 }
 
-/// What [`assert_figure!`](crate::assert_figure) calls: a drawing, by a name for its references.
+/// The function behind [`assert_figure!`](crate::assert_figure). `name` is the base name of the references.
 ///
 /// # Panics
-/// Where a reference does not hold, and where the name leads out of the folder of references.
+/// If a reference does not match, or if the name leads out of the folder of references.
 #[track_caller]
 pub fn figure(crate_folder: &Path, name: &Path, drawing: &Drawing) {
     let inside = name.components().all(|c| matches!(c, Component::Normal(_)));
     if !inside || name.as_os_str().is_empty() {
         fail(&[format!(
-            "{:?} is no name for a figure: it leads out of {FIGURES}",
+            "{:?} is not a valid name for a figure: it leads out of {FIGURES}; use a plain file name",
             name.display().to_string()
         )]);
     }
@@ -116,9 +125,7 @@ pub fn figure(crate_folder: &Path, name: &Path, drawing: &Drawing) {
     let references: Vec<PathBuf> = parts
         .iter()
         .filter(|p| {
-            p.layer != check::Layer::Facts
-                && p.kind == settings.kinds[0]
-                && p.theme == settings.themes[0]
+            p.layer != Layer::Facts && p.kind == settings.kinds[0] && p.theme == settings.themes[0]
         })
         .map(|p| p.file.clone())
         .collect();
@@ -127,22 +134,22 @@ pub fn figure(crate_folder: &Path, name: &Path, drawing: &Drawing) {
         .filter(|p| references.contains(&p.file))
         .collect();
     if may_write() {
-        // Where it cannot be made, writing into it tells.
+        // If the folder cannot be created, writing the files below reports the error.
         let _ = std::fs::create_dir_all(&folder);
     }
-    let turn = store::turn([folder], usage());
+    let lock = store::lock_folders([folder], access());
     let snapshot = Snapshot {
         name: name.display().to_string(),
         scene: None,
         references,
-        findings: check::of_drawing(drawing, &parts, &settings),
+        findings: check::check_drawing(drawing, &parts, &settings),
     };
     let report = CheckOutcome {
         snapshots: vec![snapshot],
         ..CheckOutcome::default()
     };
-    settle(report, &format!("the figure {}", name.display()));
-    drop(turn);
+    finish(report, &format!("the figure {}", name.display()));
+    drop(lock);
 }
 
 fn settings(folder: &Path) -> Result<Settings, Vec<String>> {
@@ -159,8 +166,8 @@ fn settings(folder: &Path) -> Result<Settings, Vec<String>> {
     })
 }
 
-/// Where a path of a crate leads. The folder of the crate when it was built may be gone where the test runs; cargo and nextest then say
-/// where it is now.
+/// The absolute path of a path relative to a crate. The folder in which the crate was compiled may not exist where the test
+/// runs. Cargo and nextest then give the present folder in `CARGO_MANIFEST_DIR`.
 fn place(crate_folder: &Path, path: &Path) -> PathBuf {
     let now = std::env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from);
     match now {
@@ -177,11 +184,11 @@ fn may_write() -> bool {
     !store::in_ci()
 }
 
-fn usage() -> Use {
-    if store::asked_to_update() && may_write() {
-        Use::Accept
+fn access() -> Access {
+    if store::update_requested() && may_write() {
+        Access::Write
     } else {
-        Use::Check
+        Access::Read
     }
 }
 
@@ -200,16 +207,16 @@ fn scenes_at(places: &[PathBuf], what: &str) {
         fail(&[format!("there is no scene at {what}")]);
     }
     let files = found.jobs.iter().flat_map(|j| &j.parts).map(|p| &p.file);
-    let turn = store::turn(folders(files), usage());
+    let lock = store::lock_folders(folders(files), access());
     let report = check(found, &|_| {});
-    settle(report, what);
-    drop(turn);
+    finish(report, what);
+    drop(lock);
 }
 
 #[track_caller]
-fn settle(mut report: CheckOutcome, what: &str) {
-    let accepts = usage() == Use::Accept;
-    if report.holds() && !may_write() {
+fn finish(mut report: CheckOutcome, what: &str) {
+    let accepts = access() == Access::Write;
+    if report.matches() && !may_write() {
         return;
     }
     let failing: Vec<PathBuf> = report
@@ -222,37 +229,39 @@ fn settle(mut report: CheckOutcome, what: &str) {
         let acceptance = if accepts {
             Acceptance::Accept
         } else {
-            Acceptance::Beside
+            Acceptance::Propose
         };
-        if let Err(failed) = report.settle(acceptance) {
+        if let Err(failed) = report.store(acceptance) {
             unwritten = failed.iter().map(ToString::to_string).collect();
         }
     }
-    if report.holds() && unwritten.is_empty() {
+    if report.matches() && unwritten.is_empty() {
         return;
     }
     lines.push(format!(
-        "{what} is not as its references say ({}).",
+        "{what} differs from its references ({}).",
         report.summary()
     ));
     lines.extend(report.lines());
     lines.extend(unwritten);
     if !may_write() {
-        lines.push("CI is set: nothing was written. Run the test on your own machine to see the difference.".into());
+        lines.push("CI is set, so nothing was written. Run the test on your own machine to see the difference.".into());
     } else {
-        let picture = failing.iter().find(|f| store::difference(f).exists());
-        let other = failing.iter().find(|f| store::found(f).exists());
+        let picture = failing.iter().find(|f| store::difference_file(f).exists());
+        let other = failing.iter().find(|f| store::new_file(f).exists());
         match (picture, other) {
             (Some(file), _) => lines.push(format!(
-                "Look at {}, and at {} beside {}.",
-                store::difference(file).display(),
-                store::found(file).display(),
+                "Look at {}, and compare {} with {}.",
+                store::difference_file(file).display(),
+                store::new_file(file).display(),
                 file.display()
             )),
-            (None, Some(file)) => lines.push(format!("Look at {}.", store::found(file).display())),
+            (None, Some(file)) => {
+                lines.push(format!("Look at {}.", store::new_file(file).display()))
+            }
             (None, None) => {}
         }
-        lines.push("If it is meant to be so, run the test again with UPDATE_SNAPSHOTS=1.".into());
+        lines.push("If the change is intended, run the test again with UPDATE_SNAPSHOTS=1.".into());
     }
     fail(&lines);
 }

@@ -1,16 +1,23 @@
-//! [`check`](check()): what is not as its reference says, in three layers, each of which explains the next.
+//! [`check`](check()): compares scenes with their references in three layers.
 //!
-//! Makes a [`CheckOutcome`] from scenes and the references beside them. Nothing is written here but by [`CheckOutcome::settle`].
+//! 1. Facts: verdict and forces as text.
+//! 2. SVG: the elements of the drawing.
+//! 3. Pixels: the rendered picture.
+//!
+//! A difference in one layer usually explains those in the layers after it. The result is a [`CheckOutcome`]. Only
+//! [`CheckOutcome::store`] writes files.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::discovery::{Found, Job, Part, shown};
+use super::discovery::{Discovered, Job, shown};
 use super::element;
 use super::fact::Facts;
+use super::layer::Layer;
 use super::picture::{Difference, Picture, Subject};
+use super::reference::Part;
 use super::setting::Settings;
 use super::store;
 use crate::analysis::Analysis;
@@ -21,10 +28,10 @@ use crate::output::png;
 use crate::output::svg;
 use crate::scene::{Problem, SceneError, isolate};
 
-/// So many changes of one file are described in words.
-const MOST_LISTED: usize = 12;
+/// A message lists at most this many changes of one file and counts the rest.
+const MAX_LISTED_CHANGES: usize = 12;
 
-/// The folders of some files, each once.
+/// The folders of the files, sorted, each once.
 pub(crate) fn folders<'f>(files: impl IntoIterator<Item = &'f PathBuf>) -> Vec<PathBuf> {
     let folders = files.into_iter().filter_map(|f| f.parent());
     let mut folders: Vec<PathBuf> = folders
@@ -42,107 +49,76 @@ pub(crate) fn folders<'f>(files: impl IntoIterator<Item = &'f PathBuf>) -> Vec<P
     folders
 }
 
-/// What is compared. Read from top to bottom, each explains the next.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[non_exhaustive]
-pub enum Layer {
-    /// Verdict, interfaces and forces, as text.
-    Facts,
-    /// The elements of the drawing.
-    Svg,
-    /// The pixels of the picture.
-    Pixels,
-}
-
-impl Layer {
-    /// All of them, in the order in which they explain.
-    pub const ALL: [Layer; 3] = [Layer::Facts, Layer::Svg, Layer::Pixels];
-
-    /// Its name in settings and reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Layer::Facts => "facts",
-            Layer::Svg => "svg",
-            Layer::Pixels => "pixels",
-        }
-    }
-
-    /// The layer of a name.
-    pub fn named(name: &str) -> Option<Layer> {
-        Layer::ALL.into_iter().find(|layer| layer.name() == name)
-    }
-}
-
-/// What is the matter with a reference.
+/// Why a reference does not match.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum State {
-    /// There is none.
+    /// The reference does not exist.
     Missing,
-    /// It says something else.
+    /// The result differs from the reference.
     Changed,
-    /// It cannot be read.
-    PictureError,
-    /// It agrees, and takes more bytes than it may.
-    Large,
+    /// The reference cannot be read.
+    Unreadable,
+    /// The result matches, but the reference file is larger than the settings allow.
+    TooLarge,
 }
 
-/// A reference that does not hold.
+/// A reference that does not match.
 #[derive(Clone, Debug)]
 pub struct Finding {
-    /// What it compares.
+    /// The layer.
     pub layer: Layer,
-    /// The reference.
+    /// The path of the reference.
     pub file: PathBuf,
-    /// What is the matter.
+    /// Why it does not match.
     pub state: State,
-    /// What changed, in words, what matters most first.
+    /// The changes in words, most important first.
     pub words: Vec<String>,
-    /// What the reference would be now.
+    /// The new content of the reference; empty if there is none.
     pub fresh: Vec<u8>,
-    /// What it is; `None` where it is missing.
+    /// The present content of the reference; `None` if it is missing.
     pub expected: Option<Vec<u8>>,
-    /// A PNG of the difference of two pictures.
+    /// A PNG that shows the differing pixels.
     pub difference: Option<Vec<u8>>,
 }
 
-/// A scene or figure, and what is the matter with its references.
+/// A scene or figure with the references that do not match.
 #[derive(Clone, Debug)]
 pub struct Snapshot {
-    /// What a person calls it.
+    /// Its name in messages.
     pub name: String,
-    /// The scene's file; `None` for a figure of a test.
+    /// The path of the scene; `None` for a figure from a test.
     pub scene: Option<PathBuf>,
-    /// Its references.
+    /// All its references.
     pub references: Vec<PathBuf>,
-    /// Those that do not hold; none where all is well.
+    /// The references that do not match.
     pub findings: Vec<Finding>,
 }
 
-/// What a check found.
+/// The result of a check.
 #[derive(Clone, Debug, Default)]
 pub struct CheckOutcome {
-    /// Every scene, by name.
+    /// All scenes, sorted by name.
     pub snapshots: Vec<Snapshot>,
-    /// References without a scene, each with what to do.
+    /// References without a scene, each with the reason and remedy.
     pub orphans: Vec<(PathBuf, String)>,
     /// Scenes on which the program failed by its own fault.
     pub faults: Vec<(PathBuf, SceneError)>,
 }
 
-/// What becomes of what was found.
+/// Where new content is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Acceptance {
-    /// It lies beside the references, for a person to look at.
-    Beside,
-    /// It takes their places.
+    /// Next to the references as `.new.*`, for review.
+    Propose,
+    /// In place of the references.
     Accept,
 }
 
-/// Checks scenes against their references, in parallel. `done` is called after each.
-pub fn check(found: Found, done: &(dyn Fn(&str) + Sync)) -> CheckOutcome {
+/// Compares scenes with their references, in parallel. `done` is called after each scene.
+pub fn check(found: Discovered, done: &(dyn Fn(&str) + Sync)) -> CheckOutcome {
     let one = |job: &Job| {
-        let findings = isolate(&shown(&job.path), || of_scene(job));
+        let findings = isolate(&shown(&job.path), || check_scene(job));
         done(&job.name);
         match findings {
             Ok(findings) => Ok(Snapshot {
@@ -170,9 +146,10 @@ pub fn check(found: Found, done: &(dyn Fn(&str) + Sync)) -> CheckOutcome {
     outcome
 }
 
-fn of_scene(job: &Job) -> Vec<Finding> {
+fn check_scene(job: &Job) -> Vec<Finding> {
     let analysis = Analysis::new(Arc::clone(&job.scene));
     let mut findings = Vec::new();
+    // The SVG text of the last figure: the SVG layer and all widths of the pixel layer use the same text.
     let mut drawn: Option<(&Part, String)> = None;
     for part in &job.parts {
         if part.layer == Layer::Facts {
@@ -198,8 +175,12 @@ fn of_scene(job: &Job) -> Vec<Finding> {
     findings
 }
 
-/// Checks a drawing against its references.
-pub(super) fn of_drawing(drawing: &Drawing, parts: &[Part], settings: &Settings) -> Vec<Finding> {
+/// Compares a drawing with its references.
+pub(super) fn check_drawing(
+    drawing: &Drawing,
+    parts: &[Part],
+    settings: &Settings,
+) -> Vec<Finding> {
     let text = svg::write(drawing);
     let findings = parts.iter().filter(|p| p.layer != Layer::Facts);
     findings
@@ -219,12 +200,12 @@ fn finding(part: &Part, state: State, words: Vec<String>) -> Finding {
     }
 }
 
-/// The bytes of a reference, or what is the matter where it is missing or cannot be opened.
+/// The bytes of a reference, or the reason why there are none.
 fn reference(part: &Part) -> Result<Vec<u8>, (State, String)> {
     match store::read(&part.file) {
         Ok(Some(bytes)) => Ok(bytes),
-        Ok(None) => Err((State::Missing, "there is no reference".into())),
-        Err(error) => Err((State::PictureError, format!("it cannot be read: {error}"))),
+        Ok(None) => Err((State::Missing, "there is no reference yet".into())),
+        Err(error) => Err((State::Unreadable, format!("it cannot be read: {error}"))),
     }
 }
 
@@ -243,8 +224,8 @@ fn facts_finding(part: &Part, facts: &Facts) -> Option<Finding> {
         return None;
     }
     let (state, words) = match Facts::read(&String::from_utf8_lossy(&bytes)) {
-        Err(error) => (State::PictureError, vec![error.to_string()]),
-        // What is written is what is compared: both went through the same rounding.
+        Err(error) => (State::Unreadable, vec![error.to_string()]),
+        // Compare the rounded numbers: those of the reference have been rounded too.
         Ok(expected) => {
             let changes = expected.changes(facts);
             (
@@ -288,7 +269,7 @@ fn svg_finding(part: &Part, text: &str) -> Option<Finding> {
     }
     let (state, words) = match element::changes(&String::from_utf8_lossy(&bytes), text) {
         Ok(words) => (State::Changed, words),
-        Err(error) => (State::PictureError, vec![error.to_string()]),
+        Err(error) => (State::Unreadable, vec![error.to_string()]),
     };
     (!words.is_empty()).then(|| Finding {
         fresh,
@@ -306,9 +287,9 @@ fn pixels_finding(
     let size = part.width.map_or(png::Size::Natural, png::Size::Width);
     let found = match png::rgba(text, size) {
         Ok(raster) => Picture::new(raster.width, raster.height, raster.rgba),
-        Err(error) => return Some(finding(part, State::PictureError, vec![error.to_string()])),
+        Err(error) => return Some(finding(part, State::Unreadable, vec![error.to_string()])),
     };
-    // Made only where it is needed: packing a picture takes longer than comparing it.
+    // Encode only if it is needed: encoding a picture takes longer than comparing it.
     let fresh = || found.encode(Some(subject)).unwrap_or_default();
     let bytes = match reference(part) {
         Ok(bytes) => bytes,
@@ -325,29 +306,29 @@ fn pixels_finding(
             return Some(Finding {
                 fresh: fresh(),
                 expected: Some(bytes),
-                ..finding(part, State::PictureError, vec![error.to_string()])
+                ..finding(part, State::Unreadable, vec![error.to_string()])
             });
         }
     };
     let difference = Difference::new(&expected, &found, settings.tolerance);
     if difference.is_none() {
         let panels = text.matches("class=\"frame\"").count().max(1) as u64;
-        let most = settings
+        let max = settings
             .most_kilobytes
             .unwrap_or(u64::MAX)
             .saturating_mul(panels);
-        if bytes.len() as u64 <= most.saturating_mul(1000) {
+        if bytes.len() as u64 <= max.saturating_mul(1000) {
             return None;
         }
         let words = format!(
-            "it takes {:.1} kB, more than the {most} kB that the settings allow it; make it narrower with `widths`",
+            "it has {:.1} kB, more than the {max} kB that the settings allow; reduce its width with `widths`",
             bytes.len() as f64 / 1000.0
         );
-        return Some(finding(part, State::Large, vec![words]));
+        return Some(finding(part, State::TooLarge, vec![words]));
     }
     let mut words = vec![difference.words()];
-    if expected.lost_its_note() {
-        words.push("the reference does not say how its colours were rounded, as ours do; another program may have packed it anew".into());
+    if expected.has_lost_rounding_note() {
+        words.push("the reference has lost its note on rounded colours; another program may have compressed it again".into());
     }
     Some(Finding {
         fresh: fresh(),
@@ -358,34 +339,42 @@ fn pixels_finding(
 }
 
 impl Snapshot {
-    /// Whether all of its references hold.
-    pub fn holds(&self) -> bool {
+    /// Whether all references match.
+    pub fn matches(&self) -> bool {
         self.findings.is_empty()
     }
 
-    /// The folders in which its references lie.
+    /// The folders of its references.
     pub fn folders(&self) -> Vec<PathBuf> {
         folders(&self.references)
     }
 
-    /// What is the matter, a line each.
+    /// A description of the findings, line by line.
     pub fn lines(&self) -> Vec<String> {
         let mut lines = Vec::new();
         for finding in &self.findings {
             let what = match finding.state {
                 State::Missing => "new",
                 State::Changed => "changed",
-                State::PictureError => "unreadable",
-                State::Large => "large",
+                State::Unreadable => "unreadable",
+                State::TooLarge => "large",
             };
             let head = format!("{} {what}, {}", finding.layer.name(), shown(&finding.file));
             match finding.words.as_slice() {
                 [one] => lines.push(format!("  {head}: {one}")),
                 several => {
                     lines.push(format!("  {head}:"));
-                    lines.extend(several.iter().take(MOST_LISTED).map(|w| format!("    {w}")));
-                    if several.len() > MOST_LISTED {
-                        lines.push(format!("    … and {} more", several.len() - MOST_LISTED));
+                    lines.extend(
+                        several
+                            .iter()
+                            .take(MAX_LISTED_CHANGES)
+                            .map(|w| format!("    {w}")),
+                    );
+                    if several.len() > MAX_LISTED_CHANGES {
+                        lines.push(format!(
+                            "    … and {} more",
+                            several.len() - MAX_LISTED_CHANGES
+                        ));
                     }
                 }
             }
@@ -393,31 +382,35 @@ impl Snapshot {
         lines
     }
 
-    /// What of it would be written as references.
+    /// The new contents that can be written as references.
     fn acceptable(&self) -> Vec<(PathBuf, Vec<u8>)> {
         let fresh = self.findings.iter().filter(|f| !f.fresh.is_empty());
         fresh.map(|f| (f.file.clone(), f.fresh.clone())).collect()
     }
 
-    /// Writes what was found, beside the references or in their places, and takes away what lies beside those that hold.
+    /// Writes the new contents next to the references or in their place, and deletes `.new.*` and `.diff.png` files that are
+    /// out of date.
     ///
     /// # Errors
-    /// The file that could not be written. The references of this snapshot are then as they were.
-    pub fn settle(&mut self, acceptance: Acceptance) -> Result<(), WriteError> {
+    /// The file that could not be written. The references of this snapshot are then unchanged.
+    pub fn store(&mut self, acceptance: Acceptance) -> Result<(), WriteError> {
         if acceptance == Acceptance::Accept {
             store::write(&self.acceptable())?;
             self.findings.retain(|f| f.fresh.is_empty());
         }
         let mut beside = Vec::new();
         for finding in self.findings.iter().filter(|f| !f.fresh.is_empty()) {
-            beside.push((store::found(&finding.file), finding.fresh.clone()));
+            beside.push((store::new_file(&finding.file), finding.fresh.clone()));
             if let Some(difference) = &finding.difference {
-                beside.push((store::difference(&finding.file), difference.clone()));
+                beside.push((store::difference_file(&finding.file), difference.clone()));
             }
         }
         let kept = |path: &Path| beside.iter().any(|(b, _)| b == path);
         for reference in &self.references {
-            for stale in [store::found(reference), store::difference(reference)] {
+            for stale in [
+                store::new_file(reference),
+                store::difference_file(reference),
+            ] {
                 if !kept(&stale) {
                     store::remove(&stale);
                 }
@@ -428,12 +421,12 @@ impl Snapshot {
 }
 
 impl CheckOutcome {
-    /// Whether everything is as its references say.
-    pub fn holds(&self) -> bool {
+    /// Whether all references match and have a scene, and no check failed.
+    pub fn matches(&self) -> bool {
         self.faults.is_empty() && self.orphans.is_empty() && self.failing().next().is_none()
     }
 
-    /// References without a scene and scenes on which the program failed, each with what is the matter.
+    /// References without a scene, and scenes on which the program failed, each with a message.
     pub(crate) fn others(&self) -> impl Iterator<Item = (&Path, String)> {
         let orphans = self.orphans.iter().map(|(path, words)| {
             let words = format!("a reference without a scene: {words}");
@@ -447,12 +440,12 @@ impl CheckOutcome {
         orphans.chain(faults)
     }
 
-    /// The snapshots that do not hold.
+    /// The snapshots with findings.
     pub fn failing(&self) -> impl Iterator<Item = &Snapshot> {
-        self.snapshots.iter().filter(|s| !s.holds())
+        self.snapshots.iter().filter(|s| !s.matches())
     }
 
-    /// What is the matter, line by line; empty where all is well.
+    /// A description of all findings, line by line; empty if everything matches.
     pub fn lines(&self) -> Vec<String> {
         let mut lines = Vec::new();
         for snapshot in self.failing() {
@@ -465,7 +458,7 @@ impl CheckOutcome {
         lines
     }
 
-    /// All in one line.
+    /// The counts in one line.
     pub fn summary(&self) -> String {
         let all = self.snapshots.len();
         let failing = self.failing().count();
@@ -477,7 +470,7 @@ impl CheckOutcome {
                 .failing()
                 .filter(|s| s.findings.iter().all(|f| f.state == State::Missing));
             let new = new.count();
-            let broken = self.failing().filter(is(State::PictureError)).count();
+            let broken = self.failing().filter(is(State::Unreadable)).count();
             words.push_str(&format!(", {} changed, {new} new", failing - new));
             if broken > 0 {
                 words.push_str(&format!(", {broken} with unreadable references"));
@@ -495,13 +488,13 @@ impl CheckOutcome {
         words
     }
 
-    /// As [`Snapshot::settle`], for all of them; those that cannot be written do not keep the others from it.
+    /// Calls [`Snapshot::store`] for all snapshots. An error in one does not stop the others.
     ///
     /// # Errors
-    /// Every file that could not be written.
-    pub fn settle(&mut self, acceptance: Acceptance) -> Result<(), Vec<WriteError>> {
-        let settled = self.snapshots.iter_mut().map(|s| s.settle(acceptance));
-        let failed: Vec<WriteError> = settled.filter_map(Result::err).collect();
+    /// All files that could not be written.
+    pub fn store(&mut self, acceptance: Acceptance) -> Result<(), Vec<WriteError>> {
+        let stored = self.snapshots.iter_mut().map(|s| s.store(acceptance));
+        let failed: Vec<WriteError> = stored.filter_map(Result::err).collect();
         if failed.is_empty() {
             Ok(())
         } else {

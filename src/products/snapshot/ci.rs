@@ -1,11 +1,11 @@
-//! A report for programs of continuous integration: JUnit XML, and annotations as GitHub shows them beside the code.
+//! Writes findings for continuous integration: JUnit XML, and annotations that GitHub shows next to the code.
 
 use super::check::{CheckOutcome, Snapshot};
 use super::discovery::shown;
 use crate::text::{github, github_property, xml};
 
-/// The report as JUnit XML: a case for each snapshot and for each reference without a scene, a failure for each that does not hold.
-/// Times are left out: the same report gives the same bytes.
+/// The findings as JUnit XML: one test case for each snapshot and for each reference without a scene.
+/// The XML contains no times, so that equal findings give equal bytes.
 pub fn junit(report: &CheckOutcome) -> String {
     let mut cases = Vec::new();
     for snapshot in &report.snapshots {
@@ -41,8 +41,8 @@ fn case(name: &str, lines: &[String]) -> String {
     )
 }
 
-/// The report as annotations of GitHub, one per line: `::error file=scenes/arch.json,title=…::…`. Paths must begin at the root of the
-/// repository for GitHub to show them at their files.
+/// The findings as GitHub annotations, one per line: `::error file=scenes/arch.json,title=…::…`. GitHub shows them at their
+/// files only if the paths start at the root of the repository.
 pub fn annotations(report: &CheckOutcome) -> Vec<String> {
     let failing = report.failing().map(annotation);
     let others = report.others();

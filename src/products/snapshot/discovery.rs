@@ -1,193 +1,95 @@
-//! [`discover`]: which scenes there are under some folders, where their references lie, and which references have none.
+//! [`discover`]: finds the scenes in folders, the paths of their references, and references without a scene.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::check::Layer;
-use super::setting::{self, FILE, Settings, fits};
+use super::reference::{Part, parts};
+use super::setting::{self, SETTINGS_FILE, Settings, matches_pattern};
 use super::store;
-use crate::figure::Kind;
 use crate::scene::{Scene, SceneError, isolate};
 
-/// Input that is wrong.
+/// An error in the input of a check.
 #[derive(Debug, thiserror::Error)]
 pub enum DiscoveryError {
-    /// A scene.
+    /// A scene that is not valid.
     #[error("{}: {problems}", path.display())]
     Scene {
-        /// Its file.
+        /// The path of the scene file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The problems of the scene.
         problems: SceneError,
     },
     /// A file or folder that cannot be read.
-    #[error("cannot read {}: {why}", path.display())]
-    Unread {
-        /// Which.
+    #[error("cannot read {}: {reason}", path.display())]
+    Unreadable {
+        /// The path of the file or folder.
         path: PathBuf,
-        /// The system's reason.
-        why: String,
+        /// The message of the operating system.
+        reason: String,
     },
-    /// A settings file.
+    /// A settings file that is not valid.
     #[error("{}:{problem}", path.display())]
     Settings {
-        /// Which.
+        /// The path of the settings file.
         path: PathBuf,
-        /// Line, column and what is wrong.
+        /// Line, column and message.
         problem: String,
     },
-    /// Two scenes that would have the same references.
+    /// Two scenes with the same reference file.
     #[error("{0}")]
     Clash(String),
-}
-
-/// A file that belongs to a snapshot.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Part {
-    /// What it holds.
-    pub layer: Layer,
-    /// Where it lies.
-    pub file: PathBuf,
-    /// What its figure shows.
-    pub kind: Kind,
-    /// In which theme.
-    pub theme: String,
-    /// How wide, pixels; `None` for the drawing's own width.
-    pub width: Option<u32>,
 }
 
 /// A scene to check.
 #[derive(Clone, Debug)]
 pub struct Job {
-    /// Its file.
+    /// The path of the scene file.
     pub path: PathBuf,
-    /// What a person calls it: the path without its ending, `/` between folders.
+    /// Its name in messages: the path without its extension, with `/` between folders.
     pub name: String,
     /// The scene.
     pub scene: Arc<Scene>,
-    /// What holds for it.
+    /// The settings for its folder.
     pub settings: Arc<Settings>,
-    /// Its references, in the order in which they explain.
+    /// Its references, in the order of the layers.
     pub parts: Vec<Part>,
 }
 
-/// What there is to check.
+/// The scenes to check, and orphaned references.
 #[derive(Debug, Default)]
-pub struct Found {
-    /// The scenes, by name.
+pub struct Discovered {
+    /// The scenes, sorted by name.
     pub jobs: Vec<Job>,
-    /// References whose scene is gone, or that the settings no longer ask for, each with what to do.
+    /// References whose scene does not exist or whose layer is not in the settings any more, each with the reason and remedy.
     pub orphans: Vec<(PathBuf, String)>,
     /// Scenes on which the program failed by its own fault.
     pub faults: Vec<(PathBuf, SceneError)>,
 }
 
-/// The references of a scene or figure: `base` with the endings that the settings ask for.
-pub fn parts(base: &Path, settings: &Settings) -> Vec<Part> {
-    let mut parts = Vec::new();
-    let has = |layer: Layer| settings.layers.contains(&layer);
-    let named = |marks: &[String], ending: &str| {
-        let mut name = base.file_name().unwrap_or_default().to_os_string();
-        for mark in marks {
-            name.push(format!(".{mark}"));
-        }
-        name.push(format!(".{ending}"));
-        base.with_file_name(name)
-    };
-    let first_theme = settings.themes.first().cloned().unwrap_or_default();
-    let part = |layer, file, kind, theme: &str, width| Part {
-        layer,
-        file,
-        kind,
-        theme: theme.to_owned(),
-        width,
-    };
-    if has(Layer::Facts) {
-        parts.push(part(
-            Layer::Facts,
-            named(&[], "txt"),
-            Kind::Forces,
-            &first_theme,
-            None,
-        ));
-    }
-    for (k, kind) in settings.kinds.iter().enumerate() {
-        let kind_mark = (k > 0).then(|| kind.name().to_owned());
-        if has(Layer::Svg) {
-            let marks: Vec<String> = kind_mark.iter().cloned().collect();
-            parts.push(part(
-                Layer::Svg,
-                named(&marks, "svg"),
-                *kind,
-                &first_theme,
-                None,
-            ));
-        }
-        if !has(Layer::Pixels) {
-            continue;
-        }
-        for (t, theme) in settings.themes.iter().enumerate() {
-            let theme_mark = (t > 0).then(|| theme.clone());
-            let widths: Vec<Option<u32>> = match settings.widths.as_slice() {
-                [] => vec![None],
-                some => some.iter().copied().map(Some).collect(),
-            };
-            for (w, width) in widths.into_iter().enumerate() {
-                let width_mark = width.filter(|_| w > 0).map(|w| format!("w{w}"));
-                let marks: Vec<String> = [&kind_mark, &theme_mark, &width_mark]
-                    .into_iter()
-                    .flatten()
-                    .cloned()
-                    .collect();
-                parts.push(part(
-                    Layer::Pixels,
-                    named(&marks, "png"),
-                    *kind,
-                    theme,
-                    width,
-                ));
-            }
-        }
-    }
-    parts
-}
-
-/// Every scene under some folders, and every reference that has none. A path to a scene file stands for itself.
+/// Finds all scenes in the given folders and scene files, and all references without a scene.
 ///
-/// A scene is a `.json` file that has the key `"drystone"`, in a folder that is neither hidden nor a cache. `only` leaves those
-/// whose name contains it, or fits it where it has a `*`; where it is a scene's whole name, that scene alone: what is accepted
-/// of `arch` must not take `arch2` with it.
+/// A scene is a `.json` file with the key `"drystone"`. Hidden folders and caches are skipped. The filter `only` selects
+/// scenes in one of three ways:
+///
+/// 1. If it equals the name of a scene, it selects this scene alone. Accepting `arch` must not accept `arch2`.
+/// 2. If it contains `*`, it is a pattern for the name.
+/// 3. Otherwise it selects all scenes whose name contains it.
 ///
 /// # Errors
-/// Everything that is wrong with any of them.
-pub fn discover(places: &[PathBuf], only: Option<&str>) -> Result<Found, Vec<DiscoveryError>> {
+/// All errors in all scenes and settings.
+pub fn discover(places: &[PathBuf], only: Option<&str>) -> Result<Discovered, Vec<DiscoveryError>> {
     let mut search = Search::default();
     for place in places {
         match fs::metadata(place) {
-            Ok(data) if data.is_dir() => search.folder(place),
-            Ok(_) => search.scene(place.clone(), place.with_extension("")),
-            Err(error) => search.unread(place, &error),
+            Ok(data) if data.is_dir() => search.add_folder(place),
+            Ok(_) => search.add_scene(place.clone(), place.with_extension("")),
+            Err(error) => search.report_unreadable(place, &error),
         }
     }
-    let is_whole = |filter: &str| {
-        let mut names = search.candidates.iter().map(|(_, base)| shown(base));
-        names.any(|name| name == filter)
-    };
-    let whole = only.filter(|filter| is_whole(filter)).map(str::to_owned);
-    let wanted = |name: &str| match only {
-        None => true,
-        Some(_) if whole.is_some() => {
-            // Its references have an ending more.
-            let rest = whole
-                .as_ref()
-                .and_then(|whole| name.strip_prefix(whole.as_str()));
-            rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
-        }
-        Some(filter) if filter.contains('*') => fits(filter, name),
-        Some(filter) => name.contains(filter),
-    };
+    let names = search.candidates.iter().map(|(_, base)| shown(base));
+    let filter = Filter::new(only, names);
     search.candidates.sort();
     search.candidates.dedup();
     let mut jobs = Vec::new();
@@ -201,12 +103,12 @@ pub fn discover(places: &[PathBuf], only: Option<&str>) -> Result<Found, Vec<Dis
         let Some(bytes) = search.scene_bytes(&path, &base, &settings, &parts) else {
             continue;
         };
-        // Those that are not wanted this time have their references too.
+        // Register the references of all scenes, so that those of unselected scenes are not taken for orphans.
         for part in &parts {
-            search.claim(&path, &part.file, &mut expected);
+            search.register(&path, &part.file, &mut expected);
         }
         let name = shown(&base);
-        if !wanted(&name) {
+        if !filter.selects(&name) {
             continue;
         }
         let read = match isolate(&shown(&path), || Scene::from_slice(&bytes)) {
@@ -224,22 +126,59 @@ pub fn discover(places: &[PathBuf], only: Option<&str>) -> Result<Found, Vec<Dis
                 settings,
                 parts,
             }),
-            Err(problems) => search.faults.push(DiscoveryError::Scene { path, problems }),
+            Err(problems) => search.errors.push(DiscoveryError::Scene { path, problems }),
         }
     }
-    if !search.faults.is_empty() {
-        return Err(search.faults);
+    if !search.errors.is_empty() {
+        return Err(search.errors);
     }
     let orphans = search.orphans(&expected);
-    let orphans = orphans.into_iter().filter(|(path, _)| wanted(&shown(path)));
-    Ok(Found {
+    let orphans = orphans
+        .into_iter()
+        .filter(|(path, _)| filter.selects(&shown(path)));
+    Ok(Discovered {
         orphans: orphans.collect(),
         jobs,
         faults,
     })
 }
 
-/// A path as a person reads it, the same on every system.
+/// The filter of `--only`.
+enum Filter<'f> {
+    /// Everything.
+    All,
+    /// The scene with this name, and its references.
+    Exactly(&'f str),
+    /// Names that match a pattern with `*`.
+    Pattern(&'f str),
+    /// Names that contain this.
+    Containing(&'f str),
+}
+
+impl<'f> Filter<'f> {
+    fn new(only: Option<&'f str>, mut names: impl Iterator<Item = String>) -> Filter<'f> {
+        match only {
+            None => Filter::All,
+            Some(filter) if names.any(|name| name == filter) => Filter::Exactly(filter),
+            Some(filter) if filter.contains('*') => Filter::Pattern(filter),
+            Some(filter) => Filter::Containing(filter),
+        }
+    }
+
+    fn selects(&self, name: &str) -> bool {
+        match self {
+            Filter::All => true,
+            // The names of its references have one more suffix.
+            Filter::Exactly(scene) => name
+                .strip_prefix(scene)
+                .is_some_and(|rest| rest.is_empty() || rest.starts_with('.')),
+            Filter::Pattern(pattern) => matches_pattern(pattern, name),
+            Filter::Containing(part) => name.contains(part),
+        }
+    }
+}
+
+/// A path with `/` between folders, on every operating system.
 pub(super) fn shown(path: &Path) -> String {
     let shown = path.to_string_lossy().replace('\\', "/");
     shown.strip_prefix("./").unwrap_or(&shown).to_owned()
@@ -247,28 +186,29 @@ pub(super) fn shown(path: &Path) -> String {
 
 #[derive(Default)]
 struct Search {
-    /// Scenes, and where their references begin.
+    /// Possible scenes: the path of each, and the base path of its references.
     candidates: Vec<(PathBuf, PathBuf)>,
-    /// Everything else that could be a reference.
+    /// Possible references.
     others: Vec<PathBuf>,
-    /// Settings by the file they come from, `None` for the default.
+    /// Settings that were read already, by file; `None` stands for the default settings.
     known: BTreeMap<Option<PathBuf>, Option<Arc<Settings>>>,
-    faults: Vec<DiscoveryError>,
+    errors: Vec<DiscoveryError>,
 }
 
 impl Search {
-    fn unread(&mut self, path: &Path, error: &std::io::Error) {
-        self.faults.push(DiscoveryError::Unread {
+    fn report_unreadable(&mut self, path: &Path, error: &std::io::Error) {
+        self.errors.push(DiscoveryError::Unreadable {
             path: path.to_owned(),
-            why: error.to_string(),
+            reason: error.to_string(),
         });
     }
 
-    fn folder(&mut self, folder: &Path) {
+    /// Collects the files of a folder and of the folders in it.
+    fn add_folder(&mut self, folder: &Path) {
         let entries: Result<Vec<_>, _> = fs::read_dir(folder).and_then(Iterator::collect);
         let mut entries: Vec<fs::DirEntry> = match entries {
             Ok(entries) => entries,
-            Err(error) => return self.unread(folder, &error),
+            Err(error) => return self.report_unreadable(folder, &error),
         };
         entries.sort_by_key(fs::DirEntry::file_name);
         if entries.iter().any(|e| e.file_name() == "CACHEDIR.TAG") {
@@ -277,7 +217,7 @@ impl Search {
         for entry in entries {
             let path = entry.path();
             let name = entry.file_name().to_string_lossy().into_owned();
-            // A link to a folder may lead back up.
+            // Symbolic links to folders are not followed: they may form a cycle.
             let is_folder = entry.file_type().is_ok_and(|t| t.is_dir());
             match path
                 .extension()
@@ -285,17 +225,19 @@ impl Search {
                 .as_deref()
             {
                 _ if name.starts_with('.') || name == "node_modules" => {}
-                _ if is_folder => self.folder(&path),
-                _ if name == FILE => self.elsewhere(folder),
-                Some("json") => self.scene(path.clone(), path.with_extension("")),
-                Some("txt" | "svg" | "png") if !store::is_beside(&name) => self.others.push(path),
+                _ if is_folder => self.add_folder(&path),
+                _ if name == SETTINGS_FILE => self.add_listed_scenes(folder),
+                Some("json") => self.add_scene(path.clone(), path.with_extension("")),
+                Some("txt" | "svg" | "png") if !store::is_result_file(&name) => {
+                    self.others.push(path)
+                }
                 _ => {}
             }
         }
     }
 
-    /// The scenes that a settings file names beside those in its folder.
-    fn elsewhere(&mut self, folder: &Path) {
+    /// Adds the scenes that the settings file of a folder lists in `scenes`.
+    fn add_listed_scenes(&mut self, folder: &Path) {
         let Some(settings) = self.settings_of(folder) else {
             return;
         };
@@ -304,27 +246,27 @@ impl Search {
             match fs::metadata(&place) {
                 Ok(data) if data.is_dir() => {
                     let mut there = Search::default();
-                    there.folder(&place);
+                    there.add_folder(&place);
                     for (path, _) in there.candidates {
                         let name = path.file_stem().unwrap_or_default().to_owned();
-                        self.scene(path, folder.join(name));
+                        self.add_scene(path, folder.join(name));
                     }
-                    self.faults.extend(there.faults);
+                    self.errors.extend(there.errors);
                 }
                 Ok(_) => {
                     let name = place.file_stem().unwrap_or_default().to_owned();
-                    self.scene(place, folder.join(name));
+                    self.add_scene(place, folder.join(name));
                 }
-                Err(error) => self.unread(&place, &error),
+                Err(error) => self.report_unreadable(&place, &error),
             }
         }
     }
 
-    fn scene(&mut self, path: PathBuf, base: PathBuf) {
+    fn add_scene(&mut self, path: PathBuf, base: PathBuf) {
         self.candidates.push((path, base));
     }
 
-    /// What holds in a folder. `None` where that is wrong, which has been reported then.
+    /// The settings for a folder; `None` if they are not valid, which this function reports.
     fn settings_of(&mut self, folder: &Path) -> Option<Arc<Settings>> {
         let folder = if folder.as_os_str().is_empty() {
             Path::new(".")
@@ -339,7 +281,7 @@ impl Search {
             None => Some(Settings::default()),
             Some(path) => match fs::read_to_string(path) {
                 Err(error) => {
-                    self.unread(path, &error);
+                    self.report_unreadable(path, &error);
                     None
                 }
                 Ok(text) => Settings::read(&text)
@@ -351,7 +293,7 @@ impl Search {
                                     path: path.clone(),
                                     problem,
                                 });
-                        self.faults.extend(described);
+                        self.errors.extend(described);
                     })
                     .ok(),
             },
@@ -361,14 +303,15 @@ impl Search {
         settings
     }
 
-    /// Two snapshots may not have a reference in common, not even on a file system that does not tell capitals.
-    fn claim(&mut self, scene: &Path, file: &Path, expected: &mut BTreeMap<PathBuf, PathBuf>) {
+    /// Registers a reference, and reports an error if two scenes have the same one. Paths are compared in lower case, because
+    /// some file systems do not distinguish capitals.
+    fn register(&mut self, scene: &Path, file: &Path, expected: &mut BTreeMap<PathBuf, PathBuf>) {
         let folded = PathBuf::from(file.to_string_lossy().to_lowercase());
         if let Some(other) = expected.insert(folded, scene.to_owned())
             && other != scene
         {
-            self.faults.push(DiscoveryError::Clash(format!(
-                "{} and {} would both have the reference {} where capitals and small letters are one; rename one of them",
+            self.errors.push(DiscoveryError::Clash(format!(
+                "{} and {} would both have the reference {} on file systems that ignore case; rename one of them",
                 shown(&other),
                 shown(scene),
                 shown(file)
@@ -376,7 +319,7 @@ impl Search {
         }
     }
 
-    /// The bytes of a file that is a scene of ours.
+    /// The bytes of a file if it is a drystone scene that the settings do not ignore.
     fn scene_bytes(
         &mut self,
         path: &Path,
@@ -389,39 +332,47 @@ impl Search {
             let path = std::path::absolute(path).ok()?;
             Some(shown(path.strip_prefix(folder).ok()?))
         });
-        let ignored = |pattern: &String| below.as_deref().is_some_and(|below| fits(pattern, below));
+        let ignored = |pattern: &String| {
+            below
+                .as_deref()
+                .is_some_and(|below| matches_pattern(pattern, below))
+        };
         if settings.ignore.iter().any(ignored) {
             return None;
         }
         let bytes = match fs::read(path) {
             Ok(bytes) => bytes,
             Err(error) => {
-                self.unread(path, &error);
+                self.report_unreadable(path, &error);
                 return None;
             }
         };
         let key = b"\"drystone\"";
         let is_scene = bytes.windows(key.len()).any(|w| w == key);
-        // Another program's JSON is let be; a scene that lost its key is not, its references tell.
+        // Skip JSON files of other programs. A file with references is a scene even if it has lost its key: report that.
         (is_scene || parts.iter().any(|p| p.file.exists())).then_some(bytes)
     }
 
-    /// Files that were written as references and are none any more.
+    /// Orphaned reference files, each with the reason and remedy.
     fn orphans(&self, expected: &BTreeMap<PathBuf, PathBuf>) -> Vec<(PathBuf, String)> {
         let fold = |path: &Path| PathBuf::from(path.to_string_lossy().to_lowercase());
         let mut stems: BTreeSet<PathBuf> = BTreeSet::new();
         for file in expected.keys() {
             stems.insert(file.with_extension(""));
         }
-        // What tells of itself that it was made for a scene; and its neighbours of the same name.
-        let described: Vec<&PathBuf> = self.others.iter().filter(|p| tells(p)).collect();
+        // Facts and pictures contain a mark that they are references. Files with the same stem belong to them.
+        let marked: Vec<&PathBuf> = self
+            .others
+            .iter()
+            .filter(|p| has_reference_mark(p))
+            .collect();
         let mut orphans = Vec::new();
         for path in &self.others {
             if expected.contains_key(&fold(path)) {
                 continue;
             }
             let stem = path.with_extension("");
-            let beside = described.iter().any(|t| t.with_extension("") == stem);
+            let same_stem = marked.iter().any(|t| t.with_extension("") == stem);
             let of_a_scene = stems.iter().any(|s| {
                 let (own, s) = (
                     fold(&stem).to_string_lossy().into_owned(),
@@ -430,11 +381,11 @@ impl Search {
                 own.strip_prefix(s.as_ref())
                     .is_some_and(|rest| rest.starts_with('.'))
             });
-            if beside || of_a_scene {
+            if same_stem || of_a_scene {
                 let words = if of_a_scene {
-                    "its scene has no such reference; the settings may have changed. Delete it"
+                    "the settings of its scene do not ask for this reference; delete it"
                 } else {
-                    "its scene is gone. Delete it, or bring the scene back"
+                    "its scene does not exist; delete the reference or restore the scene"
                 };
                 orphans.push((path.clone(), words.to_owned()));
             }
@@ -443,8 +394,8 @@ impl Search {
     }
 }
 
-/// Whether a file says of itself that it is the reference of a scene.
-fn tells(path: &Path) -> bool {
+/// Whether a file contains the mark of a reference of a scene in its first 4 kB.
+fn has_reference_mark(path: &Path) -> bool {
     use std::io::Read;
     let mut head = Vec::new();
     let read = fs::File::open(path).and_then(|file| file.take(4096).read_to_end(&mut head));

@@ -1,19 +1,20 @@
-//! Snapshots: structures and their pictures under test. What was found out about a scene, its SVG and its pixels are kept beside
-//! it as references; a check makes them anew and says in words what is not as it was.
+//! Snapshot tests for scenes and their pictures.
 //!
-//! How to use it stands in [`doc::snapshot`](crate::doc::snapshot): `drystone snapshot DIR` on the command line,
-//! [`assert_scene!`], [`assert_scenes!`] and [`assert_figure!`] in tests.
+//! The facts of a scene (verdict and forces), its SVG and its pixels are stored next to it as reference files. A check
+//! computes them again and describes every difference in words. [`doc::snapshot`](crate::doc::snapshot) is the user guide:
+//! `drystone snapshot DIR` on the command line, [`assert_scene!`], [`assert_scenes!`] and [`assert_figure!`] in tests.
 //!
-//! | | makes | from |
+//! | module | result | input |
 //! |---|---|---|
-//! | [`setting`] | what is checked, how wide, how precisely | `drystone-snapshots.toml` |
-//! | [`discovery`] | which scenes there are, and where their references lie | folders |
-//! | [`fact`] | what changed in verdict and forces | an analysis, a text |
-//! | [`element`] | what changed in the drawing | two SVG |
-//! | [`picture`] | what changed in the pixels | two pictures |
-//! | [`check`](mod@check) | what is not as its reference says | all of these |
-//! | [`store`] | references, `.new.*` and `.diff.png` on disk | findings |
-//! | [`review`], [`ci`] | a page to look at, JUnit XML, annotations | a report |
+//! | [`setting`] | the settings: layers, widths, tolerances | `drystone-snapshots.toml` |
+//! | [`discovery`] | the scenes, and orphaned references | folders |
+//! | [`reference`] | the reference files of a scene | settings |
+//! | [`fact`] | differences in verdict and forces | an analysis and a text |
+//! | [`element`] | differences in the drawing | two SVG texts |
+//! | [`picture`] | differences in the pixels | two pictures |
+//! | [`check`](mod@check) | the findings: all references that differ | all of these |
+//! | [`store`] | files: references, `.new.*` and `.diff.png` | findings |
+//! | [`review`], [`ci`] | a review page, JUnit XML, annotations | findings |
 
 pub mod assertion;
 pub mod check;
@@ -21,14 +22,17 @@ pub mod ci;
 pub mod discovery;
 pub mod element;
 pub mod fact;
+mod layer;
 pub mod picture;
+pub mod reference;
 pub mod review;
 pub mod setting;
 pub mod store;
 
-pub use check::{CheckOutcome, Finding, Layer, Snapshot, State, check};
+pub use check::{CheckOutcome, Finding, Snapshot, State, check};
 pub use discovery::{DiscoveryError, Job, discover};
+pub use layer::Layer;
 pub use setting::Settings;
 
-// Macros live at the root of a crate, by a rule of the language; here they stand where they belong.
+// The language exports macros at the root of the crate. They are exported again here, where users look for them.
 pub use crate::{assert_figure, assert_scene, assert_scenes};

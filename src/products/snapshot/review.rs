@@ -1,8 +1,8 @@
-//! [`page`]: a report to look at, as one HTML file: expected, difference and found beside each other, one over the other with a
-//! slider, or blinking in turns; what changed in words; and the commands that accept it.
+//! [`page`]: writes the findings as one HTML file for review.
 //!
-//! The page holds its pictures itself and asks for nothing from elsewhere. The pictures of an SVG are drawn by us, not by the
-//! browser, so that what is looked at is what is kept.
+//! The page shows the expected picture, the difference and the new picture side by side. A slider or a blink button
+//! compares them in place. It also lists the changes in words and the commands that accept them. The pictures are part of
+//! the file, so the page loads nothing from the network. They are the stored PNG files, not drawn by the browser.
 
 use std::path::Path;
 
@@ -10,24 +10,25 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use super::check::{CheckOutcome, Finding, Layer, Snapshot, State};
+use super::check::{CheckOutcome, Finding, Snapshot, State};
 use super::discovery::shown;
+use super::layer::Layer;
 use crate::text::{line, shell};
 
 const STYLE: &str = include_str!("../../../assets/snapshot/review.css");
 const SCRIPT: &str = include_str!("../../../assets/snapshot/review.js");
-/// A drawing with more changes than this unfolds on request: the pictures tell most of it.
-const OPEN: usize = 12;
-/// So many changes of one file stand in the page.
-const MOST_LISTED: usize = 60;
+/// Longer lists of changes are collapsed: the pictures show most of them.
+const MAX_OPEN_CHANGES: usize = 12;
+/// The page lists at most this many changes of one file and counts the rest.
+const MAX_LISTED_CHANGES: usize = 60;
 
-/// The page of a report. `folders` are those of the command line, for the commands to copy.
+/// The review page of a check. `folders` are the arguments of the command line; the commands on the page repeat them.
 ///
 /// # Example
 /// ```
 /// use drystone::snapshot::{CheckOutcome, review::page};
 /// let page = page(&CheckOutcome::default(), &["scenes".into()]);
-/// assert!(page.contains("Everything is as its references say"));
+/// assert!(page.contains("Everything matches its references"));
 /// ```
 pub fn page(report: &CheckOutcome, folders: &[std::path::PathBuf]) -> String {
     let failing: Vec<&Snapshot> = report.failing().collect();
@@ -45,8 +46,8 @@ pub fn page(report: &CheckOutcome, folders: &[std::path::PathBuf]) -> String {
             body {
                 h1 { "Snapshots" }
                 p.pale { (report.summary()) "." }
-                @if report.holds() {
-                    p { "Everything is as its references say." }
+                @if report.matches() {
+                    p { "Everything matches its references." }
                 } @else if !failing.is_empty() {
                     (command(&format!("drystone snapshot {places} --accept"), "All of them"))
                     nav {
@@ -89,12 +90,12 @@ fn described(finding: &Finding) -> Markup {
     let state = match finding.state {
         State::Missing => "new",
         State::Changed => "changed",
-        State::PictureError => "unreadable",
-        State::Large => "large",
+        State::Unreadable => "unreadable",
+        State::TooLarge => "large",
     };
     html! {
         h3 { span.state { (finding.layer.name()) " " (state) } " " (line(&shown(&finding.file))) }
-        @if finding.words.len() > OPEN && finding.layer == Layer::Svg {
+        @if finding.words.len() > MAX_OPEN_CHANGES && finding.layer == Layer::Svg {
             details { summary { (finding.words.len()) " changes" } (words(finding)) }
         } @else {
             (words(finding))
@@ -106,14 +107,14 @@ fn described(finding: &Finding) -> Markup {
 fn words(finding: &Finding) -> Markup {
     html! {
         ul {
-            @for words in finding.words.iter().take(MOST_LISTED) { li { (line(words)) } }
-            @if finding.words.len() > MOST_LISTED { li { "… and " (finding.words.len() - MOST_LISTED) " more" } }
+            @for words in finding.words.iter().take(MAX_LISTED_CHANGES) { li { (line(words)) } }
+            @if finding.words.len() > MAX_LISTED_CHANGES { li { "… and " (finding.words.len() - MAX_LISTED_CHANGES) " more" } }
         }
     }
 }
 
 fn pictures(finding: &Finding) -> Markup {
-    // What cannot be read would be an empty frame.
+    // Show the reference only if it can be read.
     let expected = finding
         .expected
         .as_deref()

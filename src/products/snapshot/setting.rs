@@ -1,42 +1,42 @@
-//! [`Settings`]: what `drystone-snapshots.toml` says. The only file here that names the toml crate.
+//! [`Settings`]: reads `drystone-snapshots.toml`. No other file of this folder uses the toml crate.
 
 use std::path::{Path, PathBuf};
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::check::Layer;
 use super::fact::DIGITS;
+use super::layer::Layer;
 use super::picture::PixelTolerance;
 use crate::drawing::Theme;
 use crate::figure::Kind;
 use crate::output::png::MAX_SIDE;
 
-/// What the file is called.
-pub const FILE: &str = "drystone-snapshots.toml";
+/// The name of the settings file.
+pub const SETTINGS_FILE: &str = "drystone-snapshots.toml";
 
-/// What is checked, and how precisely.
+/// The settings of a check.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Settings {
-    /// What is compared: facts, SVG, pixels.
+    /// The layers to compare.
     pub layers: Vec<Layer>,
-    /// What figures show; `name.svg` is of the first kind, `name.KIND.svg` of every other.
+    /// The kinds of figures. The first is stored as `name.svg`, each other as `name.KIND.svg`.
     pub kinds: Vec<Kind>,
-    /// Names of themes; `name.png` is in the first, `name.THEME.png` in every other. An SVG is kept in the first alone.
+    /// The names of the themes. The first is stored as `name.png`, each other as `name.THEME.png`. SVG uses the first only.
     pub themes: Vec<String>,
-    /// Widths of pictures in pixels; `name.png` is as wide as the first, `name.w320.png` 320 pixels. Empty for one pixel per unit of
-    /// the drawing.
+    /// The widths of pictures in pixels. The first is stored as `name.png`, another as `name.w320.png`. If the list is empty,
+    /// a picture has one pixel per unit of the drawing.
     pub widths: Vec<u32>,
-    /// Digits of a force of the size of the largest load.
+    /// The significant digits of forces, relative to the largest load.
     pub digits: usize,
-    /// From when on pixels differ.
+    /// The differences that pixels may have.
     pub tolerance: PixelTolerance,
-    /// A reference picture may take so many kilobytes of 1000 bytes for each of its panels.
+    /// The largest size of a reference picture, in kilobytes (1000 bytes) per panel.
     pub most_kilobytes: Option<u64>,
-    /// Scenes that are none of ours: paths from the file's folder, `*` for any characters.
+    /// Files to ignore: paths relative to the settings file, with `*` for any characters.
     pub ignore: Vec<String>,
-    /// Further scenes, or folders of them, whose references lie in the file's folder; from there.
+    /// More scenes or folders of scenes, relative to the settings file. Their references are stored next to the settings file.
     pub scenes: Vec<PathBuf>,
 }
 
@@ -56,7 +56,7 @@ impl Default for Settings {
     }
 }
 
-/// All keys there are.
+/// All keys of the settings file.
 const KEYS: [&str; 10] = [
     "layers",
     "kinds",
@@ -71,10 +71,10 @@ const KEYS: [&str; 10] = [
 ];
 
 impl Settings {
-    /// Settings from the text of a file.
+    /// Reads the text of a settings file.
     ///
     /// # Errors
-    /// Everything that is wrong with it, each with line and column.
+    /// All problems, each with line and column.
     ///
     /// # Example
     /// ```
@@ -91,7 +91,7 @@ impl Settings {
         if !errors.is_empty() {
             let described = errors.iter().map(|e| {
                 let place = e.span().map_or(0, |span| span.start);
-                format!("{}: no TOML: {}", place_in(text, place), e.message())
+                format!("{}: not valid TOML: {}", place_in(text, place), e.message())
             });
             return Err(described.collect());
         }
@@ -103,7 +103,7 @@ impl Settings {
         for (key, value) in table.get_ref() {
             reading.key(key, value);
         }
-        // In the order of the file, whatever order the table is in.
+        // Report the problems in the order of the file; the table has another order.
         reading.problems.sort();
         if reading.problems.is_empty() {
             return Ok(reading.settings);
@@ -115,7 +115,7 @@ impl Settings {
     }
 }
 
-/// Line and column of a byte, from 1.
+/// Line and column of a byte offset, counted from 1.
 fn place_in(text: &str, at: usize) -> String {
     let before = text.get(..at).unwrap_or(text);
     let line = before.matches('\n').count() + 1;
@@ -158,7 +158,7 @@ impl Reading<'_> {
                     .filter_map(|w| self.whole("widths", w, 16, u64::from(MAX_SIDE)))
                     .collect();
                 self.settings.widths = widths.into_iter().map(|w| w as u32).collect();
-                self.twice("widths", value, self.settings.widths.clone());
+                self.report_duplicates("widths", value, self.settings.widths.clone());
             }
             "digits" => {
                 if let Some(digits) = self.whole("digits", value, 2, 12) {
@@ -196,7 +196,7 @@ impl Reading<'_> {
                 let found = other.type_str();
                 self.wrong(
                     value.span().start,
-                    format!("{key} is a list in square brackets, not a value of type {found}"),
+                    format!("{key} must be a list in square brackets, not a value of type {found}"),
                 );
                 Vec::new()
             }
@@ -213,7 +213,7 @@ impl Reading<'_> {
                     self.wrong(
                         entry.span().start,
                         format!(
-                            "{key} holds texts in quotation marks, not a value of type {found}"
+                            "{key} must contain strings in quotation marks, not a value of type {found}"
                         ),
                     );
                 }
@@ -222,7 +222,7 @@ impl Reading<'_> {
         texts
     }
 
-    /// A list of names, none of them unknown, none twice, and at least one.
+    /// Reads a list of known names. Reports an empty list, unknown names and duplicates.
     fn named<T: PartialEq + Clone>(
         &mut self,
         key: &str,
@@ -252,19 +252,19 @@ impl Reading<'_> {
         if found.is_empty() && self.problems.len() == before {
             self.wrong(
                 value.span().start,
-                format!("{key} is empty; leave it out for the default"),
+                format!("{key} is empty; remove it to use the default"),
             );
         }
-        self.twice(key, value, found.clone());
+        self.report_duplicates(key, value, found.clone());
         found
     }
 
-    fn twice<T: PartialEq>(&mut self, key: &str, value: &Found<'_>, list: Vec<T>) {
+    fn report_duplicates<T: PartialEq>(&mut self, key: &str, value: &Found<'_>, list: Vec<T>) {
         let again = |i: usize| list[..i].contains(&list[i]);
         if (0..list.len()).any(again) {
             self.wrong(
                 value.span().start,
-                format!("{key} says the same twice; its files would have one name"),
+                format!("{key} contains a value twice; both would have the same reference file"),
             );
         }
     }
@@ -279,7 +279,7 @@ impl Reading<'_> {
             let stated = crate::text::heading(stated, 40);
             self.wrong(
                 value.span().start,
-                format!("{key}: {stated} is no whole number from {least} to {most}"),
+                format!("{key}: {stated} is not a whole number from {least} to {most}"),
             );
             return None;
         }
@@ -297,7 +297,7 @@ impl Reading<'_> {
                 self.wrong(
                     value.span().start,
                     format!(
-                        "perceptual_threshold: {stated} is no number from 0 to 1; 0.1 is usual"
+                        "perceptual_threshold: {stated} is not a number from 0 to 1; a usual value is 0.1"
                     ),
                 );
             }
@@ -305,11 +305,11 @@ impl Reading<'_> {
     }
 }
 
-/// The settings file that holds for a folder: the nearest at or above it. A folder that holds `.git` ends the search.
+/// The settings file for a folder: the nearest one in the folder or above it. The search stops at a folder with `.git`.
 pub fn nearest(folder: &Path) -> Option<PathBuf> {
     let start = std::path::absolute(folder).ok()?;
     for above in start.ancestors() {
-        let file = above.join(FILE);
+        let file = above.join(SETTINGS_FILE);
         if file.is_file() {
             return Some(file);
         }
@@ -320,8 +320,8 @@ pub fn nearest(folder: &Path) -> Option<PathBuf> {
     None
 }
 
-/// Whether a name fits a pattern in which `*` stands for any characters.
-pub fn fits(pattern: &str, name: &str) -> bool {
+/// Whether a name matches a pattern in which `*` stands for any characters.
+pub fn matches_pattern(pattern: &str, name: &str) -> bool {
     let mut parts = pattern.split('*');
     let first = parts.next().unwrap_or_default();
     let Some(mut rest) = name.strip_prefix(first) else {
@@ -345,7 +345,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_problem_is_told_in_its_place() {
+    fn every_problem_is_reported_with_its_place() {
         let text = "layers = []\nwidths = [640, 640, -3, 1.5]\nthemes = \"dark\"\ndigits = 99\n\nperceptual_threshold = 7\nignore = [1]\ncolour = 1\n";
         let described = Settings::read(text).expect_err("wrong");
         let places: Vec<&str> = described
@@ -359,12 +359,14 @@ mod tests {
             ],
             "{described:#?}"
         );
-        assert!(Settings::read("kinds = [\"forces\"").expect_err("cut")[0].contains("no TOML"));
+        assert!(
+            Settings::read("kinds = [\"forces\"").expect_err("cut")[0].contains("not valid TOML")
+        );
         assert_eq!(Settings::read(""), Ok(Settings::default()));
     }
 
     #[test]
-    fn stars_stand_for_anything() {
+    fn a_star_matches_any_characters() {
         for (pattern, name) in [
             ("*", ""),
             ("a*", "abc"),
@@ -373,7 +375,7 @@ mod tests {
             ("abc", "abc"),
             ("a*a", "aa"),
         ] {
-            assert!(fits(pattern, name), "{pattern} {name}");
+            assert!(matches_pattern(pattern, name), "{pattern} {name}");
         }
         for (pattern, name) in [
             ("a", "ab"),
@@ -382,7 +384,7 @@ mod tests {
             ("a*c", "acd"),
             ("", "a"),
         ] {
-            assert!(!fits(pattern, name), "{pattern} {name}");
+            assert!(!matches_pattern(pattern, name), "{pattern} {name}");
         }
     }
 }

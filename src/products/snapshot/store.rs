@@ -1,8 +1,9 @@
-//! References on disk: who may write them, and what lies beside them while they are in question.
+//! Reads and writes reference files.
 //!
-//! A reference is written whole or not at all, and all files of one snapshot together. What was found where it differs lies
-//! beside it as `.new.*`, a picture of the difference as `.diff.png`; both are taken away once they agree. Two runs at once take
-//! turns by a lock on the folder itself, which the system takes back when a run ends, however it ends.
+//! All files of a snapshot are written together, completely or not at all. If a result differs from its reference, it is
+//! written next to the reference as `.new.*`, and an image of the difference as `.diff.png`. Both are deleted as soon as
+//! the results agree. Runs at the same time take turns through a lock on the folder, which the operating system releases
+//! when a process ends for any reason.
 
 use std::collections::BTreeSet;
 use std::fs::{self, File};
@@ -11,104 +12,105 @@ use std::path::{Path, PathBuf};
 
 use crate::output::file::{Existing, WriteError, write_whole};
 
-/// Whether this run is one of continuous integration, where nobody looks before a reference is accepted: `CI` is set, and not to
-/// `false` or 0.
+/// Whether this is a run of continuous integration, where nobody could review a new reference. True if the environment
+/// variable `CI` is set to anything but `false`, `no` or 0.
 pub fn in_ci() -> bool {
-    asked("CI")
+    is_set("CI")
 }
 
-/// Whether references are to be written: `UPDATE_SNAPSHOTS` is set, and not to `false` or 0.
-pub fn asked_to_update() -> bool {
-    asked("UPDATE_SNAPSHOTS")
+/// Whether references should be written. True if `UPDATE_SNAPSHOTS` is set to anything but `false`, `no` or 0.
+pub fn update_requested() -> bool {
+    is_set("UPDATE_SNAPSHOTS")
 }
 
-fn asked(name: &str) -> bool {
+fn is_set(name: &str) -> bool {
     let value = std::env::var_os(name).unwrap_or_default();
     let value = value.to_string_lossy();
     !matches!(value.trim(), "" | "0" | "false" | "no")
 }
 
-/// The place of what was found, beside a reference: `arch.new.png` of `arch.png`.
+/// The path of a result that differs from its reference: `arch.new.png` for `arch.png`.
 ///
 /// ```
-/// use drystone::snapshot::store::{difference, found};
-/// assert_eq!(found("a b/arch.dark.png".as_ref()), std::path::Path::new("a b/arch.dark.new.png"));
-/// assert_eq!(difference("arch.png".as_ref()), std::path::Path::new("arch.diff.png"));
+/// use drystone::snapshot::store::{difference_file, new_file};
+/// assert_eq!(new_file("a b/arch.dark.png".as_ref()), std::path::Path::new("a b/arch.dark.new.png"));
+/// assert_eq!(difference_file("arch.png".as_ref()), std::path::Path::new("arch.diff.png"));
 /// ```
-pub fn found(reference: &Path) -> PathBuf {
-    with(reference, "new")
+pub fn new_file(reference: &Path) -> PathBuf {
+    with_mark(reference, "new")
 }
 
-/// The place of the picture of a difference, beside a reference.
-pub fn difference(reference: &Path) -> PathBuf {
-    with(reference, "diff")
+/// The path of the image of a difference: `arch.diff.png` for `arch.png`.
+pub fn difference_file(reference: &Path) -> PathBuf {
+    with_mark(reference, "diff")
 }
 
-fn with(reference: &Path, mark: &str) -> PathBuf {
+fn with_mark(reference: &Path, mark: &str) -> PathBuf {
     let ending = reference.extension().unwrap_or_default().to_string_lossy();
     reference.with_extension(format!("{mark}.{ending}"))
 }
 
-/// Whether a name is that of what was found or of a difference, and no reference.
-pub(super) fn is_beside(name: &str) -> bool {
+/// Whether a file name belongs to a `.new.*` or `.diff.png` file.
+pub(super) fn is_result_file(name: &str) -> bool {
     let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
     stem.ends_with(".new") || name.ends_with(".diff.png")
 }
 
-/// The turn of one run in some folders; it ends when this is dropped.
+/// A lock on folders, released when it is dropped.
 #[derive(Debug)]
-pub struct Turn {
+pub struct FolderLock {
     _folders: Vec<File>,
 }
 
-/// How a run uses the folders.
+/// What a run does with the files in a folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Use {
-    /// References are read.
-    Check,
-    /// References are written.
-    Accept,
+pub enum Access {
+    /// It reads references; others may read at the same time.
+    Read,
+    /// It writes references; nobody else may use the folder.
+    Write,
 }
 
-/// Waits until no other run writes to these folders, or, to accept, until none uses them at all. Where the system has no such
-/// locks everything goes on without: files are whole either way.
-pub fn turn(folders: impl IntoIterator<Item = PathBuf>, usage: Use) -> Turn {
+/// Locks folders: waits for runs that write there, and before writing for all runs that use them.
+///
+/// On a file system without locks the run continues without one. Files are complete even then.
+pub fn lock_folders(folders: impl IntoIterator<Item = PathBuf>, access: Access) -> FolderLock {
     let real = folders.into_iter().filter_map(|f| fs::canonicalize(f).ok());
-    // Everybody asks in the same order: two runs never wait for each other.
+    // All runs lock in the same order, so that two runs never wait for each other (no deadlock).
     let sorted: BTreeSet<PathBuf> = real.collect();
     let mut held = Vec::new();
     for folder in sorted {
         let Ok(file) = File::open(&folder) else {
             continue;
         };
-        let locked = match usage {
-            Use::Check => file.lock_shared(),
-            Use::Accept => file.lock(),
+        let locked = match access {
+            Access::Read => file.lock_shared(),
+            Access::Write => file.lock(),
         };
         if locked.is_ok() {
             held.push(file);
         }
     }
-    Turn { _folders: held }
+    FolderLock { _folders: held }
 }
 
-/// Writes files, all or none.
+/// Writes all files or none.
 ///
 /// # Errors
-/// The first that could not be written.
+/// The first file that could not be written.
 pub fn write(files: &[(PathBuf, Vec<u8>)]) -> Result<(), WriteError> {
     write_whole(files, Existing::Replace)
 }
 
-/// Takes a file away if it is there. What cannot be taken away from a read-only folder stays; it says nothing that is not so.
+/// Deletes a file if it exists. An error is ignored: a file that stays in a read-only folder does no harm.
 pub(super) fn remove(path: &Path) {
     let _ = fs::remove_file(path);
 }
 
-/// The bytes of a reference, `None` where there is none.
+/// The bytes of a reference; `None` if it does not exist.
 ///
 /// # Errors
-/// The system's reason.
+/// Any other reason why the file cannot be read.
 pub(super) fn read(path: &Path) -> io::Result<Option<Vec<u8>>> {
     match fs::read(path) {
         Ok(bytes) => Ok(Some(bytes)),

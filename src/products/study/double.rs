@@ -1,7 +1,7 @@
-//! [`Double`]: a number as the unevaluated sum of two f64, about 32 digits.
+//! [`Double`]: double-double arithmetic with about 32 digits. A number is the unevaluated sum of two f64.
 //!
-//! Source: Dekker 1971, Knuth's two-sum; products through the fused multiply-add, which is exact on every machine (in
-//! hardware or not). Only what the reference needs.
+//! References: Dekker (1971), A floating-point technique for extending the available precision; Knuth's two-sum. Products
+//! use the fused multiply-add, which is exact on every machine, in hardware or in software.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -13,7 +13,7 @@ pub struct Double {
 }
 
 impl Double {
-    /// No amount.
+    /// 0.
     pub const ZERO: Double = Double {
         high: 0.0,
         low: 0.0,
@@ -24,12 +24,12 @@ impl Double {
         self.high
     }
 
-    /// Its size.
+    /// The absolute value.
     pub fn abs(self) -> Double {
         if self.high < 0.0 { -self } else { self }
     }
 
-    /// The exact sum of two f64.
+    /// The exact sum of two f64: Knuth's two-sum.
     fn sum(a: f64, b: f64) -> Double {
         let high = a + b;
         let other = high - a;

@@ -1,21 +1,26 @@
-//! The unique forces of least Σ force² in extended precision, certified: the reference for the largest single force.
+//! The optimum with the least Σ force², in extended precision: the reference for the largest single force.
 //!
-//! Unknowns are N1, N2, T of each contact and three components of each grip. A quadratic program's answer tells which
-//! cone faces the forces lie in; on those the least squares are one system of equations. Certificate: the forces are
-//! admissible, their sum is the certified optimum, and no column of the face of optima would shorten them, each to 10⁻¹³.
+//! Among all optima of a program, the one with the least sum of squares is unique. The unknowns are N1, N2, T of each
+//! contact and three components of each grip.
+//!
+//! 1. A quadratic program on the optimal face, solved in f64, suggests the faces of the friction cones that contain the
+//!    forces.
+//! 2. On these, the least-squares solution is one linear system, which is refined in [`Double`] precision.
+//! 3. The result is accepted if the forces are admissible, if their sum is the certified optimum, and if no column of the
+//!    optimal face reduces the sum of squares (the Karush-Kuhn-Tucker conditions), each to [`EXACT`].
 
 use std::collections::BTreeMap;
 
 use super::double::Double;
-use super::reference::{EXACT, Optimum, add, along, entries};
+use super::optimum::{EXACT, Optimum, add, entries, product};
 use super::skyline::Skyline;
 use crate::program::{Column, Force, Program, least_squares};
 use crate::solve::{Conditioning, Status, solve};
 
-/// Where a force belongs: its contact, or its grip behind all contacts.
+/// The contact or grip of a force: contacts first, then grips.
 type Place = usize;
 
-/// One direction at a place, orthogonal to the others there.
+/// A direction of the force at one place, orthogonal to the other directions there.
 struct Axis {
     place: Place,
     direction: [Double; 3],
@@ -23,7 +28,7 @@ struct Axis {
     square: Double,
 }
 
-/// Norm of the largest resultant among the unique forces, if they can be certified.
+/// The norm of the largest resultant of the unique forces, if they can be certified.
 pub(super) fn largest_of_unique(
     program: &Program,
     columns: &[Column],
@@ -39,7 +44,7 @@ pub(super) fn largest_of_unique(
         if answer.status != Status::Solved {
             continue;
         }
-        // Every column has a row −x ≤ 0, and one more where it is limited.
+        // The multipliers of −x ≤ 0: one row per column, and a second row for each column with a limit.
         let mut row = program.loads.len();
         let mut multiplier = Vec::with_capacity(face.len());
         for column in &face {
@@ -82,7 +87,7 @@ fn place(program: &Program, column: &Column) -> (Place, [Double; 3]) {
             vector[component] = sign.into();
             (program.contacts.len() + grip, vector)
         }
-        // Sticking is no column of a program that stands.
+        // Adhesion does not occur in a stable program.
         _ => (usize::MAX, vector),
     }
 }
@@ -91,7 +96,7 @@ fn dot(a: &[Double; 3], b: &[Double; 3]) -> Double {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// Orthogonal axes of the cone faces that some columns span, place by place.
+/// Orthogonal axes of the spaces that the used columns span, place by place, by Gram-Schmidt.
 fn axes<'a>(program: &Program, used: impl Iterator<Item = &'a Column>) -> Vec<Axis> {
     let mut axes: Vec<Axis> = Vec::new();
     for column in used {
@@ -109,7 +114,8 @@ fn axes<'a>(program: &Program, used: impl Iterator<Item = &'a Column>) -> Vec<Ax
             }
         }
         let square = dot(&direction, &direction);
-        // Directions at a place are rounded by 1e-16 each; a dependent one leaves the square of that.
+        // The directions are rounded to 1e-16, so a dependent direction leaves a square of about 1e-32 of the whole. The
+        // threshold 1e-20 separates it from independent ones.
         if square.near() > 1e-20 * whole {
             axes.push(Axis {
                 place,
@@ -122,6 +128,7 @@ fn axes<'a>(program: &Program, used: impl Iterator<Item = &'a Column>) -> Vec<Ax
     axes
 }
 
+/// Solves for the forces on the axes, and checks the certificate.
 fn certified(program: &Program, face: &[Column], axes: &[Axis], total: Double) -> Option<f64> {
     let one = Double::from(1.0);
     let terms = axes
@@ -133,7 +140,7 @@ fn certified(program: &Program, face: &[Column], axes: &[Axis], total: Double) -
     let mut rest = loads.clone();
     let amounts = |w: &[Double]| -> Vec<Double> {
         axes.iter()
-            .map(|axis| along(&axis.entries, w) / axis.square)
+            .map(|axis| product(&axis.entries, w) / axis.square)
             .collect()
     };
     for _ in 0..4 {
@@ -169,7 +176,7 @@ fn certified(program: &Program, face: &[Column], axes: &[Axis], total: Double) -
     let optimal = (sum - total).abs().near() <= 10.0 * EXACT * size;
     let shortest = face.iter().all(|column| {
         let (place, direction) = place(program, column);
-        let gain = dot(&direction, &forces[place]) - along(&entries(column), &w);
+        let gain = dot(&direction, &forces[place]) - product(&entries(column), &w);
         gain.near() >= -small
     });
     if !(balanced && admissible && optimal && shortest) {

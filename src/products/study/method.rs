@@ -1,6 +1,7 @@
-//! [`Method`]: the ways of solving that are compared, each timed with posing its program.
+//! [`Method`]: the solution methods of the study. Building a method's program counts as part of its time.
 
 use super::Task;
+use super::outcome::Outcome;
 use crate::analysis::{Accuracy, Analysis, Options, Proof, Verdict};
 use crate::program::{
     Column, Program, Scale, columns, force_primal, sticking_columns, vallat_program,
@@ -10,45 +11,27 @@ use crate::solve::{
     stick_in,
 };
 
-/// A way of solving.
+/// Sticking below this share of the largest is solver noise and no failure.
+const MIN_FAILURE_SHARE: f64 = 1e-6;
+
+/// A solution method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
-    /// The source's soft program as posed, a newton of sticking at 10^exponent newtons.
+    /// The program of the source: one newton of sticking costs 10^exponent newtons of force (the penalty β).
     Source(u8),
-    /// The hard program and, where it has no solution, the lexicographic one, with forces as unknowns.
+    /// The program without adhesion and, if it is infeasible, the lexicographic program with adhesion; forces are unknowns.
     ForceForm,
-    /// The kinematic dual alone.
+    /// The kinematic dual alone; velocities are unknowns.
     Kinematic,
-    /// The dual, and the unique forces on its face of optima; fewest failure points.
+    /// The dual, then the unique forces on its optimal face.
     Unique,
-    /// All that `check` does at a level: proofs, and second looks where a proof fails.
+    /// The complete analysis of `check` at a level, with proofs and repeated solutions.
     Level(Accuracy),
 }
 
-/// What a run gave for a whole frame.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Outcome {
-    /// Whether it says that the frame stands.
-    pub verdict: Verdict,
-    /// Total force where it stands, total sticking where it falls, N.
-    pub total: Option<f64>,
-    /// The largest resultant of a contact or grip, N.
-    pub largest: Option<f64>,
-    /// Failure points.
-    pub points: usize,
-    /// Worst imbalance where it stands: of a level in parts of a block's own forces, else in parts of the heaviest load.
-    pub imbalance: Option<f64>,
-    /// Worst violation of the motion relative to its power, where it falls and a motion is proved.
-    pub violation: Option<f64>,
-    /// Interior-point iterations.
-    pub iterations: usize,
-    /// Solving time, where the method keeps its own; s.
-    pub(super) seconds: Option<f64>,
-}
-
 impl Method {
-    /// All that are compared, in reading order.
-    pub const ALL: [Method; 10] = [
+    /// All methods, in the order of the table.
+    pub const ALL: [Method; 9] = [
         Method::Source(2),
         Method::Source(4),
         Method::Source(6),
@@ -56,12 +39,11 @@ impl Method {
         Method::ForceForm,
         Method::Kinematic,
         Method::Unique,
-        Method::Level(Accuracy::Draft),
         Method::Level(Accuracy::Standard),
         Method::Level(Accuracy::Proved),
     ];
 
-    /// Its name.
+    /// The name in tables.
     pub fn name(self) -> &'static str {
         match self {
             Method::Source(2) => "source, β = 10²",
@@ -71,7 +53,6 @@ impl Method {
             Method::ForceForm => "hard, then lexicographic",
             Method::Kinematic => "kinematic",
             Method::Unique => "kinematic, unique forces",
-            Method::Level(Accuracy::Draft) => "draft",
             Method::Level(Accuracy::Standard) => "standard",
             Method::Level(Accuracy::Proved) => "proved",
         }
@@ -82,7 +63,7 @@ impl Method {
         if let Method::Level(accuracy) = self {
             return level(task, accuracy, tolerance);
         }
-        let mut whole = Outcome::none();
+        let mut whole = Outcome::empty();
         for program in &task.programs {
             let one = match self {
                 Method::Source(exponent) => {
@@ -98,101 +79,10 @@ impl Method {
     }
 }
 
-impl Outcome {
-    /// Nothing to hold, and nothing that falls.
-    pub(super) fn none() -> Outcome {
-        Outcome {
-            verdict: Verdict::Stable,
-            total: Some(0.0),
-            largest: Some(0.0),
-            points: 0,
-            imbalance: Some(0.0),
-            violation: None,
-            iterations: 0,
-            seconds: None,
-        }
-    }
-
-    fn undecided(effort: Effort) -> Outcome {
-        Outcome {
-            verdict: Verdict::Undecided,
-            total: None,
-            largest: None,
-            imbalance: None,
-            iterations: effort.iterations,
-            ..Outcome::none()
-        }
-    }
-
-    fn falls(total: Option<f64>, points: usize, effort: Effort) -> Outcome {
-        Outcome {
-            verdict: Verdict::Unstable,
-            total,
-            points,
-            ..Outcome::undecided(effort)
-        }
-    }
-
-    fn stands(amounts: &Amounts, imbalance: f64, effort: Effort) -> Outcome {
-        Outcome {
-            verdict: Verdict::Stable,
-            total: Some(amounts.total()),
-            largest: Some(largest(amounts)),
-            imbalance: Some(imbalance / Scale::HEAVIEST),
-            ..Outcome::undecided(effort)
-        }
-    }
-
-    fn in_newtons(self, scale: Scale) -> Outcome {
-        Outcome {
-            total: self.total.map(|v| v * scale.force),
-            largest: self.largest.map(|v| v * scale.force),
-            ..self
-        }
-    }
-
-    /// Two groups of one frame: the worse verdict brings its own sum.
-    fn and(self, other: Outcome) -> Outcome {
-        let both = |a: Option<f64>, b: Option<f64>, join: fn(f64, f64) -> f64| {
-            a.zip(b).map(|(a, b)| join(a, b))
-        };
-        let iterations = self.iterations + other.iterations;
-        if self.verdict == other.verdict {
-            Outcome {
-                total: both(self.total, other.total, |a, b| a + b),
-                largest: both(self.largest, other.largest, f64::max),
-                points: self.points + other.points,
-                imbalance: both(self.imbalance, other.imbalance, f64::max),
-                iterations,
-                ..self
-            }
-        } else {
-            let worse = if self.verdict > other.verdict {
-                self
-            } else {
-                other
-            };
-            Outcome {
-                iterations,
-                ..worse
-            }
-        }
-    }
-}
-
-/// Sticking that counts, in pure numbers: what the band allows, and what the solver was allowed to leave undone.
-fn counts(tolerance: f64) -> f64 {
+/// Sticking above this (in scaled numbers) means that the frame falls: the band of the proofs, but at least ten times the
+/// tolerance of the solver.
+fn min_counted_sticking(tolerance: f64) -> f64 {
     Scale::HEAVIEST * Proof::IMBALANCE_TOL.max(10.0 * tolerance)
-}
-
-fn largest(amounts: &Amounts) -> f64 {
-    let contacts = amounts
-        .normal
-        .iter()
-        .zip(&amounts.friction)
-        .map(|(n, t)| libm::hypot(n[0] + n[1], *t));
-    let grips = amounts.grip.iter().map(|g| libm::hypot(g[0], g[1]));
-    contacts.chain(grips).fold(0.0, f64::max)
 }
 
 fn effort(iterations: usize) -> Effort {
@@ -202,7 +92,7 @@ fn effort(iterations: usize) -> Effort {
     }
 }
 
-/// What some amounts leave unbalanced.
+/// The largest unbalanced component of the loads.
 fn imbalance(loads: &[f64], columns: &[Column], amounts: &[f64]) -> f64 {
     let mut rest = loads.to_vec();
     for (column, amount) in columns.iter().zip(amounts) {
@@ -211,7 +101,7 @@ fn imbalance(loads: &[f64], columns: &[Column], amounts: &[f64]) -> f64 {
     rest.iter().fold(0.0, |m: f64, v| m.max(v.abs()))
 }
 
-/// The source's soft program: it reports what sticks, and stands where nothing does.
+/// The program of the source: it stands if no adhesion is needed.
 fn as_posed(program: &Program, beta: f64, tolerance: f64) -> Outcome {
     let conic = vallat_program(program, beta);
     let answer = solve(&conic, tolerance, Conditioning::Full);
@@ -223,9 +113,12 @@ fn as_posed(program: &Program, beta: f64, tolerance: f64) -> Outcome {
     }
     let n = conic.unknowns / 2;
     let sticking: f64 = answer.x[n..].iter().map(|v| v.max(0.0)).sum();
-    if sticking > counts(tolerance) {
+    if sticking > min_counted_sticking(tolerance) {
         let most = answer.x[n..].iter().fold(0.0, |m: f64, v| m.max(*v));
-        let points = answer.x[n..].iter().filter(|v| **v > 1e-6 * most).count();
+        let points = answer.x[n..]
+            .iter()
+            .filter(|v| **v > MIN_FAILURE_SHARE * most)
+            .count();
         return Outcome::falls(Some(sticking), points, effort);
     }
     let mut amounts = Amounts::none(program);
@@ -244,7 +137,7 @@ fn as_posed(program: &Program, beta: f64, tolerance: f64) -> Outcome {
         }
     }
     let mut rest = conic.bound[..conic.equalities].to_vec();
-    // Without their sticking, the forces must balance alone.
+    // The forces must balance without the adhesion.
     for (row, column, value) in &conic.matrix {
         if *row < conic.equalities && *column < n {
             rest[*row] -= value * answer.x[*column];
@@ -262,7 +155,7 @@ fn sticking_cost(column: &Column) -> f64 {
     f64::from(u8::from(column.force.is_sticking()))
 }
 
-/// Forces as unknowns, no large number.
+/// Forces as unknowns, without a penalty: two programs in sequence.
 fn force(program: &Program, tolerance: f64) -> Outcome {
     let loads = &program.loads;
     let admissible = columns(program);
@@ -305,12 +198,14 @@ fn force(program: &Program, tolerance: f64) -> Outcome {
     } else {
         &first.x
     };
-    if !certain && least <= counts(tolerance) {
+    if !certain && least <= min_counted_sticking(tolerance) {
         return standing(program, &all, x, effort(iterations));
     }
     let sticks = || all.iter().zip(x).filter(|(c, _)| c.force.is_sticking());
     let largest = sticks().map(|(_, x)| *x).fold(0.0, f64::max);
-    let points = sticks().filter(|(_, x)| **x > 1e-6 * largest).count();
+    let points = sticks()
+        .filter(|(_, x)| **x > MIN_FAILURE_SHARE * largest)
+        .count();
     Outcome::falls(Some(least), points, effort(iterations))
 }
 
@@ -333,7 +228,7 @@ fn settings(tolerance: f64, choice: Choice) -> SolverSettings {
     }
 }
 
-/// The dual alone: hard, and where that has no solution the least sticking.
+/// The dual alone: without adhesion and, if that is unbounded, with the least adhesion.
 fn kinematic(program: &Program, tolerance: f64) -> Outcome {
     let settings = settings(tolerance, Choice::Any);
     let mut effort = Effort::default();
@@ -355,12 +250,14 @@ fn kinematic(program: &Program, tolerance: f64) -> Outcome {
     let least: f64 = sticks().map(|(_, x)| *x).sum();
     let certain = hard.status == Status::Unbounded;
     match soft.status {
-        Status::Solved if !certain && least <= counts(tolerance) => {
+        Status::Solved if !certain && least <= min_counted_sticking(tolerance) => {
             standing(program, &all, &soft.amounts, effort)
         }
         Status::Solved => {
             let largest = sticks().map(|(_, x)| *x).fold(0.0, f64::max);
-            let points = sticks().filter(|(_, x)| **x > 1e-6 * largest).count();
+            let points = sticks()
+                .filter(|(_, x)| **x > MIN_FAILURE_SHARE * largest)
+                .count();
             Outcome::falls(Some(least), points, effort)
         }
         Status::Unbounded => Outcome::falls(None, 0, effort),
@@ -369,7 +266,7 @@ fn kinematic(program: &Program, tolerance: f64) -> Outcome {
     }
 }
 
-/// The dual, then the unique forces; all that `check` does but the proof.
+/// The dual, then the unique forces: like `check`, but without proofs.
 fn unique(program: &Program, tolerance: f64) -> Outcome {
     let settings = settings(tolerance, Choice::Unique);
     let hard = balance_in(program, settings);
@@ -382,7 +279,7 @@ fn unique(program: &Program, tolerance: f64) -> Outcome {
     let certain = hard.motion.is_some();
     if soft.balanced == Some(true) {
         let least = soft.sticking.total();
-        if !certain && least <= counts(tolerance) {
+        if !certain && least <= min_counted_sticking(tolerance) {
             let off = soft.forces.unbalanced(program);
             return Outcome::stands(&soft.forces, off, effort);
         }
@@ -396,7 +293,9 @@ fn unique(program: &Program, tolerance: f64) -> Outcome {
                 .chain(sticking.grip.iter().flatten())
         };
         let most = parts().fold(0.0, |m: f64, v| m.max(v.abs()));
-        let points = parts().filter(|v| v.abs() > 1e-6 * most).count();
+        let points = parts()
+            .filter(|v| v.abs() > MIN_FAILURE_SHARE * most)
+            .count();
         return Outcome::falls(Some(least), points, effort);
     }
     match certain || soft.motion.is_some() {
@@ -405,7 +304,7 @@ fn unique(program: &Program, tolerance: f64) -> Outcome {
     }
 }
 
-/// An analysis at a level, timed from the interfaces on.
+/// The analysis at a level. The time starts after the interfaces are found.
 fn level(task: &Task, accuracy: Accuracy, tolerance: f64) -> Outcome {
     let options = Options {
         accuracy,
@@ -414,7 +313,7 @@ fn level(task: &Task, accuracy: Accuracy, tolerance: f64) -> Outcome {
     };
     let analysis = Analysis::with(&task.scene, &options);
     let Some(frame) = analysis.frames.first() else {
-        return Outcome::none();
+        return Outcome::empty();
     };
     let contacts = frame.contacts.iter().map(|c| c.resultant.force.norm());
     let grips = frame.robots.iter().map(|r| r.force.norm());

@@ -1,19 +1,22 @@
-//! [`Study`]: what accuracy costs in time, measured here and now.
+//! [`Study`]: measures the time and the error of solution methods.
 //!
-//! Every frame of some scenes is solved by every [`Method`] at every tolerance, several times, and compared with a
-//! certified [`Reference`] in extended precision. Times are wall times of this run on this machine and mean something only
-//! beside each other; everything else is the same on every machine.
+//! Every [`Method`] solves every frame at every tolerance several times. The results are compared with a certified
+//! [`Reference`] in extended precision. Times are wall times on this machine, so only their ratios are meaningful. All other
+//! numbers are the same on every machine.
 
 mod double;
 mod least;
 mod method;
+mod optimum;
+mod outcome;
 mod reference;
 mod skyline;
 mod summary;
 
 use std::time::Instant;
 
-pub use method::{Method, Outcome};
+pub use method::Method;
+pub use outcome::Outcome;
 pub use reference::Reference;
 pub use summary::{Summary, summary};
 
@@ -24,91 +27,90 @@ use crate::program::{Program, Scale};
 use crate::proof::Proof;
 use crate::scene::{Frame, Scene};
 
-/// The solver tolerances that are measured.
+/// The solver tolerances of the study.
 pub const TOLERANCES: [f64; 6] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-9, 1e-12];
 
-/// The tolerance that an analysis has where nothing else is asked.
+/// The default tolerance of an analysis.
 pub const DEFAULT_TOLERANCE: f64 = crate::solve::TOLERANCE;
 
-/// Where a frame's groups are so near the edge, in parts of the heaviest load, calling a falling one stable is no mistake.
+/// A falling frame that needs less sticking than this, relative to the heaviest load, may be called stable: it is within the
+/// documented tolerance of the proofs.
 const BAND: f64 = 10.0 * Proof::IMBALANCE_TOL;
 
-/// Everything that was measured.
+/// The results of a study.
 #[derive(Clone, Debug)]
 pub struct Study {
-    /// Frame by frame, in the scenes' order.
+    /// One case per frame, in the order of the scenes.
     pub cases: Vec<Case>,
 }
 
-/// One frame of a scene and what the methods made of it.
+/// One frame with the results of all methods.
 #[derive(Clone, Debug)]
 pub struct Case {
-    /// The scene's title and the frame's, or its number.
+    /// The titles of the scene and the frame, or the number of the frame.
     pub name: String,
-    /// Placed blocks.
+    /// The number of placed blocks.
     pub blocks: usize,
-    /// What is true.
+    /// The reference.
     pub truth: Truth,
-    /// Method by method, tolerance by tolerance.
+    /// One run per method and tolerance.
     pub runs: Vec<Run>,
 }
 
-/// What is true of a frame.
+/// The reference for a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Truth {
-    /// The verdict, without any band; `Undecided` where it could not be certified.
+    /// The exact verdict, without a tolerance; `Undecided` if it could not be certified.
     pub verdict: Verdict,
-    /// Least total force where it stands, least total sticking where it falls, N.
+    /// The least total force if it stands, the least total sticking if it falls, in N.
     pub total: Option<f64>,
-    /// The largest resultant of the unique forces where it stands, N.
+    /// The largest resultant of the unique forces in N, if it stands.
     pub largest: Option<f64>,
-    /// How well `total` is certified, relative.
+    /// The largest possible relative error of `total`.
     pub gap: f64,
-    /// Whether it falls by so little that the stated band calls it stable.
+    /// Whether it falls by so little that it may be called stable within the documented tolerance.
     pub within_band: bool,
 }
 
-/// How a verdict compares with the truth.
+/// The comparison of a verdict with the reference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
-    /// It is the truth, or within the stated band of it.
+    /// It is correct, or within the documented tolerance.
     Right,
-    /// It is not.
+    /// It is wrong.
     Wrong,
-    /// No verdict was given.
+    /// The method gave no verdict.
     Undecided,
-    /// The truth could not be certified.
+    /// There is no certified reference.
     Unknown,
 }
 
 /// One method at one tolerance on one frame.
 #[derive(Clone, Debug)]
 pub struct Run {
-    /// How it was solved.
+    /// The method.
     pub method: Method,
-    /// What the solver was asked for.
+    /// The tolerance of the solver.
     pub tolerance: f64,
-    /// Median wall time, s.
+    /// The median of the wall times, in s.
     pub seconds: f64,
-    /// What came out.
+    /// The result.
     pub outcome: Outcome,
-    /// How the verdict compares with the truth.
+    /// The comparison of the verdict with the reference.
     pub mark: Mark,
-    /// Relative error of the total force (of the total sticking where it falls).
+    /// The relative error of the total force, or of the total sticking if it falls.
     pub total_error: Option<f64>,
-    /// Relative error of the largest single force, where it stands.
+    /// The relative error of the largest single force, if it stands.
     pub largest_error: Option<f64>,
 }
 
-/// A frame as the methods get it.
+/// The input of the methods: one frame.
 pub(super) struct Task {
     scene: Scene,
     programs: Vec<Program>,
 }
 
-/// Measures scenes.
-///
-/// `tick` is called before each frame with its name.
+/// Runs the study on all frames of some scenes. `tick` is called with the name of each frame before it starts.
 pub fn study(scenes: &[Scene], tolerances: &[f64], tick: &mut dyn FnMut(&str)) -> Study {
     let mut cases = Vec::new();
     for scene in scenes {
@@ -136,7 +138,7 @@ fn name(scene: &Scene, frame: &Frame, number: usize) -> String {
 }
 
 impl Task {
-    /// The programs of a frame, as `Analysis` poses them.
+    /// Builds the programs of a frame in the same way as `Analysis`.
     fn new(scene: &Scene, frame: &Frame) -> Task {
         let mut scene = scene.clone();
         scene.frames = vec![frame.clone()];
@@ -157,6 +159,7 @@ impl Task {
     }
 }
 
+/// The reference for a frame from those of its independent parts.
 fn truth(programs: &[Program]) -> Truth {
     let references: Vec<(&Program, Reference)> =
         programs.iter().map(|p| (p, Reference::new(p))).collect();
@@ -205,10 +208,10 @@ fn case(name: String, blocks: usize, task: &Task, tolerances: &[f64]) -> Case {
     }
 }
 
-/// Times a run: three times at least, up to nine while they are short.
+/// Repeats a run three times, and up to nine times while it takes less than 0.02 s in total. The time is the median.
 fn run(method: Method, tolerance: f64, task: &Task, truth: &Truth) -> Run {
     let mut times = Vec::with_capacity(9);
-    let mut outcome = Outcome::none();
+    let mut outcome = Outcome::empty();
     let mut spent = 0.0;
     while times.len() < 3 || (times.len() < 9 && spent < 0.02) {
         let start = Instant::now();

@@ -1,22 +1,27 @@
-//! [`Skyline`]: symmetric, positive semidefinite systems in extended precision.
+//! [`Skyline`]: solves symmetric, positive semidefinite systems in extended precision.
 //!
-//! M = L D Lᵀ, each row kept from its first entry on: blocks that touch stand near each other in a scene's order, so the
-//! rows are short. A pivot that vanishes marks a row that depends on earlier ones; its unknown is 0.
+//! The factorisation is M = L D Lᵀ in skyline (envelope) storage: each row is stored from its first entry on (Jennings
+//! 1966). Blocks that touch are usually close in the order of the scene, so the rows are short. A zero pivot means that the
+//! row depends on earlier rows; its unknown is set to 0.
 
 use super::double::Double;
 
-/// A pivot below this share of its row's diagonal has vanished.
-const VANISHED: f64 = 1e-22;
+/// A pivot below this share of the diagonal counts as zero. A dependent row leaves the rounding of its
+/// entries, some 1e-31 of the diagonal; 1e-22 is far above that and far below the pivots of independent rows.
+const ZERO_PIVOT: f64 = 1e-22;
 
-/// A factored matrix.
+/// A factorised matrix.
 pub(super) struct Skyline {
+    /// The first column of each row.
     first: Vec<usize>,
+    /// The rows of L, from their first columns to the diagonal.
     rows: Vec<Vec<Double>>,
+    /// The diagonal of D; `None` for zero pivots.
     pivots: Vec<Option<Double>>,
 }
 
 impl Skyline {
-    /// Factors the sum of weight · v vᵀ over sparse vectors v.
+    /// Factorises the sum of weight · v vᵀ over sparse vectors v.
     pub(super) fn new<'a>(
         size: usize,
         terms: impl Iterator<Item = (Double, &'a [(usize, Double)])> + Clone,
@@ -54,7 +59,7 @@ impl Skyline {
             let row = &mut rest[0];
             let start = self.first[i];
             let whole = row[i - start].abs().near();
-            // Row i of L·D first, then divided; L's rows above are finished.
+            // Compute row i of L·D from the finished rows above, then divide it by D.
             for j in start..i {
                 let from = start.max(self.first[j]);
                 let mut sum = row[j - start];
@@ -75,13 +80,14 @@ impl Skyline {
                     row[j - start] = scaled;
                 }
             }
-            let stands = pivot.near() > VANISHED * whole && whole > 0.0;
+            let stands = pivot.near() > ZERO_PIVOT * whole && whole > 0.0;
             self.pivots.push(stands.then_some(pivot));
         }
     }
 
-    /// A solution of M w = r, where there is one.
+    /// Solves M w = r. If M is singular, r must be in its range.
     pub(super) fn solve(&self, right: &[Double]) -> Vec<Double> {
+        // Forward substitution with L, division by D, backward substitution with Lᵀ.
         let mut w = right.to_vec();
         for i in 0..w.len() {
             let start = self.first[i];

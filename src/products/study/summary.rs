@@ -1,33 +1,33 @@
-//! [`Summary`]: one line per method and tolerance over all frames of a study.
+//! [`Summary`]: summarises a study by method and tolerance over all frames.
 
 use super::{Mark, Method, Run, Study};
 use crate::analysis::Accuracy;
 use crate::solve::TOLERANCE;
 
-/// What one method at one tolerance came to over all frames.
+/// One method at one tolerance over all frames.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Summary {
     /// The method.
     pub method: Method,
-    /// What the solver was asked for.
+    /// The tolerance of the solver.
     pub tolerance: f64,
-    /// Median over the frames of the time in parts of that of `standard` at the default tolerance.
+    /// The median over the frames of the time relative to `standard` at the default tolerance.
     pub time: f64,
-    /// Worst relative error of the total over the frames with the right verdict.
+    /// The largest relative error of the total among frames with the right verdict.
     pub total_error: Option<f64>,
-    /// Median of the same.
+    /// The median of the same errors.
     pub median_error: Option<f64>,
-    /// Worst relative error of the largest single force.
+    /// The largest relative error of the largest single force.
     pub largest_error: Option<f64>,
-    /// Wrong verdicts.
+    /// The number of wrong verdicts.
     pub wrong: usize,
-    /// Frames without a verdict.
+    /// The number of frames without a verdict.
     pub undecided: usize,
-    /// Frames with a certified truth.
+    /// The number of frames with a certified reference.
     pub frames: usize,
-    /// Median iterations.
+    /// The median of the iterations.
     pub iterations: usize,
-    /// No other line is both as fast and as precise, with no wrong verdict.
+    /// Whether it is on the Pareto front: it has no wrong verdict, and no other such line is faster and more accurate.
     pub best: bool,
 }
 
@@ -36,10 +36,10 @@ fn median(mut list: Vec<f64>) -> Option<f64> {
     list.get(list.len() / 2).copied()
 }
 
-/// Sums up a study, in the order of methods and tolerances.
+/// Summarises a study, in the order of methods and tolerances.
 ///
-/// Times are ratios within each frame to `standard` at the tolerance nearest the default, so that large frames do not
-/// drown small ones.
+/// Times are divided by that of `standard` at the tolerance nearest to the default, frame by frame. Large frames therefore
+/// do not dominate small ones.
 pub fn summary(study: &Study) -> Vec<Summary> {
     let Some(first) = study.cases.first() else {
         return Vec::new();
@@ -102,7 +102,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_median_is_the_middle_one() {
+    fn the_median_is_the_middle_value() {
         assert_eq!(median(vec![3.0, 1.0, 2.0]), Some(2.0));
         assert_eq!(median(Vec::new()), None);
     }

@@ -1,4 +1,4 @@
-//! What fails, in words: for a line of a table, below a figure, in a caption.
+//! Describes failures: in a table row, below a figure, in a caption.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,7 +6,10 @@ use super::number::{NO_BREAK, digits, listed, place, quantity};
 use crate::analysis::{Failure, FrameAnalysis};
 use crate::scene::{BlockId, BodyId, Scene};
 
-/// How much is missing, N or N·m.
+/// More unsupported blocks than this are counted, not named.
+const MAX_LISTED_BLOCKS: usize = 6;
+
+/// The size of the missing force (N) or torque (N·m).
 pub fn amount(failure: &Failure) -> f64 {
     match failure {
         Failure::Tension { force, .. }
@@ -16,7 +19,7 @@ pub fn amount(failure: &Failure) -> f64 {
     }
 }
 
-/// The same with its unit.
+/// The size of the missing force or torque, with its unit.
 pub fn amount_with_unit(failure: &Failure) -> String {
     let unit = match failure {
         Failure::RobotTorque { .. } => "N·m",
@@ -25,14 +28,14 @@ pub fn amount_with_unit(failure: &Failure) -> String {
     quantity(amount(failure), unit)
 }
 
-/// The failures, the largest first; of equal ones the first in the list.
+/// The failures by size, largest first. Equal failures keep their order.
 pub fn by_amount(found: &FrameAnalysis) -> Vec<&Failure> {
     let mut failures: Vec<&Failure> = found.failures.iter().collect();
     failures.sort_by(|a, b| amount(b).total_cmp(&amount(a)));
     failures
 }
 
-/// A body: `block 2`, `the ground`.
+/// The name of a body: `block 2`, `the ground`.
 pub fn named(scene: &Scene, body: BodyId) -> String {
     match body {
         BodyId::Ground(_) => "the ground".to_owned(),
@@ -40,7 +43,7 @@ pub fn named(scene: &Scene, body: BodyId) -> String {
     }
 }
 
-/// The two bodies of an interface: `2 and the ground`.
+/// The names of the two bodies of an interface: `2 and the ground`.
 pub fn pair(scene: &Scene, bodies: [BodyId; 2]) -> String {
     let [a, b] = bodies.map(|id| match id {
         BodyId::Ground(_) => "the ground",
@@ -49,7 +52,7 @@ pub fn pair(scene: &Scene, bodies: [BodyId; 2]) -> String {
     format!("{a} and {b}")
 }
 
-/// A failure in a sentence, with its place: for a line of its own.
+/// A sentence that describes a failure and where it occurs.
 pub fn sentence(scene: &Scene, failure: &Failure) -> String {
     match *failure {
         Failure::Tension {
@@ -100,34 +103,34 @@ pub fn sentence(scene: &Scene, failure: &Failure) -> String {
     }
 }
 
-/// What is missing, as part of a list: `a pull of 8 N between a and b`.
-pub fn missing(scene: &Scene, failure: &Failure) -> String {
+/// The missing force as a noun phrase, for a list: `a pull of 8 N between a and b`.
+pub fn missing_phrase(scene: &Scene, failure: &Failure) -> String {
     match failure {
         Failure::Tension { bodies, force, .. } => format!(
             "a pull of {} between {}",
-            whole(force.norm(), "N"),
+            unbroken(force.norm(), "N"),
             pair(scene, *bodies)
         ),
         Failure::Friction { bodies, force, .. } => format!(
             "friction of {} between {}",
-            whole(force.norm(), "N"),
+            unbroken(force.norm(), "N"),
             pair(scene, *bodies)
         ),
         Failure::RobotForce { robot, force, .. } => format!(
             "a force of {} from robot{NO_BREAK}{}",
-            whole(force.norm(), "N"),
+            unbroken(force.norm(), "N"),
             scene.robots[robot.0].id
         ),
         Failure::RobotTorque { robot, torque, .. } => format!(
             "a torque of {} from robot{NO_BREAK}{}",
-            whole(torque.abs(), "N·m"),
+            unbroken(torque.abs(), "N·m"),
             scene.robots[robot.0].id
         ),
     }
 }
 
-/// What is missing, as part of a sentence about who would have to give it.
-pub fn lacking(scene: &Scene, failure: &Failure) -> String {
+/// A clause that says which body or robot would have to provide the missing force.
+pub fn missing_sentence(scene: &Scene, failure: &Failure) -> String {
     let named = |id: &BodyId| named(scene, *id);
     match failure {
         Failure::Tension {
@@ -163,17 +166,21 @@ pub fn lacking(scene: &Scene, failure: &Failure) -> String {
     }
 }
 
-/// Which blocks no sticking could save; `None` where there are none.
-pub fn uncarried(scene: &Scene, found: &FrameAnalysis) -> Option<String> {
+/// Names the blocks that even adhesion could not hold; `None` if there are none.
+pub fn unsupported_phrase(scene: &Scene, found: &FrameAnalysis) -> Option<String> {
     let blocks = found.unsupported.iter();
     let names: Vec<String> = blocks.map(|b| scene.blocks[b.0].id.clone()).collect();
     let what = if names.len() == 1 { "block" } else { "blocks" };
-    (!names.is_empty()).then(|| format!("nothing carries {what} {}", listed(&shortened(names, 6))))
+    (!names.is_empty()).then(|| {
+        format!(
+            "nothing carries {what} {}",
+            listed(&shortened(names, MAX_LISTED_BLOCKS))
+        )
+    })
 }
 
-/// Why nothing carries some blocks, in a sentence for each reason, with at most `most` names in each; none where everything is
-/// carried.
-pub fn unsupported(scene: &Scene, found: &FrameAnalysis, most: usize) -> Vec<String> {
+/// A sentence for each reason why blocks are unsupported, with at most `max` names; empty if all blocks are supported.
+pub fn unsupported(scene: &Scene, found: &FrameAnalysis, max: usize) -> Vec<String> {
     let reached = reached(found);
     let (touching, apart): (Vec<BlockId>, Vec<BlockId>) = found
         .unsupported
@@ -188,7 +195,7 @@ pub fn unsupported(scene: &Scene, found: &FrameAnalysis, most: usize) -> Vec<Str
     ];
     let mut sentences = Vec::new();
     for (blocks, reason) in reasons {
-        let names = blocks.iter().take(most);
+        let names = blocks.iter().take(max);
         let names: Vec<&str> = names.map(|id| scene.blocks[id.0].id.as_str()).collect();
         let more = match blocks.len() - names.len() {
             0 => String::new(),
@@ -202,7 +209,7 @@ pub fn unsupported(scene: &Scene, found: &FrameAnalysis, most: usize) -> Vec<Str
     sentences
 }
 
-/// The blocks from which contacts lead to the ground or to a block that a robot holds.
+/// The blocks that contacts connect to the ground or to a block that a robot holds: a search through the graph of contacts.
 fn reached(found: &FrameAnalysis) -> BTreeSet<BlockId> {
     let mut neighbours: BTreeMap<BlockId, Vec<BlockId>> = BTreeMap::new();
     let mut next: Vec<BlockId> = found.robots.iter().map(|robot| robot.block).collect();
@@ -226,17 +233,17 @@ fn reached(found: &FrameAnalysis) -> BTreeSet<BlockId> {
     reached
 }
 
-/// The first of some parts, and how many more there are.
-pub fn shortened(mut parts: Vec<String>, most: usize) -> Vec<String> {
-    if parts.len() > most {
-        let left = parts.len() - most;
-        parts.truncate(most);
+/// The first `max` parts, and the number of parts that are left out.
+pub fn shortened(mut parts: Vec<String>, max: usize) -> Vec<String> {
+    if parts.len() > max {
+        let left = parts.len() - max;
+        parts.truncate(max);
         parts.push(format!("{left} more"));
     }
     parts
 }
 
-/// An amount that stays whole where lines are broken.
-fn whole(value: f64, unit: &str) -> String {
+/// A number and its unit, joined by a space at which no line breaks.
+fn unbroken(value: f64, unit: &str) -> String {
     quantity(value, unit).replace(' ', &NO_BREAK.to_string())
 }

@@ -1,10 +1,10 @@
-//! Margins in words.
+//! Describes margins.
 
 use super::number::digits;
 use crate::analysis::{Margin, Margins, Sides};
 use crate::scene::Scene;
 
-/// A margin's value with its unit, or what stands in its place.
+/// The value of a margin with its unit. `none` is the text for a structure that falls at any value.
 pub fn value(margin: &Margin, unit: &str, none: &str) -> String {
     match margin {
         Margin::Value { at, .. } => format!("{}{unit}", digits(*at)),
@@ -13,17 +13,17 @@ pub fn value(margin: &Margin, unit: &str, none: &str) -> String {
         Margin::Unconfirmed { stands, .. } => {
             format!("not confirmed (it stands at {}{unit})", digits(*stands))
         }
-        Margin::NotAsked => "not asked for".into(),
+        Margin::NotAsked => "not requested".into(),
         Margin::NotApplicable => "none (there are no loads)".into(),
     }
 }
 
-/// What is said where a frame falls at any value.
+/// The text for a frame that falls at any value.
 pub const NONE: &str = "none (it falls at any)";
-/// What is said where a frame falls as it is.
+/// The text for a frame that falls even without a tilt.
 pub const UNTURNED: &str = "none (it falls unturned)";
 
-/// How far a frame is from the edge, a line per margin that was asked for.
+/// One line for each margin that was computed.
 pub fn lines(scene: &Scene, margins: &Margins) -> Vec<String> {
     let edge = |margin: &Margin, unit: &str| value(margin, unit, NONE);
     let one = |name: &str, margin: &Margin| {

@@ -1,8 +1,8 @@
-//! Words: how numbers are printed, and the sentences about what was found. The one place for both.
+//! Formats numbers and writes the sentences about verdicts, failures, margins and proofs.
 //!
-//! A terminal's table, the captions of figures and reports say the same things to different readers. Each says them with
-//! the functions below, one file per subject, so that a failure, a margin or a proof has its wording in one place. All
-//! sentences are plain text that may hold names from files: what writes them out passes them through its sink in
+//! The terminal, figure captions and reports describe the same results. They all use the functions below, one file per
+//! subject, so each kind of result has its wording in one place. The sentences are plain text and may contain names from
+//! scene files. Code that writes them to an output escapes them with the function for that format in
 //! [`text`](crate::text).
 
 pub mod effect;

@@ -1,19 +1,11 @@
-//! Numbers with units and directions, as a person writes them.
+//! Formats numbers with units and directions.
 
 use crate::geometry::{Point, Vector};
 
-/// The space at which no line is broken.
+/// A no-break space.
 pub const NO_BREAK: char = '\u{a0}';
 
-/// An amount with three significant digits and its unit, with a prefix that keeps the number between 1 and 1000.
-///
-/// ```
-/// use drystone::wording::number::quantity;
-/// assert_eq!(quantity(5.7367, "N·m"), "5.74 N·m");
-/// assert_eq!(quantity(-12_000.0, "N"), "−12 kN");
-/// assert_eq!(quantity(999.7, "N"), "1 kN");
-/// assert_eq!(quantity(0.000_25, "N"), "250 µN");
-/// ```
+/// A value with three significant digits, an SI prefix and its unit: `5.74 N·m`, `−12 kN`, `250 µN`.
 pub fn quantity(value: f64, unit: &str) -> String {
     if value == 0.0 || !value.is_finite() {
         return if value == 0.0 {
@@ -22,14 +14,14 @@ pub fn quantity(value: f64, unit: &str) -> String {
             format!("unlimited {unit}")
         };
     }
-    // Rounded in decimal first: the digits then cannot round up over the edge of a prefix. A tie goes up, whichever side
-    // of it the noise of a solution fell.
+    // Round in decimal before choosing the prefix: 999.7 N becomes 1 kN, not 1000 N. The factor lifts values that solver
+    // noise (below 1e-9) has put just under a tie, so that equal forces get equal digits.
     let rounded = format!("{:.2e}", value.abs() * (1.0 + 1e-7));
     let (mantissa, exponent) = rounded.split_once('e').unwrap_or((&rounded, "0"));
     let exponent: i32 = exponent.parse().unwrap_or(0);
     let sign = if value < 0.0 { "−" } else { "" };
     let prefixes = ["n", "µ", "m", "", "k", "M", "G"];
-    // Down to hundredths a plain number is easier to compare with its neighbours than one with another prefix.
+    // From 0.01 to 1 use no prefix: 0.05 N is easier to compare with 3 N than 50 mN.
     if (-2..0).contains(&exponent) {
         let digits = mantissa.replace('.', "");
         let zeros = "0".repeat((-1 - exponent) as usize);
@@ -69,9 +61,9 @@ fn superscript(value: i32) -> String {
     value.to_string().chars().map(raised).collect()
 }
 
-/// A force's amount and direction: `7.1 N at 30°`, anticlockwise from the right.
+/// The norm and direction of a force: `7.1 N at 30°`, anticlockwise from the positive x axis.
 pub fn force(force: Vector) -> String {
-    // Rounded before it is brought into 0 … 359, so that a hair below the right is 0° and neither −0° nor 360°.
+    // Round before reducing to 0 … 359, so that an angle just below 0 gives 0° and neither −0° nor 360°.
     let degrees = (libm::atan2(force.y, force.x).to_degrees().round() + 360.0) % 360.0;
     format!("{} at {degrees:.0}°", quantity(force.norm(), "N"))
 }
@@ -82,22 +74,22 @@ pub fn degrees(angle: f64) -> String {
     format!("{angle:.decimals$}°")
 }
 
-/// A share in whole percent: `97 %`. What is less than all of it is never called 100 %, what is more than nothing never 0 %.
+/// A ratio in whole percent: `97 %`. Only a ratio of at least [`FULL`] gives 100 %, and only one of at most 1 − `FULL` 0 %.
 pub fn percent(share: f64) -> String {
     let rounded = (100.0 * share).round();
     let space = NO_BREAK;
     match rounded {
-        _ if share >= ALL => format!("100{space}%"),
+        _ if share >= FULL => format!("100{space}%"),
         r if r >= 100.0 => format!("over 99{space}%"),
-        r if r <= 0.0 && share > 1.0 - ALL => format!("under 1{space}%"),
+        r if r <= 0.0 && share > 1.0 - FULL => format!("under 1{space}%"),
         r => format!("{:.0}{space}%", r.max(0.0)),
     }
 }
 
-/// A share that is no less than this is all of it: what is left is noise of the solution.
-pub const ALL: f64 = 1.0 - 1e-6;
+/// Ratios above this count as 100 %: the difference is solver noise.
+pub const FULL: f64 = 1.0 - 1e-6;
 
-/// `1 hinge`, `2 hinges`.
+/// A number and its noun: `1 hinge`, `2 hinges`.
 pub fn counted(count: usize, what: &str) -> String {
     if count == 1 {
         format!("1 {what}")
@@ -106,7 +98,7 @@ pub fn counted(count: usize, what: &str) -> String {
     }
 }
 
-/// The largest of 1, 2 and 5 times a power of ten that is at most `value`, 0 for none.
+/// The largest of 1, 2 and 5 times a power of ten that is at most `value`; 0 if there is none.
 pub fn round_below(value: f64) -> f64 {
     if !(value > 0.0 && value.is_finite()) {
         return 0.0;
@@ -121,7 +113,7 @@ pub fn round_below(value: f64) -> f64 {
     format!("{lead}e{exponent}").parse().unwrap_or(0.0)
 }
 
-/// `a`, `a and b`, `a, b and c`.
+/// Joins parts to a list: `a`, `a and b`, `a, b and c`.
 pub fn listed(parts: &[String]) -> String {
     match parts {
         [] => String::new(),
@@ -130,7 +122,7 @@ pub fn listed(parts: &[String]) -> String {
     }
 }
 
-/// The letter of panel `number` from 0: a … z, then aa, ab ….
+/// The letter of a panel, counted from 0: a … z, then aa, ab ….
 pub fn letter(number: usize) -> String {
     let mut rest = number + 1;
     let mut letters = Vec::new();
@@ -142,12 +134,7 @@ pub fn letter(number: usize) -> String {
     letters.iter().rev().collect()
 }
 
-/// Four significant digits, without zeros that say nothing: for columns of numbers of one unit.
-///
-/// ```
-/// use drystone::wording::number::digits;
-/// assert_eq!((digits(43.371_94), digits(-0.0), digits(1e9)), ("43.37".into(), "0".into(), "1.000e9".into()));
-/// ```
+/// Four significant digits without trailing zeros, for columns of numbers of one unit.
 pub fn digits(x: f64) -> String {
     let size = x.abs();
     if x == 0.0 {
@@ -167,13 +154,7 @@ pub fn digits(x: f64) -> String {
     }
 }
 
-/// A unit for numbers up to `largest` of it, with a prefix that keeps them short, and by what to multiply them.
-///
-/// ```
-/// use drystone::wording::number::prefixed;
-/// assert_eq!(prefixed(184_439.0, "N"), ("kN".to_owned(), 1e-3));
-/// assert_eq!(prefixed(60.0, "N"), ("N".to_owned(), 1.0));
-/// ```
+/// One unit for a column of numbers up to `largest`: the unit with its SI prefix, and the factor for the numbers.
 pub fn prefixed(largest: f64, unit: &str) -> (String, f64) {
     let (prefix, factor) = match largest {
         x if x >= 2e9 => ("G", 1e-9),
@@ -184,7 +165,7 @@ pub fn prefixed(largest: f64, unit: &str) -> (String, f64) {
     (format!("{prefix}{unit}"), factor)
 }
 
-/// One digit, enough to see how small a number is: `3e-12`.
+/// One significant digit, for orders of magnitude: `3e-12`.
 pub fn rough(x: f64) -> String {
     if x == 0.0 {
         "0".into()
@@ -193,7 +174,7 @@ pub fn rough(x: f64) -> String {
     }
 }
 
-/// A share in percent with one decimal: `66.7 %`.
+/// A ratio in percent with one decimal: `66.7 %`.
 pub fn tenths(share: f64) -> String {
     format!("{} %", digits((share * 1000.0).round() / 10.0))
 }
@@ -207,7 +188,7 @@ pub fn duration(seconds: f64) -> String {
     }
 }
 
-/// A place in metres: `(2, 1.5) m`.
+/// A point in metres: `(2, 1.5) m`.
 pub fn place(p: Point) -> String {
     format!("({}, {}) m", digits(p.x), digits(p.y))
 }
@@ -223,6 +204,9 @@ mod tests {
             (24.0, "24 N"),
             (43.372, "43.4 N"),
             (433.72, "434 N"),
+            (999.7, "1 kN"),
+            (-12_000.0, "−12 kN"),
+            (0.000_25, "250 µN"),
             (0.1348, "0.135 N"),
             (0.0123, "0.0123 N"),
             (0.00456, "4.56 mN"),
@@ -236,6 +220,12 @@ mod tests {
         for (value, expected) in cases {
             assert_eq!(quantity(value, "N"), expected);
         }
+    }
+
+    #[test]
+    fn a_column_has_one_prefix() {
+        assert_eq!(prefixed(184_439.0, "N"), ("kN".to_owned(), 1e-3));
+        assert_eq!(prefixed(60.0, "N"), ("N".to_owned(), 1.0));
     }
 
     #[test]

@@ -1,9 +1,9 @@
-//! Proofs in words.
+//! Describes proofs.
 
 use super::number::{digits, rough};
 use crate::analysis::Proof;
 
-/// A proof in few words, for a line of a table.
+/// A short description of a proof, for one line of a table.
 pub fn short(proof: Proof) -> String {
     match proof {
         Proof::Forces {
@@ -27,7 +27,7 @@ pub fn short(proof: Proof) -> String {
     }
 }
 
-/// Its numbers, each with its name.
+/// The numbers of a proof, each with a label.
 pub fn numbers(proof: Proof) -> Vec<(&'static str, String)> {
     match proof {
         Proof::Forces {
@@ -37,15 +37,15 @@ pub fn numbers(proof: Proof) -> Vec<(&'static str, String)> {
             ..
         } => vec![
             (
-                "worst imbalance of a block, in parts of its own forces",
+                "worst imbalance of a block, relative to the forces on it",
                 rough(worst_imbalance),
             ),
             (
-                "worst pull at a contact, in parts of its own forces",
+                "worst pull at a contact, relative to its own forces",
                 rough(worst_pull),
             ),
             (
-                "worst slip at a contact, or excess of a robot, in parts of its own force",
+                "worst slip at a contact, or excess of a robot, relative to its own force",
                 rough(worst_slip),
             ),
         ],
@@ -54,25 +54,25 @@ pub fn numbers(proof: Proof) -> Vec<(&'static str, String)> {
             worst_violation,
         } => vec![
             (
-                "power of the loads along the motion, in parts of what moves",
+                "power of the loads along the motion, relative to the loads that move",
                 digits(power),
             ),
             (
-                "worst speed against which a contact or robot could act, in parts of the fastest",
+                "worst speed against a contact or robot, relative to the fastest point",
                 rough(worst_violation),
             ),
             (
-                "no balance with less force than, in loads of what moves",
+                "lower bound on the sum of balancing forces, relative to the loads that move",
                 match proof.excluded_force_sum() {
                     sum if sum.is_finite() => rough(sum),
-                    _ => "any".into(),
+                    _ => "unbounded".into(),
                 },
             ),
         ],
     }
 }
 
-/// What the numbers mean, for a reader who has never seen such a proof.
+/// Explains a proof to a reader who has never seen one.
 pub fn sentence(proof: Proof) -> String {
     match proof {
         Proof::Forces {
@@ -85,14 +85,14 @@ pub fn sentence(proof: Proof) -> String {
             let band = rough(Proof::IMBALANCE_TOL);
             if proof.holds() {
                 format!(
-                    "The forces listed here, summed again from the outlines and weights alone, hold every block at rest: \
-                     changed by at most {} of their own amounts they do so exactly. More than {band} would not be believed.",
+                    "The listed forces hold every block at rest. This was checked from the outlines and weights alone: \
+                     the forces balance exactly if each changes by at most {} of its own amount. The limit is {band}.",
                     rough(worst)
                 )
             } else {
                 format!(
-                    "The best forces found do not balance: each would have to change by {} of its own amount, and more than \
-                     {band} is not believed.",
+                    "The best forces found do not balance: they would have to change by {} of their own amounts. The limit \
+                     is {band}.",
                     rough(worst)
                 )
             }
@@ -100,18 +100,18 @@ pub fn sentence(proof: Proof) -> String {
         Proof::Mechanism { .. } => {
             let ruled_out = match proof.excluded_force_sum() {
                 sum if sum.is_finite() => format!(
-                    "so no forces balance it whose sum is less than {} times the loads of what moves",
+                    "so no forces balance the structure if their sum is less than {} times the loads that move",
                     rough(sum)
                 ),
-                _ => "so no forces balance it, however large".into(),
+                _ => "so no forces balance the structure, however large".into(),
             };
-            let believed = if proof.holds() {
+            let weak = if proof.holds() {
                 ""
             } else {
-                " That is too little to be believed."
+                " The power of the loads is too small for a proof."
             };
             format!(
-                "There is a motion along which the loads do work and no contact or robot can object, {ruled_out}.{believed}"
+                "There is a motion along which the loads do work and that no contact or robot resists, {ruled_out}.{weak}"
             )
         }
     }

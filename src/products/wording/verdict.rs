@@ -1,19 +1,21 @@
-//! The verdict in words, and what is said with it.
+//! Describes verdicts and their reasons.
 
-use super::failure::{by_amount, lacking, missing, shortened, uncarried};
+use super::failure::{by_amount, missing_phrase, missing_sentence, shortened, unsupported_phrase};
 use super::number::listed;
 use crate::analysis::{FrameAnalysis, Verdict};
 use crate::scene::Scene;
 
-/// Above so many things that are missing the rest is counted in a caption.
-const MOST: usize = 4;
+/// A sentence names at most this many failures and counts the rest.
+const MAX_FAILURES_IN_SENTENCE: usize = 4;
+/// The line below a figure has less space, and names at most this many.
+const MAX_FAILURES_BELOW_FIGURE: usize = 3;
 
-/// The verdict's word in results, for programs. People read [`plain`] and [`counted`].
+/// The word for a verdict in JSON results: `stable`, `unstable`, `undecided`. Readers see [`plain`] and [`counted`].
 pub fn word(verdict: Verdict) -> &'static str {
     verdict.word()
 }
 
-/// The verdict's word for people, in tables, figures and sentences: what the structure does.
+/// The word for a verdict in tables, figures and sentences: `stands`, `falls`, `undecided`.
 pub fn plain(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Stable => "stands",
@@ -22,7 +24,7 @@ pub fn plain(verdict: Verdict) -> &'static str {
     }
 }
 
-/// A number of frames or scenes with one verdict, for people: `1 stands`, `3 fall`.
+/// A number of frames or scenes and their verdict: `1 stands`, `3 fall`.
 pub fn counted(count: usize, verdict: Verdict) -> String {
     let word = match (verdict, count) {
         (Verdict::Stable, 1) => "stands",
@@ -34,17 +36,22 @@ pub fn counted(count: usize, verdict: Verdict) -> String {
     format!("{count} {word}")
 }
 
-/// Why a frame does not stand, in few words for below a figure; empty where it does.
+/// A short reason why a frame does not stand, for the line below a figure. Empty if it stands.
 pub fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
     let mut sentences = Vec::new();
-    sentences.extend(uncarried(scene, found));
+    sentences.extend(unsupported_phrase(scene, found));
     if !found.failures.is_empty() {
         let failures = by_amount(found).into_iter();
-        let parts = failures.map(|f| missing(scene, f)).collect();
-        sentences.push(format!("missing: {}", listed(&shortened(parts, 3))));
+        let parts = failures.map(|f| missing_phrase(scene, f)).collect();
+        sentences.push(format!(
+            "missing: {}",
+            listed(&shortened(parts, MAX_FAILURES_BELOW_FIGURE))
+        ));
     }
     if found.only_by_wedging == Some(true) {
-        sentences.push("only by wedging: its loads alone do not build up what holds it".to_owned());
+        sentences.push(
+            "only by wedging: its loads alone do not build up the forces that hold it".to_owned(),
+        );
     }
     if found.verdict == Verdict::Undecided && !found.doubts.is_empty() {
         sentences.push(found.doubt());
@@ -52,15 +59,17 @@ pub fn reason(scene: &Scene, found: &FrameAnalysis) -> String {
     sentences.join("; ")
 }
 
-/// What a frame lacks to stand, for a sentence; empty where it stands.
-pub fn lacks(scene: &Scene, found: &FrameAnalysis) -> String {
+/// The reasons why a frame does not stand, as clauses of a sentence. Empty if it stands.
+pub fn reasons(scene: &Scene, found: &FrameAnalysis) -> String {
     let mut parts: Vec<String> = Vec::new();
-    parts.extend(uncarried(scene, found));
+    parts.extend(unsupported_phrase(scene, found));
     let failures = by_amount(found).into_iter();
-    let failures: Vec<String> = failures.map(|f| lacking(scene, f)).collect();
-    parts.extend(shortened(failures, MOST));
+    let failures: Vec<String> = failures.map(|f| missing_sentence(scene, f)).collect();
+    parts.extend(shortened(failures, MAX_FAILURES_IN_SENTENCE));
     if found.only_by_wedging == Some(true) {
-        parts.push("only wedged, by forces that its loads alone do not build up".to_owned());
+        parts.push(
+            "only by wedging: its loads alone do not build up the forces that hold it".to_owned(),
+        );
     }
     if found.verdict == Verdict::Undecided {
         parts.push(found.doubt());
@@ -69,12 +78,12 @@ pub fn lacks(scene: &Scene, found: &FrameAnalysis) -> String {
     parts.join("; ")
 }
 
-/// The verdict in a sentence for somebody who knows nothing of programs, with its reason.
+/// A sentence with the verdict and its reasons, for readers who do not program.
 pub fn sentence(scene: &Scene, found: &FrameAnalysis) -> String {
     match found.verdict {
         Verdict::Stable if found.only_by_wedging == Some(true) => {
-            "It stands, but only by wedging: forces that hold every block at rest exist, and nothing that acts on it \
-             builds them up."
+            "It stands, but only by wedging: forces that hold every block at rest exist, but the loads alone do not \
+             build them up."
                 .into()
         }
         Verdict::Stable if found.robots.is_empty() => {
@@ -83,15 +92,15 @@ pub fn sentence(scene: &Scene, found: &FrameAnalysis) -> String {
         Verdict::Stable => {
             "It stands: contacts can press and rub, and robots hold, so that every block stays at rest.".into()
         }
-        Verdict::Unstable => match lacks(scene, found) {
-            lacks if lacks.is_empty() => {
+        Verdict::Unstable => match reasons(scene, found) {
+            reasons if reasons.is_empty() => {
                 "It falls: no forces that contacts and robots can give hold every block at rest."
                     .into()
             }
-            lacks => format!("It falls: {lacks}."),
+            reasons => format!("It falls: {reasons}."),
         },
         Verdict::Undecided => format!(
-            "It is undecided: neither forces that hold it nor a motion by which it falls could be proved; {}.",
+            "It is undecided: neither balancing forces nor a collapse motion could be proved; {}.",
             found.doubt()
         ),
     }

@@ -1,4 +1,4 @@
-//! [`Affine`]: a linear map and a move, as drawings nest them.
+//! [`Affine`]: affine maps, for the nested transforms of a drawing.
 
 use crate::geometry::{Point, Vector, sin_cos_degrees};
 
@@ -9,21 +9,21 @@ pub(super) struct Affine(pub(super) [f64; 6]);
 impl Affine {
     pub(super) const IDENTITY: Affine = Affine([1.0, 0.0, 0.0, 1.0, 0.0, 0.0]);
 
-    pub(super) fn moving(x: f64, y: f64) -> Affine {
+    pub(super) fn translation(x: f64, y: f64) -> Affine {
         Affine([1.0, 0.0, 0.0, 1.0, x, y])
     }
 
-    pub(super) fn scaling(x: f64, y: f64) -> Affine {
+    pub(super) fn scale(x: f64, y: f64) -> Affine {
         Affine([x, 0.0, 0.0, y, 0.0, 0.0])
     }
 
-    /// A turn that takes the first axis towards the second; exact at quarter turns.
-    pub(super) fn turning(degrees: f64) -> Affine {
+    /// A rotation from the x axis towards the y axis; exact at multiples of 90°.
+    pub(super) fn rotation(degrees: f64) -> Affine {
         let (sin, cos) = sin_cos_degrees(degrees);
         Affine([cos, sin, -sin, cos, 0.0, 0.0])
     }
 
-    /// The map that does `inner` first and this one then.
+    /// The composition: `inner` first, then this map.
     pub(super) fn after(&self, inner: &Affine) -> Affine {
         let [a, b, c, d, e, f] = inner.0;
         let (x, y) = (
@@ -51,9 +51,9 @@ mod tests {
 
     #[test]
     fn the_inner_map_comes_first() {
-        let map = Affine::moving(10.0, 20.0).after(&Affine::turning(90.0));
+        let map = Affine::translation(10.0, 20.0).after(&Affine::rotation(90.0));
         assert_eq!(map.point(Point::new(3.0, 1.0)), Point::new(9.0, 23.0));
-        let map = Affine::turning(90.0).after(&Affine::moving(10.0, 20.0));
+        let map = Affine::rotation(90.0).after(&Affine::translation(10.0, 20.0));
         assert_eq!(map.point(Point::new(3.0, 1.0)), Point::new(-21.0, 13.0));
     }
 }

@@ -1,27 +1,27 @@
-//! [`Draft`]: what a drawing shows, in metres with y up, before curves are cut and names are settled.
+//! [`Draft`]: the elements of a drawing in metres with y up, before curves are flattened and names are made unique.
 
-use super::track::Track;
+use super::subpath::Subpath;
 use crate::geometry::Point;
 
-/// What a drawing shows.
+/// The elements of a drawing.
 #[derive(Debug, Default)]
 pub(super) struct Draft {
     pub(super) title: String,
     pub(super) parts: Vec<Part>,
-    /// What was understood, for the reader to agree with.
+    /// Sentences that explain how the drawing was read.
     pub(super) notes: Vec<String>,
-    /// What was not, or only half.
+    /// Elements that were not imported, or not exactly as drawn.
     pub(super) remarks: Vec<Remark>,
 }
 
-/// Something that could not be taken as it is.
+/// A message about an element that could not be imported exactly.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Remark {
     /// The element of the drawing, as `path "arch"` or `<rect> in line 12`; empty for the whole drawing.
     pub element: String,
-    /// What was found.
+    /// The message.
     pub message: String,
-    /// What to do about it; empty where nothing can be done.
+    /// The remedy; empty if there is none.
     pub help: String,
 }
 
@@ -29,42 +29,42 @@ pub struct Remark {
 #[derive(Debug)]
 pub(super) struct Part {
     pub(super) kind: Role,
-    /// The name it asks for, perhaps empty or used twice.
+    /// The name in the drawing, possibly empty or a duplicate.
     pub(super) name: String,
-    /// How a person finds it in the drawing.
+    /// A description with which the user finds the element in the drawing.
     pub(super) element: String,
     pub(super) form: Form,
     pub(super) fill: Option<[u8; 3]>,
     pub(super) values: Values,
 }
 
-/// Where a part lies.
+/// The geometry of a part.
 #[derive(Debug)]
 pub(super) enum Form {
-    /// Outlines, all of one element.
-    Tracks(Vec<Track>, Rule),
-    /// A place, for a robot.
-    Spot(Point),
+    /// The outlines of one element.
+    Subpaths(Vec<Subpath>, FillRule),
+    /// The grip point of a robot.
+    Point(Point),
 }
 
-/// Which parts of a plane several outlines enclose.
+/// The rule that decides which regions several outlines enclose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Rule {
+pub(super) enum FillRule {
     NonZero,
     EvenOdd,
 }
 
-/// What an element is to become.
+/// What an element becomes in the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Role {
     Block,
     Ground,
     Robot,
-    /// Left out, as its name wants it.
+    /// Nothing: its name begins with `ignore` or `guide`.
     Ignored,
 }
 
-/// Numbers an element brings along.
+/// Physical properties of an element.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Values {
     pub(super) friction: Option<f64>,
@@ -73,7 +73,7 @@ pub(super) struct Values {
 }
 
 impl Role {
-    /// What a name asks for by its beginning, in upper or lower case.
+    /// The role that a name asks for by its beginning, in upper or lower case.
     pub(super) fn from_name(name: &str) -> Option<Role> {
         let begins = |with: &str| {
             name.get(..with.len())
@@ -111,7 +111,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_tell_what_things_are_by_their_beginning() {
+    fn the_beginning_of_a_name_gives_the_role() {
         for (name, kind) in [
             ("Ground", Some(Role::Ground)),
             ("robot-1", Some(Role::Robot)),

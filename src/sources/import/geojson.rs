@@ -1,20 +1,20 @@
-//! GeoJSON into a [`Draft`]: polygons with their properties, coordinates as metres with y up.
+//! Reads GeoJSON into a [`Draft`]: polygons with properties. Coordinates are in metres with y up.
 
 use serde_json::{Map, Value};
 
-use super::draft::{Draft, Form, Part, Role, Rule, Values};
-use super::track::Track;
+use super::draft::{Draft, FillRule, Form, Part, Role, Values};
+use super::subpath::Subpath;
 use crate::geometry::Point;
 
-/// What a GeoJSON text holds.
+/// Reads a GeoJSON text.
 ///
 /// # Errors
-/// Why it cannot be read at all.
+/// The reason why the text cannot be read as GeoJSON.
 pub(super) fn read(text: &str, scale: f64) -> Result<Draft, String> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let value: Value = serde_json::from_str(text).map_err(|e| e.to_string())?;
     let Value::Object(object) = &value else {
-        return Err("its outermost value is no object".into());
+        return Err("its outermost value is not an object".into());
     };
     if object.contains_key("drystone") {
         return Err("it is a scene file already, and no GeoJSON".into());
@@ -23,13 +23,13 @@ pub(super) fn read(text: &str, scale: f64) -> Result<Draft, String> {
         draft: Draft::default(),
         scale,
     };
-    reader.object(object, "", &About::default());
+    reader.object(object, "", &Properties::default());
     Ok(reader.draft)
 }
 
-/// What a feature says of its geometry.
+/// The properties of a feature.
 #[derive(Clone, Debug, Default)]
-struct About {
+struct Properties {
     name: String,
     kind: Option<Role>,
     fill: Option<[u8; 3]>,
@@ -42,16 +42,16 @@ struct Reader {
 }
 
 impl Reader {
-    fn object(&mut self, object: &Map<String, Value>, at: &str, about: &About) {
+    fn object(&mut self, object: &Map<String, Value>, at: &str, about: &Properties) {
         let kind = object.get("type").and_then(Value::as_str).unwrap_or("");
         match kind {
             "FeatureCollection" => self.each(object, "features", at, about),
             "GeometryCollection" => self.each(object, "geometries", at, about),
             "Feature" => {
-                let about = self.about(object, at);
+                let about = self.properties(object, at);
                 if about.kind == Some(Role::Ignored) {
                     let note = format!(
-                        "{} is left out: it asks for it by its name",
+                        "{} is left out: its name begins with ignore or guide",
                         labelled(at, &about.name)
                     );
                     self.draft.notes.push(note);
@@ -82,38 +82,39 @@ impl Reader {
             },
             "Point" if about.kind == Some(Role::Robot) => {
                 match object.get("coordinates").and_then(|c| self.point(c)) {
-                    Some(spot) => self.part(Form::Spot(spot), at, about),
+                    Some(spot) => self.part(Form::Point(spot), at, about),
                     None => self.unreadable(at, about),
                 }
             }
             "Point" | "MultiPoint" | "LineString" | "MultiLineString" => {
-                self.remark(at, about, &format!("a {kind} encloses nothing; left out"));
+                self.remark(at, about, &format!("a {kind} encloses no area; left out"));
             }
             "" => self.remark(at, about, "it has no type; left out"),
             _ => self.remark(
                 at,
                 about,
-                &format!("{kind} is no type of GeoJSON; left out"),
+                &format!("{kind} is not a type of GeoJSON; left out"),
             ),
         }
     }
 
-    fn each(&mut self, object: &Map<String, Value>, key: &str, at: &str, about: &About) {
+    fn each(&mut self, object: &Map<String, Value>, key: &str, at: &str, about: &Properties) {
         let at = below(at, key);
         let Some(list) = object.get(key).and_then(Value::as_array) else {
-            self.remark(&at, about, "it is no list; left out");
+            self.remark(&at, about, "it is not a list; left out");
             return;
         };
         for (i, entry) in list.iter().enumerate() {
             let at = format!("{at}[{i}]");
             match entry {
                 Value::Object(entry) => self.object(entry, &at, about),
-                _ => self.remark(&at, about, "it is no object; left out"),
+                _ => self.remark(&at, about, "it is not an object; left out"),
             }
         }
     }
 
-    fn about(&mut self, feature: &Map<String, Value>, at: &str) -> About {
+    /// Reads the properties of a feature: the name, the role from name, kind or ground, the fill and the physical values.
+    fn properties(&mut self, feature: &Map<String, Value>, at: &str) -> Properties {
         let none = Map::new();
         let properties = feature
             .get("properties")
@@ -128,10 +129,10 @@ impl Reader {
             .or_else(|| text(properties.get("name")))
             .or_else(|| text(feature.get("id")))
             .unwrap_or_default();
-        let mut about = About {
+        let mut about = Properties {
             kind: Role::from_name(&name),
             name,
-            ..About::default()
+            ..Properties::default()
         };
         let word = properties.get("kind").and_then(Value::as_str);
         match word.map(str::to_ascii_lowercase).as_deref() {
@@ -140,7 +141,7 @@ impl Reader {
                 Some(kind) => about.kind = Some(kind),
                 None => {
                     let why = format!(
-                        "its kind `{word}` is none of block, ground, robot and ignore; not taken"
+                        "its kind `{word}` is not block, ground, robot or ignore; it is ignored"
                     );
                     self.remark(at, &about, &why);
                 }
@@ -150,30 +151,38 @@ impl Reader {
         if properties.get("ground").and_then(Value::as_bool) == Some(true) {
             about.kind = Some(Role::Ground);
         }
-        let mut number = |key: &str| {
-            let value = properties.get(key).filter(|v| !v.is_null())?;
-            let number = value.as_f64();
-            if number.is_none() {
-                self.draft.remark(
-                    labelled(at, &about.name),
-                    format!("its {key} is no number; not taken"),
-                    "",
-                );
-            }
-            number
-        };
         about.values = Values {
-            friction: number("friction"),
-            density: number("density"),
-            weight: number("weight"),
+            friction: self.number(properties, "friction", at, &about),
+            density: self.number(properties, "density", at, &about),
+            weight: self.number(properties, "weight", at, &about),
         };
         if let Some(fill) = properties.get("fill").and_then(Value::as_str) {
             match fill.trim().parse::<svgtypes::Color>() {
                 Ok(c) => about.fill = Some([c.red, c.green, c.blue]),
-                Err(_) => self.remark(at, &about, "its fill is no colour; not taken"),
+                Err(_) => self.remark(at, &about, "its fill is not a valid colour; it is ignored"),
             }
         }
         about
+    }
+
+    /// A physical value of a feature. A value that is not a number is reported.
+    fn number(
+        &mut self,
+        properties: &Map<String, Value>,
+        key: &str,
+        at: &str,
+        about: &Properties,
+    ) -> Option<f64> {
+        let value = properties.get(key).filter(|v| !v.is_null())?;
+        let number = value.as_f64();
+        if number.is_none() {
+            self.remark(
+                at,
+                about,
+                &format!("its {key} is not a number; it is ignored"),
+            );
+        }
+        number
     }
 
     fn rings(&self, value: &Value) -> Option<Vec<Vec<Point>>> {
@@ -190,12 +199,12 @@ impl Reader {
         Some(Point::new(number(0)?, number(1)?) * self.scale)
     }
 
-    fn polygon(&mut self, rings: Vec<Vec<Point>>, at: &str, about: &About) {
-        let tracks = rings.iter().filter_map(|r| Track::closed(r)).collect();
-        self.part(Form::Tracks(tracks, Rule::EvenOdd), at, about);
+    fn polygon(&mut self, rings: Vec<Vec<Point>>, at: &str, about: &Properties) {
+        let subpaths = rings.iter().filter_map(|r| Subpath::closed(r)).collect();
+        self.part(Form::Subpaths(subpaths, FillRule::EvenOdd), at, about);
     }
 
-    fn part(&mut self, form: Form, at: &str, about: &About) {
+    fn part(&mut self, form: Form, at: &str, about: &Properties) {
         self.draft.parts.push(Part {
             kind: about.kind.unwrap_or(Role::Block),
             name: about.name.clone(),
@@ -206,15 +215,15 @@ impl Reader {
         });
     }
 
-    fn unreadable(&mut self, at: &str, about: &About) {
+    fn unreadable(&mut self, at: &str, about: &Properties) {
         self.remark(
             at,
             about,
-            "its coordinates are no lists of numbers as its type has them; left out",
+            "its coordinates do not have the form that its type needs; left out",
         );
     }
 
-    fn remark(&mut self, at: &str, about: &About, message: &str) {
+    fn remark(&mut self, at: &str, about: &Properties, message: &str) {
         self.draft.remark(labelled(at, &about.name), message, "");
     }
 }
@@ -256,10 +265,10 @@ mod tests {
         assert_eq!(draft.parts[0].values.friction, Some(0.4));
         assert_eq!(draft.parts[1].name, "12");
         assert_eq!(draft.parts[1].fill, Some([0x8b, 0x6b, 0x3d]));
-        assert!(matches!(draft.parts[3].form, Form::Spot(p) if p == Point::new(0.4, 0.4)));
+        assert!(matches!(draft.parts[3].form, Form::Point(p) if p == Point::new(0.4, 0.4)));
         let remarks: Vec<&str> = draft.remarks.iter().map(|r| r.message.as_str()).collect();
         assert_eq!(remarks.len(), 5, "{remarks:?}");
-        assert!(remarks[1].contains("its kind `cloud` is none of"));
+        assert!(remarks[1].contains("its kind `cloud` is not block, ground, robot or ignore"));
         assert_eq!(draft.remarks[0].element, "features[1] \"12\"");
         assert!(read("[1]", 1.0).is_err() && read("{", 1.0).is_err());
     }

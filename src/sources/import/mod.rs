@@ -1,20 +1,28 @@
-//! From a drawing to a scene file: SVG, GeoJSON or well-known text.
+//! Imports drawings as scene files: SVG, GeoJSON or well-known text.
 //!
-//! Every closed outline becomes a block, unless a name around it begins with `ground` or `robot`; what begins with
-//! `ignore` or `guide` is left out. Curves are cut into chords, and what nearly touches is made to touch, so that
-//! interfaces are found. What cannot be taken is reported, with the element it is about. Absent on purpose: friction
-//! between materials, limits of robots, loads and steps, which no drawing holds.
+//! | step | file |
+//! |---|---|
+//! | 1. read the drawing into a [`Draft`]: subpaths in metres, y up; transforms are applied, layers give the roles | `svg`, `geojson`, `wkt` |
+//! | 2. flatten curves into chords, and close open ends | `subpath` |
+//! | 3. find regions and their holes by the fill rule | `region` |
+//! | 4. refuse drawings with too many overlapping outlines | `limit` |
+//! | 5. snap corners and edges that nearly touch, so that interfaces are found | `outline` |
+//! | 6. write the scene file, and check it like any other | `scene_file` |
+//!
+//! Every closed outline becomes a block. If its name, or the name of a layer around it, begins with `ground` or `robot`, it
+//! becomes ground or a robot; with `ignore` or `guide` it is left out. Elements that cannot be imported are reported by
+//! name. Drawings contain no friction between materials, limits of robots, loads or steps, so these are not imported.
 
 mod affine;
-mod crowd;
+mod limit;
 mod draft;
-mod entry;
+mod scene_file;
 mod geojson;
 mod name;
 mod outline;
 mod region;
 mod svg;
-mod track;
+mod subpath;
 mod wkt;
 
 pub use draft::Remark;
@@ -24,33 +32,38 @@ use crate::scene::format::SceneFile;
 use draft::{Draft, Form, Role};
 use outline::Outlines;
 
-/// What a drawing is written in.
+/// The default for chords and gaps, relative to the size of the drawing: about a pixel on a screen, what a person cannot
+/// draw more accurately by hand.
+const LENGTH_TOL: f64 = 1e-3;
+/// The default gap relative to the thinnest body. Both faces of a body may move, so the body keeps half its thickness.
+const MAX_GAP_TO_THICKNESS: f64 = 0.25;
+
+/// The format of a drawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Format {
-    /// Scalable Vector Graphics, as Inkscape and Illustrator write it, or a figure by this library.
+    /// Scalable Vector Graphics from Inkscape, Illustrator or this library.
     Svg,
     /// GeoJSON: polygons with properties.
     GeoJson,
-    /// Well-known text: a geometry per line.
+    /// Well-known text: one geometry per line.
     Wkt,
 }
 
-/// How a drawing is to be read, and what a scene needs that no drawing holds.
+/// The options of an import, and the properties of a scene that no drawing contains.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Options {
-    /// Metres per unit of the drawing. Default: the real size of an SVG that has one, that of a figure by this library,
-    /// else 1.
+    /// Metres per unit of the drawing. Default: the physical size of an SVG, or the scale of a figure by this library, or 1.
     pub scale: Option<f64>,
-    /// Farthest that a chord may lie from its curve, in metres. Default: a thousandth of the drawing's size.
+    /// The largest distance of a chord from its curve, in metres. Default: 0.001 times the size of the drawing.
     pub flatten: Option<f64>,
-    /// What is no farther apart, in metres, is made to touch; 0 for nothing. Default: a thousandth of the drawing's size,
-    /// and at most a quarter of the thinnest body.
+    /// Edges within this distance, in metres, are moved so that they touch; 0 turns this off. Default: 0.001 times the size of
+    /// the drawing, but at most a quarter of the thickness of the thinnest body.
     pub gap: Option<f64>,
-    /// Which frame of a figure by this library, from 0. Default: the last.
+    /// The frame to import from a figure by this library, counted from 0. Default: the last.
     pub frame: Option<usize>,
-    /// Friction, kernel, density, thickness and gravity of the scene; its other keys are overwritten.
+    /// Friction, kernel, density, thickness and gravity of the scene. The other keys are overwritten.
     pub scene: SceneFile,
 }
 
@@ -61,61 +74,61 @@ impl Options {
 
     optional_setters! {
         scale: f64, "Metres per unit of the drawing.";
-        flatten: f64, "Farthest that a chord may lie from its curve, in metres.";
-        gap: f64, "What is no farther apart, in metres, is made to touch; 0 for nothing.";
-        frame: usize, "Which frame of a figure by this library, from 0.";
+        flatten: f64, "The largest distance of a chord from its curve, in metres.";
+        gap: f64, "Edges within this distance, in metres, are moved so that they touch; 0 turns this off.";
+        frame: usize, "The frame to import from a figure by this library, counted from 0.";
     }
 }
 
-/// A drawing that has become a scene.
+/// The result of an import.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Imported {
-    /// The scene file. It is sound: [`Scene::from_json`] takes its text.
+    /// The scene file. It is valid: [`Scene::from_json`] accepts its text.
     pub scene: SceneFile,
-    /// How it was understood, in sentences.
+    /// Sentences that explain how the drawing was read.
     pub notes: Vec<String>,
-    /// What was not taken, or not as it was drawn.
+    /// Elements that were not imported, or not exactly as drawn.
     pub remarks: Vec<Remark>,
-    /// What was moved so that it touches.
+    /// The bodies that were moved so that they touch.
     pub snapped: Vec<Snapped>,
 }
 
-/// A body that was moved so that it touches.
+/// A body that was moved so that it touches its neighbours.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Snapped {
-    /// The body: a block's id, or `ground[2]`.
+    /// The body: the id of a block, or `ground[2]`.
     pub body: String,
     /// Its element in the drawing.
     pub element: String,
-    /// How many of its corners moved or were put in.
+    /// The number of corners that were moved or inserted.
     pub corners: usize,
-    /// How far the farthest of them moved, in metres.
+    /// The largest movement of a corner, in metres.
     pub distance: f64,
     /// The bodies that it touches now.
     pub to: Vec<String>,
 }
 
-/// A drawing that does not become a scene.
+/// The reasons why a drawing cannot be imported.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct DrawingProblems {
-    /// Why, at least one reason.
+    /// The problems, at least one.
     pub problems: Vec<Remark>,
-    /// What was not taken in any case.
+    /// Elements that were not imported.
     pub remarks: Vec<Remark>,
 }
 
-/// Reads a drawing.
+/// Imports a drawing.
 ///
 /// # Units
-/// Metres in the scene, y up. An SVG's y points down and is turned over; the lower left corner of its page becomes the
-/// origin.
+/// The scene is in metres with y up. The y axis of an SVG points down and is flipped. The lower left corner of the page
+/// becomes the origin.
 ///
 /// # Errors
-/// A text that is not of its format; a drawing in which nothing is a block; blocks that lie in each other, and whatever
-/// else [`Scene::from_json`] finds wrong.
+/// If the text does not have the format, if no element is a block, if blocks overlap, or if [`Scene::from_json`] reports
+/// another problem.
 ///
 /// # Example
 /// ```
@@ -130,7 +143,7 @@ pub struct DrawingProblems {
 /// # Ok::<(), drystone::scene::SceneError>(())
 /// ```
 pub fn import(text: &str, format: Format, options: &Options) -> Result<Imported, DrawingProblems> {
-    let problems = wrong_options(options);
+    let problems = option_problems(options);
     if !problems.is_empty() {
         return Err(DrawingProblems {
             problems,
@@ -146,11 +159,11 @@ pub fn import(text: &str, format: Format, options: &Options) -> Result<Imported,
         remarks: Vec::new(),
     };
     let scaled = |draft: Draft| {
-        let (scale, how) = match options.scale {
-            Some(scale) => (scale, "as --scale says"),
-            None => (1.0, "since nothing else is said"),
+        let (scale, source) = match options.scale {
+            Some(scale) => (scale, "from --scale"),
+            None => (1.0, "the default"),
         };
-        let note = format!("a unit of the drawing is {scale} m, {how}");
+        let note = format!("a unit of the drawing is {scale} m ({source})");
         Draft {
             notes: std::iter::once(note).chain(draft.notes).collect(),
             ..draft
@@ -159,7 +172,7 @@ pub fn import(text: &str, format: Format, options: &Options) -> Result<Imported,
     let scale = options.scale.unwrap_or(1.0);
     if format != Format::Svg && options.frame.is_some() {
         return Err(refused(
-            "only a figure that drystone drew has frames".into(),
+            "--frame needs a figure by drystone; this drawing has no frames".into(),
         ));
     }
     let draft = match format {
@@ -167,18 +180,18 @@ pub fn import(text: &str, format: Format, options: &Options) -> Result<Imported,
         Format::GeoJson => scaled(geojson::read(text, scale).map_err(refused)?),
         Format::Wkt => scaled(wkt::read(text, scale)),
     };
-    made(draft, options)
+    build_scene(draft, options)
 }
 
-/// Scale, tolerance and gap that are no lengths.
-fn wrong_options(options: &Options) -> Vec<Remark> {
+/// Reports options that are not valid lengths.
+fn option_problems(options: &Options) -> Vec<Remark> {
     let mut problems = Vec::new();
     let mut check = |name: &str, value: Option<f64>, zero: bool| {
         let Some(value) = value else { return };
         if !(value.is_finite() && (value > 0.0 || (zero && value == 0.0))) {
             problems.push(Remark {
                 element: format!("--{name}"),
-                message: format!("{value} is no length"),
+                message: format!("{value} is not a valid length"),
                 help: if zero {
                     "give 0 or more"
                 } else {
@@ -194,12 +207,16 @@ fn wrong_options(options: &Options) -> Vec<Remark> {
     problems
 }
 
-fn made(mut draft: Draft, options: &Options) -> Result<Imported, DrawingProblems> {
+/// Steps 2 to 6: makes a scene from a draft.
+fn build_scene(mut draft: Draft, options: &Options) -> Result<Imported, DrawingProblems> {
     let size = outline::size(&mut draft);
-    let flatten = options.flatten.unwrap_or(1e-3 * size);
-    let close = options.gap.unwrap_or(1e-3 * size).min(1e-3 * size);
-    if draft.parts.iter().any(|p| matches!(&p.form, Form::Tracks(t, _) if p.kind != Role::Robot && t.iter().any(track::Track::bends))) {
-        draft.notes.push(format!("curves are cut into chords, {} m from them at most", entry::short(flatten)));
+    let flatten = options.flatten.unwrap_or(LENGTH_TOL * size);
+    let close = options
+        .gap
+        .unwrap_or(LENGTH_TOL * size)
+        .min(LENGTH_TOL * size);
+    if draft.parts.iter().any(|p| matches!(&p.form, Form::Subpaths(t, _) if p.kind != Role::Robot && t.iter().any(subpath::Subpath::has_curves))) {
+        draft.notes.push(format!("curves are replaced by chords, at most {} m from the curve", scene_file::short(flatten)));
     }
     let title = std::mem::take(&mut draft.title);
     let mut outlines = Outlines::new(&mut draft, flatten, close);
@@ -214,7 +231,7 @@ fn made(mut draft: Draft, options: &Options) -> Result<Imported, DrawingProblems
             remarks: draft.remarks,
         });
     }
-    if let Some(problem) = crowd::problem(&outlines) {
+    if let Some(problem) = limit::problem(&outlines) {
         return Err(DrawingProblems {
             problems: vec![problem],
             remarks: draft.remarks,
@@ -222,18 +239,19 @@ fn made(mut draft: Draft, options: &Options) -> Result<Imported, DrawingProblems
     }
     let gap = options
         .gap
-        .unwrap_or_else(|| (1e-3 * size).min(0.25 * outlines.thinnest()));
-    let names = name::given(&mut outlines);
+        .unwrap_or_else(|| (LENGTH_TOL * size).min(MAX_GAP_TO_THICKNESS * outlines.thinnest()));
+    let names = name::unique_names(&mut outlines);
     let snapped = outlines.snap(&mut draft, &names, gap);
     if gap > 0.0 {
         draft.notes.push(format!(
-            "what lies within {} m of each other is made to touch",
-            entry::short(gap)
+            "edges within {} m of each other are moved so that they touch",
+            scene_file::short(gap)
         ));
     }
-    let scene = entry::scene(&outlines, &names, &mut draft, title, size, &options.scene);
+    let scene = scene_file::scene(&outlines, &names, &mut draft, title, size, &options.scene);
     let text = scene.to_json();
-    // Outlines brought together leave nothing to be judged both ways: what still overlaps has to be drawn anew.
+    // Blocks were snapped together, so an overlap that remains is a mistake in the drawing: check the scene again with the
+    // tolerance as a hard limit.
     let read = Scene::from_json(&text).and_then(|read| match read.penetrations.is_empty() {
         true => Ok(read),
         false => Scene::from_json_within(&text, Some(read.tolerance.gap)),

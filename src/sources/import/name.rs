@@ -1,21 +1,21 @@
-//! Names: one of its own for every block and robot.
+//! Gives every block and robot a unique name.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::draft::Role;
 use super::outline::Outlines;
 
-/// What bodies and robots are called in the scene and in what is reported.
+/// The names of bodies and robots in the scene and in messages.
 pub(super) struct Names {
     /// One per body: a block's id, `ground[0]` for a part of the ground.
     pub(super) bodies: Vec<String>,
     pub(super) robots: Vec<String>,
 }
 
-/// Names as the drawing gives them; twins get numbers, and who has none is called by its number.
-pub(super) fn given(outlines: &mut Outlines) -> Names {
-    // "ground" in a result is the ground.
-    let mut taken = Taken::but("ground");
+/// Unique names. A duplicate gets a number after its name, and a body without a name is named by its number.
+pub(super) fn unique_names(outlines: &mut Outlines) -> Names {
+    // The name "ground" is reserved: results use it for the ground.
+    let mut taken = Taken::with("ground");
     let wanted: BTreeSet<&str> = outlines.bodies.iter().map(|b| b.name.as_str()).collect();
     let ground = outlines.ground();
     let mut bodies = Vec::new();
@@ -43,19 +43,19 @@ pub(super) fn given(outlines: &mut Outlines) -> Names {
 #[derive(Default)]
 struct Taken {
     names: BTreeSet<String>,
-    /// The last number that was found free for a stem: those below it stay taken, and are not tried again.
+    /// The next number to try for each stem. Smaller numbers are taken, so that naming n twins takes n steps.
     last: BTreeMap<String, usize>,
 }
 
 impl Taken {
-    fn but(name: &str) -> Taken {
+    fn with(name: &str) -> Taken {
         Taken {
             names: BTreeSet::from([name.to_owned()]),
             ..Taken::default()
         }
     }
 
-    /// The first number from `from` on with which a name is free and nobody's own.
+    /// The name with the first number, at least `from`, that is neither taken nor a name in the drawing.
     fn first_free(&mut self, stem: &str, from: usize, wanted: &BTreeSet<&str>) -> String {
         let last = self.last.entry(stem.to_owned()).or_default();
         let mut number = from.max(*last);

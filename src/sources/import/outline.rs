@@ -1,23 +1,23 @@
-//! [`Outlines`]: the bodies and robots of a draft, their curves cut, each one outline with its holes.
+//! [`Outlines`]: the bodies and robots of a drawing as polygons with holes, with flattened curves.
 
 use super::draft::{Draft, Form, Part, Role, Values};
 use super::name::Names;
 use super::region::regions;
-use super::track::Track;
-use super::{Remark, Snapped, crowd};
+use super::subpath::Subpath;
+use super::{Remark, Snapped, limit};
 use crate::geometry::snap::{self, Corner, Rings, polygon};
 use crate::geometry::{Bounds, Point, Polygon, PolygonError, Tolerance};
 use crate::scene::Problem;
 
-/// Places farther from the origin than this, in metres, are no places.
-const FARTHEST: f64 = 1e12;
+/// The largest coordinate in metres; scene files have the same limit.
+const MAX_COORDINATE: f64 = 1e12;
 
-/// More bodies than this are not named one by one.
-const MANY: usize = 12;
+/// More bodies than this share one remark.
+const MAX_LISTED_BODIES: usize = 12;
 
-/// What a draft comes to.
+/// The bodies and robots of a drawing.
 pub(super) struct Outlines {
-    /// The ground's parts first, then the blocks, each in the drawing's order.
+    /// The parts of the ground, then the blocks, in the order of the drawing.
     pub(super) bodies: Vec<Body>,
     pub(super) robots: Vec<Robot>,
 }
@@ -32,28 +32,28 @@ pub(super) struct Body {
     pub(super) values: Values,
 }
 
-/// A robot and where it grips.
+/// A robot with its grip point.
 pub(super) struct Robot {
     pub(super) name: String,
     pub(super) element: String,
     pub(super) at: Point,
 }
 
-/// How large the blocks of a draft are together, in metres: the diagonal of the box around them. Parts with places that
-/// are none are taken out.
+/// The size of the drawing: the diagonal of the bounding box of all blocks, in metres. Removes parts with coordinates that
+/// are too large or not numbers.
 pub(super) fn size(draft: &mut Draft) -> f64 {
     let hull = |part: &Part| match &part.form {
-        Form::Tracks(tracks, _) => tracks.iter().flat_map(Track::hull).collect(),
-        Form::Spot(at) => vec![*at],
+        Form::Subpaths(subpaths, _) => subpaths.iter().flat_map(Subpath::hull).collect(),
+        Form::Point(at) => vec![*at],
     };
     let mut around: Option<Bounds> = None;
     let (mut kept, mut out) = (Vec::new(), Vec::new());
     for part in std::mem::take(&mut draft.parts) {
         let hull = hull(&part);
-        // Written so that NaN is far.
+        // The comparison is false for NaN.
         if hull
             .iter()
-            .all(|p| p.x.abs() <= FARTHEST && p.y.abs() <= FARTHEST)
+            .all(|p| p.x.abs() <= MAX_COORDINATE && p.y.abs() <= MAX_COORDINATE)
         {
             if part.kind == Role::Block {
                 let own = Bounds::from_points(hull);
@@ -66,14 +66,14 @@ pub(super) fn size(draft: &mut Draft) -> f64 {
     }
     draft.parts = kept;
     for element in out {
-        let message = format!("it reaches farther than {FARTHEST:e} m from the origin; left out");
+        let message = format!("it has coordinates beyond {MAX_COORDINATE:e} m; left out");
         draft.remark(element, message, "");
     }
     around.map_or(0.0, Bounds::diagonal)
 }
 
 impl Outlines {
-    /// Takes the parts of a draft.
+    /// Flattens the parts of a draft and splits them into regions.
     pub(super) fn new(draft: &mut Draft, flatten: f64, close: f64) -> Outlines {
         let mut outlines = Outlines {
             bodies: Vec::new(),
@@ -81,23 +81,23 @@ impl Outlines {
         };
         for part in std::mem::take(&mut draft.parts) {
             match part.form {
-                Form::Spot(at) => outlines.robots.push(Robot {
+                Form::Point(at) => outlines.robots.push(Robot {
                     name: part.name,
                     element: part.element,
                     at,
                 }),
-                Form::Tracks(ref tracks, rule) => {
-                    let rings = closed(draft, &part, tracks, flatten, close);
-                    if crowd::is_tangle(&rings) {
+                Form::Subpaths(ref subpaths, rule) => {
+                    let rings = closed_rings(draft, &part, subpaths, flatten, close);
+                    if limit::has_too_many_pairs(&rings) {
                         let message = format!(
-                            "its {} outlines are too many to tell which lies in which; left out",
+                            "its {} outlines are too many to find the holes among them; left out",
                             rings.len()
                         );
                         draft.remark(&part.element, message, "break it apart into several paths");
                         continue;
                     }
                     for rings in regions(rings, rule) {
-                        outlines.take(draft, &part, rings);
+                        outlines.add(draft, &part, rings);
                     }
                 }
             }
@@ -106,11 +106,11 @@ impl Outlines {
         outlines
     }
 
-    fn take(&mut self, draft: &mut Draft, part: &Part, rings: Rings) {
+    fn add(&mut self, draft: &mut Draft, part: &Part, rings: Rings) {
         let polygon = match polygon(&rings) {
             Ok(polygon) => polygon,
             Err(flaws) => {
-                flawed(draft, part, &flaws);
+                remark_flaws(draft, part, &flaws);
                 return;
             }
         };
@@ -132,7 +132,7 @@ impl Outlines {
         }
     }
 
-    /// The thickness of the thinnest body, in metres, as that of a long strip of its area and circumference.
+    /// The thickness of the thinnest body in metres: that of a long strip with the same area and perimeter, 2 A / P.
     pub(super) fn thinnest(&self) -> f64 {
         let thickness = |body: &Body| {
             let polygon = polygon(&body.rings).ok()?;
@@ -143,7 +143,7 @@ impl Outlines {
         all.fold(f64::INFINITY, f64::min)
     }
 
-    /// Brings together what lies within `gap`, and tells what moved.
+    /// Snaps edges and corners within `gap` together, and returns the bodies that moved.
     pub(super) fn snap(&mut self, draft: &mut Draft, names: &Names, gap: f64) -> Vec<Snapped> {
         if !(gap > 0.0) {
             return Vec::new();
@@ -156,27 +156,27 @@ impl Outlines {
             &fixed,
             0.5 * self.tolerance() / gap,
         );
-        if outcome.kept.len() > MANY {
+        if outcome.kept.len() > MAX_LISTED_BODIES {
             let message = format!(
-                "{} bodies would lose their shape, or lie deeper in their neighbours, if they were snapped; left as they are drawn",
+                "{} bodies would change their shape or overlap their neighbours more if they were snapped; left as drawn",
                 outcome.kept.len()
             );
             draft.remark(
                 "",
                 message,
-                "draw them closer to what they touch, or give another --gap",
+                "draw them closer to their neighbours, or use another --gap",
             );
         }
         for body in outcome
             .kept
             .iter()
             .copied()
-            .filter(|_| outcome.kept.len() <= MANY)
+            .filter(|_| outcome.kept.len() <= MAX_LISTED_BODIES)
         {
             draft.remark(
                 &self.bodies[body].element,
-                "snapped to its neighbours it would lose its shape or lie deeper in them; left as it is drawn",
-                "draw it closer to what it touches, or give a smaller --gap",
+                "it would change its shape or overlap its neighbours more if it were snapped; left as drawn",
+                "draw it closer to its neighbours, or use a smaller --gap",
             );
         }
         let described = |moved: &snap::Moved| Snapped {
@@ -193,7 +193,7 @@ impl Outlines {
         snapped
     }
 
-    /// How deep an overlap a scene of these blocks takes for noise, in metres.
+    /// The depth of an overlap that a scene of these blocks tolerates, in metres.
     fn tolerance(&self) -> f64 {
         let blocks = self.bodies.iter().filter(|b| b.kind == Role::Block);
         let boxes: Vec<Bounds> = blocks
@@ -206,7 +206,7 @@ impl Outlines {
         Tolerance::new(all.map_or(0.0, Bounds::diagonal), typical).gap
     }
 
-    /// The parts of the ground.
+    /// The number of parts of the ground.
     pub(super) fn ground(&self) -> usize {
         self.bodies
             .iter()
@@ -214,7 +214,7 @@ impl Outlines {
             .count()
     }
 
-    /// A problem of the scene, told of the elements it comes from.
+    /// A problem of the scene as a remark about the element of the drawing.
     pub(super) fn located(&self, problem: &Problem) -> Remark {
         let ground = self.ground();
         let number = |list: &str| -> Option<usize> {
@@ -231,17 +231,17 @@ impl Outlines {
                 .and_then(|i| self.robots.get(i))
                 .map(|r| r.element.clone())
         };
-        // The drawing knows no numbers.
+        // The user does not know the numbers of the ground: replace `ground[2]` by the name of its element.
         let mut message = String::new();
-        let mut pieces = problem.message.split("ground[");
-        message.extend(pieces.next());
-        for piece in pieces {
-            let named = piece.split_once(']').and_then(|(number, rest)| {
+        let mut segments = problem.message.split("ground[");
+        message.extend(segments.next());
+        for segment in segments {
+            let named = segment.split_once(']').and_then(|(number, rest)| {
                 let number: usize = number.parse().ok()?;
                 let body = self.bodies[..ground].get(number)?;
                 Some(format!("the ground's {}{rest}", body.element))
             });
-            message += &named.unwrap_or_else(|| format!("ground[{piece}"));
+            message += &named.unwrap_or_else(|| format!("ground[{segment}"));
         }
         Remark {
             element: body.or_else(robot).unwrap_or_else(|| problem.path.clone()),
@@ -251,29 +251,29 @@ impl Outlines {
     }
 }
 
-/// The closed outlines of a part; of the others it is reported that they are open.
-fn closed(
+/// The closed outlines of a part. Open outlines are reported.
+fn closed_rings(
     draft: &mut Draft,
     part: &Part,
-    tracks: &[Track],
+    subpaths: &[Subpath],
     flatten: f64,
     close: f64,
 ) -> Vec<Vec<Corner>> {
     let mut rings = Vec::new();
     let mut open = 0;
-    for track in tracks {
-        match track.flattened(flatten, close) {
+    for subpath in subpaths {
+        match subpath.flattened(flatten, close) {
             Some(ring) => rings.push(ring),
             None => open += 1,
         }
     }
     if open > 0 {
-        let message = match (open, tracks.len()) {
+        let message = match (open, subpaths.len()) {
             (1, 1) => "it is open; left out".into(),
             (open, all) if open == all => format!("all {open} of its outlines are open; left out"),
             (open, all) => format!("{open} of its {all} outlines are open; these are left out"),
         };
-        let help = "close it, or name its layer ignore if it is no block";
+        let help = "close it, or rename its layer to ignore if it is not a block";
         draft.remark(&part.element, message, help);
     } else if rings.is_empty() {
         draft.remark(&part.element, "it has no outline; left out", "");
@@ -281,7 +281,7 @@ fn closed(
     rings
 }
 
-fn flawed(draft: &mut Draft, part: &Part, flaws: &[PolygonError]) {
+fn remark_flaws(draft: &mut Draft, part: &Part, flaws: &[PolygonError]) {
     let point = |p: &Point| format!("({:.4}, {:.4}) m", p.x, p.y);
     let (message, help) = match flaws.first() {
         Some(PolygonError::Crossing { at, .. }) => {
@@ -298,16 +298,19 @@ fn flawed(draft: &mut Draft, part: &Part, flaws: &[PolygonError]) {
             )
         }
         Some(PolygonError::HoleOutside { .. }) => (
-            "its holes lie in each other or outside it; left out".into(),
+            "its holes overlap or lie outside it; left out".into(),
             "draw them apart",
         ),
-        _ => ("it encloses no area; left out".into(), "give it one"),
+        _ => (
+            "it encloses no area; left out".into(),
+            "draw it as an outline with an area",
+        ),
     };
     draft.remark(&part.element, message, help);
 }
 
 impl Body {
-    /// Its polygon, known to be sound.
+    /// Its polygon. [`Outlines::new`] has checked that it is valid.
     pub(super) fn polygon(&self) -> Option<Polygon> {
         polygon(&self.rings).ok()
     }

@@ -1,21 +1,25 @@
-//! Regions: what the closed outlines of one element enclose, each an outline with its holes.
+//! [`regions`]: splits the closed outlines of one element into regions, each an outline with its holes.
+//!
+//! 1. Sort the rings by area, so that a ring comes after all rings around it.
+//! 2. The winding number just outside a ring is the sum of the directions of the rings around it; inside, its own is added.
+//! 3. A ring with filled area inside only begins a region. A ring with filled area outside only is a hole of the innermost
+//!    region around it. Any other ring bounds nothing.
 
-use super::draft::Rule;
+use super::draft::FillRule;
 use crate::geometry::snap::{Corner, Rings, area};
 use crate::geometry::{Bounds, Point};
 
-/// The regions that rings enclose under a fill rule.
-pub(super) fn regions(rings: Vec<Vec<Corner>>, rule: Rule) -> Vec<Rings> {
+/// The regions that rings enclose by a fill rule.
+pub(super) fn regions(rings: Vec<Vec<Corner>>, rule: FillRule) -> Vec<Rings> {
     let filled = |winding: i64| match rule {
-        Rule::NonZero => winding != 0,
-        Rule::EvenOdd => winding % 2 != 0,
+        FillRule::NonZero => winding != 0,
+        FillRule::EvenOdd => winding % 2 != 0,
     };
     let areas: Vec<f64> = rings.iter().map(|r| area(r)).collect();
     let boxes: Vec<Option<Bounds>> = rings
         .iter()
         .map(|r| Bounds::from_points(r.iter().map(|c| c.at)))
         .collect();
-    // The larger ring comes first, so that what holds a ring stands before it.
     let mut order: Vec<usize> = (0..rings.len()).collect();
     order.sort_by(|a, b| areas[*b].abs().total_cmp(&areas[*a].abs()));
     let mut kept: Vec<Rings> = Vec::new();
@@ -24,7 +28,7 @@ pub(super) fn regions(rings: Vec<Vec<Corner>>, rule: Rule) -> Vec<Rings> {
         let around: Vec<usize> = order[..place]
             .iter()
             .copied()
-            .filter(|j| holds(boxes[*j], boxes[i]) && lies_in(&rings[i], &rings[*j]))
+            .filter(|j| may_contain(boxes[*j], boxes[i]) && lies_in(&rings[i], &rings[*j]))
             .collect();
         let turn = |k: usize| if areas[k] < 0.0 { -1 } else { 1 };
         let outside: i64 = around.iter().map(|j| turn(*j)).sum();
@@ -38,21 +42,23 @@ pub(super) fn regions(rings: Vec<Vec<Corner>>, rule: Rule) -> Vec<Rings> {
                     kept[region].push(rings[i].clone());
                 }
             }
-            // A ring with the same on both sides bounds nothing.
+            // Both sides are filled, or neither.
             _ => {}
         }
     }
     kept
 }
 
-fn holds(outer: Option<Bounds>, inner: Option<Bounds>) -> bool {
+/// Whether a box is large enough to contain another, and meets it.
+fn may_contain(outer: Option<Bounds>, inner: Option<Bounds>) -> bool {
     let (Some(outer), Some(inner)) = (outer, inner) else {
         return false;
     };
     outer.intersects(inner) && outer.width() >= inner.width() && outer.height() >= inner.height()
 }
 
-/// Whether most of a ring's corners lie inside another; one corner alone may lie on the other's edge.
+/// Whether most corners of a ring are inside another ring: a single corner may lie on an edge of the other ring. The test
+/// counts crossings of a horizontal ray (even-odd).
 fn lies_in(ring: &[Corner], other: &[Corner]) -> bool {
     let inside = |p: Point| {
         let mut odd = false;
@@ -95,16 +101,16 @@ mod tests {
             ]
         };
         // A hole with an island in it.
-        let island = regions(nested(true), Rule::NonZero);
+        let island = regions(nested(true), FillRule::NonZero);
         assert_eq!(island.iter().map(Vec::len).collect::<Vec<_>>(), [2, 1]);
-        assert_eq!(regions(nested(false), Rule::EvenOdd).len(), 2);
-        // All the same way round: the inner rings bound nothing.
-        let whole = regions(nested(false), Rule::NonZero);
+        assert_eq!(regions(nested(false), FillRule::EvenOdd).len(), 2);
+        // All rings in the same direction: the inner rings bound nothing.
+        let whole = regions(nested(false), FillRule::NonZero);
         assert_eq!(whole.iter().map(Vec::len).collect::<Vec<_>>(), [1]);
         assert_eq!(
             regions(
                 vec![square(0.0, 1.0, true), square(4.0, 2.0, false)],
-                Rule::EvenOdd
+                FillRule::EvenOdd
             )
             .len(),
             2

@@ -102,17 +102,20 @@ fn everything_that_cannot_be_taken_is_told_at_once() {
         })
         .collect();
     let expected = [
-        ("rect \"good\"", "its clip path is not followed"),
-        ("rect \"good\"", "its mask is not followed"),
-        ("rect \"good\"", "a gradient or pattern is no material"),
+        ("rect \"good\"", "clip paths are not supported"),
+        ("rect \"good\"", "masks are not supported"),
+        (
+            "rect \"good\"",
+            "a gradient or pattern cannot become a material",
+        ),
         (
             "<path> in line 3",
             "its path data cannot be read (unexpected end of stream)",
         ),
-        ("text \"words\"", "a text is no block"),
+        ("text \"words\"", "a text cannot become a block"),
         ("image \"photo\"", "an image has no outlines"),
         ("rect \"none\"", "its width is 0"),
-        ("use \"lost\"", "it copies #nowhere, which is not there"),
+        ("use \"lost\"", "it copies #nowhere, which does not exist"),
         ("<use> in line 7", "it copies itself"),
         ("path \"open\"", "it is open"),
         (
@@ -120,7 +123,10 @@ fn everything_that_cannot_be_taken_is_told_at_once() {
             "its outline crosses or touches itself at (11.0000, 8.0000) m",
         ),
         ("polygon \"flat\"", "it encloses no area"),
-        ("circle \"robot\"", "its centre (19, 1) m lies in no block"),
+        (
+            "circle \"robot\"",
+            "its centre (19, 1) m is in no block, so the robot holds nothing",
+        ),
     ];
     assert_eq!(described, expected);
 }
@@ -213,7 +219,7 @@ fn copies_of_copies_come_to_an_end() {
         "</g>".repeat(5000)
     );
     let draft = svg::read(&svg(&deep), None, None).expect("XML");
-    assert!(draft.parts.is_empty() && draft.remarks[0].message.contains("deep in each other"));
+    assert!(draft.parts.is_empty() && draft.remarks[0].message.contains("levels deep"));
 }
 
 #[test]

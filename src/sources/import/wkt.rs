@@ -1,13 +1,13 @@
-//! Well-known text into a [`Draft`]: one geometry per line, with its name before it where it has one.
+//! Reads well-known text into a [`Draft`]: one geometry per line, with an optional name before it.
 
-use super::draft::{Draft, Form, Part, Role, Rule, Values};
-use super::track::Track;
+use super::draft::{Draft, FillRule, Form, Part, Role, Values};
+use super::subpath::Subpath;
 use crate::geometry::Point;
 
-/// Collections lie at most so deep in each other.
-const DEEPEST: usize = 50;
+/// The largest nesting depth of collections; deeper ones could overflow the stack.
+const MAX_DEPTH: usize = 50;
 
-/// What lines of well-known text hold; lines that begin with `#` are passed over.
+/// Reads lines of well-known text. Lines that begin with `#` are comments.
 pub(super) fn read(text: &str, scale: f64) -> Draft {
     let mut draft = Draft::default();
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
@@ -23,9 +23,9 @@ pub(super) fn read(text: &str, scale: f64) -> Draft {
         }
         let kind = Role::from_name(name);
         if kind == Some(Role::Ignored) {
-            draft
-                .notes
-                .push(format!("{element} is left out: it asks for it by its name"));
+            draft.notes.push(format!(
+                "{element} is left out: its name begins with ignore or guide"
+            ));
             continue;
         }
         let mut reader = Reader {
@@ -66,7 +66,7 @@ pub(super) fn read(text: &str, scale: f64) -> Draft {
     draft
 }
 
-/// A line's name and geometry. What a database puts before a geometry, `SRID=…;`, is no name.
+/// Splits a line into name and geometry. The `SRID=…;` of a database is not a name.
 fn named(line: &str) -> (&str, &str) {
     let geometry = line.find('(').unwrap_or(line.len());
     match line[..geometry].rfind([';', '\t']) {
@@ -91,16 +91,16 @@ fn named(line: &str) -> (&str, &str) {
 struct Reader<'t> {
     rest: &'t str,
     scale: f64,
-    /// Whether a point is something: a robot's grip.
+    /// Whether points are allowed: only as grip points of robots.
     robot: bool,
     found: Vec<Form>,
 }
 
 impl Reader<'_> {
     fn geometry(&mut self, depth: usize) -> Result<(), String> {
-        if depth > DEEPEST {
+        if depth > MAX_DEPTH {
             return Err(format!(
-                "collections lie more than {DEEPEST} deep in each other"
+                "collections are nested more than {MAX_DEPTH} levels deep"
             ));
         }
         let mut word = self.word();
@@ -128,29 +128,29 @@ impl Reader<'_> {
             "POINT" if self.robot => {
                 self.expect('(')?;
                 let spot = self.point()?;
-                self.found.push(Form::Spot(spot));
+                self.found.push(Form::Point(spot));
                 self.expect(')')
             }
             "GEOMETRYCOLLECTION" => self.list(|reader| reader.geometry(depth + 1)),
             "POINT" | "LINESTRING" | "MULTIPOINT" | "MULTILINESTRING" => {
-                Err(format!("a {word} encloses nothing"))
+                Err(format!("a {word} encloses no area"))
             }
-            _ => Err(format!("{word} is no geometry that is known here")),
+            _ => Err(format!("{word} is not a known geometry")),
         }
     }
 
     fn polygon(&mut self) -> Result<(), String> {
-        let mut tracks = Vec::new();
+        let mut subpaths = Vec::new();
         self.list(|reader| {
             let mut points = Vec::new();
             reader.list(|reader| {
                 points.push(reader.point()?);
                 Ok(())
             })?;
-            tracks.extend(Track::closed(&points));
+            subpaths.extend(Subpath::closed(&points));
             Ok(())
         })?;
-        self.found.push(Form::Tracks(tracks, Rule::EvenOdd));
+        self.found.push(Form::Subpaths(subpaths, FillRule::EvenOdd));
         Ok(())
     }
 
@@ -167,7 +167,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Two numbers; a third and fourth are height and measure, which the plane has not.
+    /// Reads two numbers. A third and fourth number (height and measure) are ignored.
     fn point(&mut self) -> Result<Point, String> {
         let p = Point::new(self.number()?, self.number()?) * self.scale;
         for _ in 0..2 {
@@ -263,11 +263,11 @@ mod tests {
                 ("", Role::Block)
             ]
         );
-        assert!(matches!(&draft.parts[2].form, Form::Tracks(tracks, _) if tracks.len() == 2));
-        assert!(matches!(draft.parts[4].form, Form::Spot(p) if p == Point::new(0.2, 0.3)));
+        assert!(matches!(&draft.parts[2].form, Form::Subpaths(subpaths, _) if subpaths.len() == 2));
+        assert!(matches!(draft.parts[4].form, Form::Point(p) if p == Point::new(0.2, 0.3)));
         let remarks: Vec<&str> = draft.remarks.iter().map(|r| r.message.as_str()).collect();
         assert_eq!(remarks.len(), 5, "{remarks:?}");
-        assert_eq!(remarks[0], "a LINESTRING encloses nothing; left out");
+        assert_eq!(remarks[0], "a LINESTRING encloses no area; left out");
         assert_eq!(
             remarks[1],
             "there is `x))` where a number should be; left out"

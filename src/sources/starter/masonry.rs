@@ -76,7 +76,7 @@ impl Wall {
     }
 }
 
-/// Blocks one on the other, each moved to the right over the one below.
+/// A stack of blocks, each shifted to the right relative to the one below.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tower {
     /// How many blocks.
@@ -85,7 +85,7 @@ pub struct Tower {
     pub width: f64,
     /// Height of a block, metres.
     pub height: f64,
-    /// How far each block lies to the right of the one below, metres; it stands up to the width over the number of blocks.
+    /// The shift of each block to the right relative to the one below, in metres; it stands up to the width divided by the number of blocks.
     pub lean: f64,
     /// Friction coefficient.
     pub friction: f64,
@@ -144,7 +144,7 @@ impl Tower {
     }
 }
 
-/// Two jambs and a lintel, built in three steps: a robot holds the lintel by its free end until the second jamb is there.
+/// Two jambs and a lintel, built in three steps. A robot holds the free end of the lintel until the second jamb is placed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Doorway {
     /// Blocks in each jamb.
@@ -200,17 +200,15 @@ impl Doorway {
         let (left, right) = (round(self.jamb), round(self.jamb + self.width));
         let end = round(2.0 * self.jamb + self.width);
         let level = |i: usize| round(self.height * i as f64 / self.courses.max(1) as f64);
-        let name = |side: &str, i: usize| format!("{side} {}", i + 1);
         let mut blocks = Vec::new();
         for (side, from, to) in [("left", 0.0, left), ("right", right, end)] {
             for i in 0..self.courses {
                 let corners = rectangle([from, level(i)], [to, level(i + 1)]);
-                blocks.push(block(name(side, i), corners));
+                blocks.push(block(jamb_block(side, i), corners));
             }
         }
         let lintel = rectangle([0.0, top], [end, round(self.height + self.lintel)]);
         blocks.push(block("lintel".into(), lintel));
-        let jamb = |side: &str| (0..self.courses).map(|i| name(side, i)).collect::<Vec<_>>();
         let grip = GripEntry {
             block: "lintel".into(),
             at: Some([
@@ -235,27 +233,41 @@ impl Doorway {
                 id: Some("robot".into()),
                 ..RobotEntry::default()
             }],
-            steps: vec![
-                StepEntry {
-                    title: Some("The left jamb".into()),
-                    place: jamb("left"),
-                    plan: Map(vec![("robot".into(), "lintel".into())]),
-                    ..StepEntry::default()
-                },
-                StepEntry {
-                    title: Some("The robot holds the lintel".into()),
-                    place: vec!["lintel".into()],
-                    hold: Map(vec![("robot".into(), HoldEntry::Grip(grip))]),
-                    ..StepEntry::default()
-                },
-                StepEntry {
-                    title: Some("The right jamb takes over".into()),
-                    release: vec!["robot".into()],
-                    place: jamb("right"),
-                    ..StepEntry::default()
-                },
-            ],
+            steps: self.steps(grip),
             ..SceneFile::default()
         }
     }
+
+    /// The steps: the left jamb, then the lintel with the robot, then the right jamb.
+    fn steps(&self, grip: GripEntry) -> Vec<StepEntry> {
+        let jamb = |side: &str| {
+            let blocks = (0..self.courses).map(|i| jamb_block(side, i));
+            blocks.collect::<Vec<_>>()
+        };
+        vec![
+            StepEntry {
+                title: Some("The left jamb".into()),
+                place: jamb("left"),
+                plan: Map(vec![("robot".into(), "lintel".into())]),
+                ..StepEntry::default()
+            },
+            StepEntry {
+                title: Some("The robot holds the lintel".into()),
+                place: vec!["lintel".into()],
+                hold: Map(vec![("robot".into(), HoldEntry::Grip(grip))]),
+                ..StepEntry::default()
+            },
+            StepEntry {
+                title: Some("The right jamb takes over".into()),
+                release: vec!["robot".into()],
+                place: jamb("right"),
+                ..StepEntry::default()
+            },
+        ]
+    }
+}
+
+/// The id of a block in a jamb: `left 1`.
+fn jamb_block(side: &str, course: usize) -> String {
+    format!("{side} {}", course + 1)
 }

@@ -1,7 +1,7 @@
-//! Starters: the scene files of common structures, from a few lengths and counts.
+//! Generates the scene files of common structures from a few lengths and counts.
 //!
-//! For people to build on (`drystone new arch`), for benchmarks and for tests. Blocks that meet share their corners to the
-//! last digit, so that rounding opens no joint. Lengths are in metres, x points right, y up.
+//! They are starting points for users (`drystone new arch`), benchmarks and tests. Blocks that touch share their rounded
+//! corners, so rounding opens no joint. Lengths are in metres, x points right, y up.
 
 mod arch;
 mod lattice;
@@ -13,15 +13,16 @@ pub use masonry::{Doorway, Tower, Wall};
 
 use crate::scene::format::{BlockEntry, GroundEntry, Pair};
 
-/// How many digits below the first of the smallest length coordinates are written with: a ten-thousandth of it.
+/// Coordinates have this many significant digits of the smallest length: enough for a person to read, and far below any
+/// joint.
 const DIGITS: f64 = 4.0;
 
-/// Rounds to sensible decimals for a structure whose smallest part measures `least` metres.
+/// Rounds a coordinate of a structure whose smallest length is `least` metres.
 fn rounded(x: f64, least: f64) -> f64 {
     let decimals = DIGITS - 1.0 - libm::floor(libm::log10(least));
     let power = libm::pow(10.0, decimals.clamp(0.0, 15.0));
     let whole = (x * power).round() / power;
-    // No negative zero: it would be written as such.
+    // Adding 0 turns −0 into 0.
     whole + 0.0
 }
 

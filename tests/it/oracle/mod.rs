@@ -317,7 +317,7 @@ fn the_smallest_stone_is_judged_as_an_exact_program_does() {
 #[test]
 fn the_exact_simplex_meets_its_dual() {
     for seed in 0..200 {
-        let mut chance = random::Chance::new(seed);
+        let mut chance = crate::random::Random::new(seed);
         let (n, m) = (chance.whole(1, 6) as usize, chance.whole(1, 5) as usize);
         let costs: Vec<i64> = (0..n).map(|_| chance.whole(0, 9)).collect();
         let bounds: Vec<i64> = (0..m).map(|_| chance.whole(-4, 9)).collect();

@@ -6,40 +6,7 @@
 use serde_json::{Value, json};
 
 use super::shape;
-
-/// SplitMix64: enough chance for tests, and the same on every machine.
-pub struct Chance(u64);
-
-impl Chance {
-    pub fn new(seed: u64) -> Chance {
-        Chance(seed)
-    }
-
-    pub fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// A whole number from `least` to `most`, both included.
-    pub fn whole(&mut self, least: i64, most: i64) -> i64 {
-        least + (self.next() % (most - least + 1) as u64) as i64
-    }
-
-    /// From 0 to 1, with all its bits.
-    pub fn share(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    pub fn percent(&mut self, likely: i64) -> bool {
-        self.whole(1, 100) <= likely
-    }
-
-    pub fn one_of<T: Copy>(&mut self, list: &[T]) -> T {
-        list[self.whole(0, list.len() as i64 - 1) as usize]
-    }
-}
+use crate::random::Random;
 
 /// Every kind of scene, and whether a floating-point number holds its corners to the last bit.
 pub const KINDS: [(&str, bool); 6] = [
@@ -53,7 +20,7 @@ pub const KINDS: [(&str, bool); 6] = [
 
 /// The scene of a number: a file, and the kind it is of.
 pub fn scene(number: u64) -> (usize, Value) {
-    let mut chance = Chance::new(number);
+    let mut chance = Random::new(number);
     let kind = (number % KINDS.len() as u64) as usize;
     let mut file = match kind {
         0 => shape::square_pile(&mut chance),
@@ -71,7 +38,7 @@ pub fn scene(number: u64) -> (usize, Value) {
 }
 
 /// Friction, kernel, weights, robots and loads.
-fn dress(file: &mut Value, chance: &mut Chance, slope: bool) {
+fn dress(file: &mut Value, chance: &mut Random, slope: bool) {
     file["drystone"] = json!(1);
     let mut friction = chance.one_of(&[0.0, 0.0, 0.05, 0.25, 0.5, 0.577, 0.7, 1.0, 3.0, 1000.0]);
     if chance.percent(30) {
@@ -139,7 +106,7 @@ fn dress(file: &mut Value, chance: &mut Chance, slope: bool) {
     }
     file["robots"] = json!(list);
     let mut loads = Vec::new();
-    let quarter = |chance: &mut Chance| chance.whole(-16, 16) as f64 / 4.0;
+    let quarter = |chance: &mut Random| chance.whole(-16, 16) as f64 / 4.0;
     let listed = if chance.percent(30) {
         chance.whole(1, 2)
     } else {

@@ -4,12 +4,12 @@ use std::collections::BTreeSet;
 
 use serde_json::{Value, json};
 
-use super::random::Chance;
+use crate::random::Random;
 
 type Cell = (i64, i64);
 
-/// ConvexPieces of up to four squares, let fall one after the other.
-pub fn square_pile(chance: &mut Chance) -> Value {
+/// Pieces of up to four squares, let fall one after the other.
+pub fn square_pile(chance: &mut Random) -> Value {
     let mut taken = BTreeSet::new();
     let mut ground = Vec::new();
     for x in 0..5 {
@@ -48,7 +48,7 @@ pub fn square_pile(chance: &mut Chance) -> Value {
 type Triangle = (i64, i64, bool);
 
 /// Blocks of one to six triangles, each grown from a place that touches what is there.
-pub fn triangular_pile(chance: &mut Chance) -> Value {
+pub fn triangular_pile(chance: &mut Random) -> Value {
     let beside = |(x, y, up): Triangle| match up {
         true => [(x, y, false), (x - 1, y + 1, false), (x, y + 1, false)],
         false => [(x, y, true), (x + 1, y - 1, true), (x, y - 1, true)],
@@ -101,7 +101,7 @@ pub fn triangular_pile(chance: &mut Chance) -> Value {
 /// Courses of bricks of any width at any place, in a frame turned so that `along` is its first axis.
 ///
 /// The axis is of whole numbers with a whole length, so the turned corners are fractions to the last bit.
-pub fn bricks(chance: &mut Chance, along: [i64; 2]) -> Value {
+pub fn bricks(chance: &mut Random, along: [i64; 2]) -> Value {
     let place = |x: i64, y: i64| {
         let (c, s) = (along[0] as f64 / 8.0, along[1] as f64 / 8.0);
         json!([x as f64 * c - y as f64 * s, x as f64 * s + y as f64 * c])
@@ -144,7 +144,7 @@ pub fn bricks(chance: &mut Chance, along: [i64; 2]) -> Value {
 }
 
 /// A rectangle cut by straight lines from side to side, on a floor, perhaps between walls, perhaps with pieces missing.
-pub fn cut_wall(chance: &mut Chance) -> Value {
+pub fn cut_wall(chance: &mut Random) -> Value {
     loop {
         let (width, height) = (
             chance.whole(4, 16) as f64 / 4.0,
@@ -221,7 +221,7 @@ fn cut(piece: &[[f64; 2]], through: [f64; 2], normal: [f64; 2]) -> [Vec<[f64; 2]
 }
 
 /// Voussoirs between two abutments, of uneven thickness and joints rounded to 1/64.
-pub fn arch(chance: &mut Chance) -> Value {
+pub fn arch(chance: &mut Random) -> Value {
     let n = chance.whole(1, 7);
     let (inner, thickness) = (1.0, 0.1 + chance.share() * 0.6);
     let (from, to) = (chance.share() * 0.9, 3.1 - chance.share() * 0.9);

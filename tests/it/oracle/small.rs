@@ -4,7 +4,7 @@
 
 use serde_json::{Value, json};
 
-use super::random::Chance;
+use crate::random::Random;
 
 /// Axes of whole length over 8; the last one is turned and not level.
 const AXES: [[f64; 2]; 3] = [[1.0, 0.0], [1.0, 0.0], [0.5, 0.375]];
@@ -36,20 +36,20 @@ impl Pile {
 
 /// A scene file.
 pub fn scene(number: u64) -> Value {
-    let mut chance = Chance::new(number ^ 0x5a11);
+    let mut chance = Random::new(number ^ 0x5a11);
     let along = chance.one_of(&AXES);
     let mut pile = Pile {
         along,
         blocks: Vec::new(),
     };
-    let weight = |chance: &mut Chance| chance.whole(1, 9) as f64;
+    let weight = |chance: &mut Random| chance.whole(1, 9) as f64;
     // The lightest come to 10⁻¹² of the others.
-    let light = |chance: &mut Chance| {
+    let light = |chance: &mut Random| {
         let exponent = chance.one_of(&[0, 1, 2, 3, 4, 6, 8, 10, 12]);
         chance.whole(1, 9) as f64 * libm::exp10(-f64::from(exponent))
     };
     // To a millionth of a brick.
-    let binary = |chance: &mut Chance| libm::exp2(-(chance.whole(0, 20) as f64));
+    let binary = |chance: &mut Random| libm::exp2(-(chance.whole(0, 20) as f64));
     let courses = chance.whole(1, 6);
     let mut x = 0.0;
     for k in 0..courses {

@@ -37,7 +37,7 @@ fn a_drawing_becomes_a_scene_that_check_takes() {
     );
     assert!(
         ran.err
-            .contains("a unit of the drawing is 0.001 m, since it is 8cm wide"),
+            .contains("a unit of the drawing is 0.001 m, because it is 8cm wide"),
         "{}",
         ran.err
     );
@@ -96,7 +96,7 @@ fn doubts_are_warnings_unless_strict() {
     let ran = bench.run("import doubtful.svg -o scene.json");
     assert_eq!(ran.code, 0);
     for told in [
-        "warning: doubtful.svg: text \"words\": a text is no block",
+        "warning: doubtful.svg: text \"words\": a text cannot become a block",
         "warning: doubtful.svg: <path> in line 2: it is open",
     ] {
         assert!(ran.err.contains(told), "{}", ran.err);
@@ -130,7 +130,7 @@ fn what_is_wrong_writes_nothing_and_ends_with_2() {
         ),
         (
             "import drawing.svg --scale 0 -o scene.json",
-            "--scale: 0 is no length",
+            "--scale: 0 is not a valid length",
         ),
         ("import drawing.svg --friction -1 -o scene.json", "friction"),
         (
@@ -163,7 +163,7 @@ fn a_figure_is_read_back_frame_by_frame() {
     let held = bench.run("import figure.svg -o held.json --friction 0.6");
     assert_eq!(held.code, 0, "{}", held.err);
     assert!(
-        held.err.contains("taken from its frame 2 of 2"),
+        held.err.contains("imported from frame 2 of 2"),
         "{}",
         held.err
     );
@@ -181,7 +181,9 @@ fn a_figure_is_read_back_frame_by_frame() {
     let beyond = bench.run("import figure.svg -o beyond.json --frame 3");
     assert_eq!(beyond.code, 2);
     assert!(
-        beyond.err.contains("there is no frame 3: it has 2 frames"),
+        beyond
+            .err
+            .contains("there is no frame 3: the figure has 2 frames"),
         "{}",
         beyond.err
     );

@@ -65,7 +65,7 @@ fn a_test_fails_with_words_until_it_is_updated_and_never_writes_in_ci() {
     }
     let (passed, said) = run(&folder, &[]);
     assert!(
-        !passed && said.contains("scenes/arch.json is not as its references say"),
+        !passed && said.contains("scenes/arch.json differs from its references"),
         "{said}"
     );
     assert!(

@@ -148,16 +148,16 @@ fn what_is_no_whole_png_has_words_of_its_own() {
         (pointer, "it is a Git LFS pointer"),
         (
             b"\x89PNG\n\x1a\n",
-            "it is no PNG: its line ends were changed",
+            "it is not a PNG: its line endings were converted",
         ),
-        (b"\xff\xd8\xff\xe0", "it is no PNG: it is a JPEG"),
-        (b"<svg/>", "it is no PNG: it is SVG"),
+        (b"\xff\xd8\xff\xe0", "it is not a PNG: it is a JPEG"),
+        (b"<svg/>", "it is not a PNG: it is SVG"),
         (
             b"<<<<<<< HEAD\n",
-            "it is no PNG: it has the marks of a merge conflict",
+            "it is not a PNG: it contains a merge conflict",
         ),
-        (&[0; 300], "it is no PNG: it holds nothing but zeros"),
-        (&bytes[..5], "it is cut off: its 5 bytes end"),
+        (&[0; 300], "it is not a PNG: all its bytes are zero"),
+        (&bytes[..5], "it is truncated after 5 bytes"),
         (&bytes[..bytes.len() / 2], "it is cut off"),
         (&damaged, "it is a damaged PNG"),
     ] {

@@ -104,7 +104,7 @@ fn orphans_and_lost_references_fail() {
     assert!(
         ran.code == 1
             && ran.out.contains(
-                "a/arch.dark.svg: a reference without a scene: its scene has no such reference"
+                "a/arch.dark.svg: a reference without a scene: the settings of its scene do not ask for"
             ),
         "{}",
         ran.out
@@ -113,7 +113,7 @@ fn orphans_and_lost_references_fail() {
     fs::rename(folder.path("a/arch.json"), folder.path("a/bow.json")).expect("renamed");
     let ran = folder.run(&["a"]);
     for name in ["arch.txt", "arch.svg", "arch.png"] {
-        let words = format!("a/{name}: a reference without a scene: its scene is gone");
+        let words = format!("a/{name}: a reference without a scene: its scene does not exist");
         assert!(ran.code == 1 && ran.out.contains(&words), "{}", ran.out);
     }
 }
@@ -298,7 +298,7 @@ fn references_that_cannot_be_read_have_their_words() {
         (
             "arch.svg",
             "<svg",
-            "svg unreadable, a/arch.svg: it is no SVG",
+            "svg unreadable, a/arch.svg: it is not SVG",
         ),
     ] {
         let kept = fs::read(folder.path(&format!("a/{name}"))).expect("there");
@@ -429,8 +429,9 @@ fn kinds_themes_and_widths_have_their_own_files() {
     );
     let ran = folder.run(&["."]);
     assert!(
-        ran.out
-            .contains("a.thrust.svg: a reference without a scene: its scene has no such reference"),
+        ran.out.contains(
+            "a.thrust.svg: a reference without a scene: the settings of its scene do not ask for"
+        ),
         "{}",
         ran.out
     );

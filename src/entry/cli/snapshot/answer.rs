@@ -10,7 +10,7 @@ use crate::cli::ending::ExitStatus;
 use crate::cli::page::Page;
 use crate::cli::terminal::Terminal;
 use crate::snapshot::check::{Acceptance, CheckOutcome, Snapshot};
-use crate::snapshot::store::{self, Use};
+use crate::snapshot::store::{self, Access};
 
 /// How a terminal shows a picture within its text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,7 +37,7 @@ pub(super) fn ask(
     let mut number = 0;
     let mut failed = Vec::new();
     let mut answers = io::stdin().lock().lines();
-    'all: for snapshot in report.snapshots.iter_mut().filter(|s| !s.holds()) {
+    'all: for snapshot in report.snapshots.iter_mut().filter(|s| !s.matches()) {
         number += 1;
         show(terminal, snapshot, pictures).map_err(|c| vec![c])?;
         loop {
@@ -52,8 +52,8 @@ pub(super) fn ask(
             match answer.trim().to_lowercase().as_str() {
                 "y" | "yes" => {
                     // A turn for each: a person may take long.
-                    let _turn = store::turn(snapshot.folders(), Use::Accept);
-                    if let Err(unwritten) = snapshot.settle(Acceptance::Accept) {
+                    let _lock = store::lock_folders(snapshot.folders(), Access::Write);
+                    if let Err(unwritten) = snapshot.store(Acceptance::Accept) {
                         failed.push(super::not_written(unwritten));
                     }
                     break;

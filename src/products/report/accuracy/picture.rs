@@ -1,5 +1,5 @@
-//! [`picture`]: what accuracy costs at a glance: method by row, its time and its error for every tolerance, and its wrong
-//! verdicts in numbers.
+//! [`picture`]: an accuracy study as one picture. Each row is a method, with its time, error and number of wrong verdicts
+//! for every tolerance.
 
 use crate::analysis::Accuracy;
 use crate::drawing::{
@@ -12,21 +12,21 @@ use crate::wording::number::counted;
 const WIDTH: f64 = 860.0;
 /// Height of a row.
 const ROW: f64 = 30.0;
-/// Where the first row begins.
+/// Top of the first row.
 const TOP: f64 = 112.0;
-/// Where the axis of times begins and ends.
+/// Left and right end of the axis of times.
 const TIMES: (f64, f64) = (214.0, 384.0);
-/// Where the axis of errors begins and ends.
+/// Left and right end of the axis of errors.
 const ERRORS: (f64, f64) = (432.0, 610.0);
-/// Where the first and the last column of wrong verdicts stand.
+/// Positions of the first and the last column of wrong verdicts.
 const WRONG: (f64, f64) = (664.0, 824.0);
-/// Errors are shown from here, where nothing in f64 is nearer than its last bit, to 1.
+/// Smaller errors are shown as this: they are rounding of f64.
 const LEAST: f64 = 1e-16;
 
-/// The summary of a study of so many frames as an SVG, its words as outlines.
+/// Draws a summary as SVG, with text as outlines. `frames` is the number of frames of the study.
 ///
 /// # Errors
-/// [`OutlineError`] where its words cannot be laid out.
+/// [`OutlineError`] if the text cannot be laid out.
 pub fn picture(lines: &[Summary], frames: usize) -> Result<String, OutlineError> {
     let options = svg::Options {
         words: Words::Outlines,
@@ -75,7 +75,7 @@ fn drawing(lines: &[Summary], frames: usize) -> Drawing {
     }
 }
 
-/// The picture in sentences: the default, and how many verdicts each method gets wrong there.
+/// The description of the picture: times and wrong verdicts at the default tolerance.
 fn described(lines: &[Summary], frames: usize) -> String {
     let at = |line: &&Summary| default(line.tolerance);
     let described = lines.iter().filter(at).map(|line| {
@@ -123,7 +123,7 @@ impl Page<'_> {
             self.words(PagePoint::new(24.0, 56.0), &under, Face::Sans, 12.0),
         ];
         let heads = [
-            (TIMES.0, "time, in parts of that of standard"),
+            (TIMES.0, "time, relative to standard"),
             (ERRORS.0, "worst error of the total force"),
             (WRONG.0 - 12.0, "wrong verdicts, by tolerance"),
         ];
@@ -148,14 +148,14 @@ impl Page<'_> {
         for power in [-16, -12, -8, -4, 0] {
             tick(
                 self.error(libm::pow(10.0, f64::from(power))),
-                ten(power),
+                power_of_ten(power),
                 true,
             );
         }
         for (column, tolerance) in self.tolerances.iter().enumerate() {
             tick(
                 self.column(column),
-                ten(libm::round(libm::log10(*tolerance)) as i32),
+                power_of_ten(libm::round(libm::log10(*tolerance)) as i32),
                 false,
             );
         }
@@ -246,7 +246,7 @@ impl Page<'_> {
         items
     }
 
-    /// The tighter the tolerance, the darker.
+    /// The colour of a dot: the tighter the tolerance, the darker.
     fn shade(&self, place: usize, wrong: bool) -> Colour {
         let last = self.tolerances.len().saturating_sub(1).max(1) as f64;
         let full = if wrong {
@@ -258,14 +258,14 @@ impl Page<'_> {
     }
 }
 
-/// Where a value lies on a logarithmic axis.
+/// The position of a value on a logarithmic axis.
 fn place(value: f64, (least, most): (f64, f64), (from, to): (f64, f64)) -> f64 {
     let share = libm::log10(value.max(least) / least) / libm::log10(most / least).max(1e-9);
     from + (to - from) * share.clamp(0.0, 1.0)
 }
 
-/// 10 to a power, as it is written: `10⁻⁹`, `1`.
-fn ten(power: i32) -> String {
+/// A power of ten as text: `10⁻⁹`, `1`.
+fn power_of_ten(power: i32) -> String {
     if power == 0 {
         return "1".into();
     }
@@ -286,7 +286,7 @@ fn ten(power: i32) -> String {
 mod tests {
     use super::*;
 
-    /// The table of the documentation as the summary it was printed from.
+    /// Reads the table of src/doc/accuracy.md back into a summary.
     fn printed() -> Vec<Summary> {
         let text = include_str!("../../../doc/accuracy.md");
         let number = |cell: &str| cell.trim_matches('*').parse::<f64>().ok();
@@ -326,11 +326,11 @@ mod tests {
         text.lines().filter_map(line).collect()
     }
 
-    /// `UPDATE_SNAPSHOTS=1` draws it anew.
+    /// `UPDATE_SNAPSHOTS=1` draws it again.
     #[test]
     fn the_picture_in_the_documentation_shows_its_table() {
         let lines = printed();
-        assert_eq!(lines.len(), 60);
+        assert_eq!(lines.len(), 6 * Method::ALL.len());
         let drawn = picture(&lines, 41).expect("drawn");
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/accuracy.svg");
         if std::env::var_os("UPDATE_SNAPSHOTS").is_some() && std::env::var_os("CI").is_none() {
@@ -343,7 +343,7 @@ mod tests {
         );
     }
 
-    /// What the README says of the picture.
+    /// The README makes this statement about the picture.
     #[test]
     fn what_is_proved_is_never_wrong_and_what_is_not_sometimes_is() {
         let lines = printed();

@@ -1,4 +1,4 @@
-//! [`MarginBar`]: a margin as a bar: where it stands, and where it is now.
+//! [`MarginBar`]: a margin as a bar: the range in which the structure stands, and its present value.
 
 use crate::analysis::{FrameAnalysis, Margin, Margins, Sides};
 use crate::scene::Scene;
@@ -6,32 +6,32 @@ use crate::text;
 use crate::wording::margin::{NONE, UNTURNED, value};
 use crate::wording::number::digits;
 
-/// A margin: a stretch within which the structure stands, and the place where it is.
+/// A margin as a bar.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MarginBar {
-    /// What varies, with its unit.
+    /// The quantity that varies, with its unit.
     pub name: String,
-    /// Up to where it stands, in words.
+    /// A description of the range in which it stands.
     pub words: String,
     /// The ends of the scale.
     pub scale: (f64, f64),
-    /// From where to where it stands; nowhere where `None`.
+    /// The range in which it stands; `None` if there is none.
     pub safe: Option<(f64, f64)>,
-    /// Where the structure is, where that is a place on the scale.
+    /// The present value, if it is on the scale.
     pub now: Option<f64>,
-    /// How much is left to the nearest edge, in parts of what there is: 0 at the edge, 1 where nothing limits it.
+    /// The remaining share up to the nearer limit: 0 at the limit, 1 without a limit.
     pub reserve: f64,
-    /// The margin in few words, for the table of all scenes.
+    /// A short description for the table of all scenes.
     pub short: String,
 }
 
-/// The margins of a frame as bars, those that were asked for.
-pub fn of(scene: &Scene, found: &FrameAnalysis) -> Vec<MarginBar> {
+/// The bars for the margins of a frame that were computed.
+pub fn margin_bars(scene: &Scene, found: &FrameAnalysis) -> Vec<MarginBar> {
     let Some(margins) = &found.margins else {
         return Vec::new();
     };
     let share = &margins.horizontal_load;
-    let mut bullets = vec![
+    let mut bars = vec![
         friction(found, margins),
         sided("tilt of gravity", "°", &margins.tilt, 90.0, UNTURNED),
         sided("horizontal share of the weights", "", share, 1.0, NONE),
@@ -39,7 +39,7 @@ pub fn of(scene: &Scene, found: &FrameAnalysis) -> Vec<MarginBar> {
     ];
     if !scene.loads.is_empty() {
         let factor = &margins.load_factor;
-        bullets.push(upwards("factor on the loads", factor, 1.0, None));
+        bars.push(upwards("factor on the loads", factor, 1.0, None));
     }
     for robot in &margins.robots {
         let arm = &scene.robots[robot.robot.0];
@@ -50,13 +50,13 @@ pub fn of(scene: &Scene, found: &FrameAnalysis) -> Vec<MarginBar> {
             ("torque", "N·m", &robot.torque, arm.limits.torque),
         ] {
             let name = format!("{name} of robot {id}, {unit}");
-            bullets.push(needed(&name, unit, margin, limit));
+            bars.push(needed(&name, unit, margin, limit));
         }
     }
-    bullets.into_iter().flatten().collect()
+    bars.into_iter().flatten().collect()
 }
 
-/// How far a frame is known to stand: up to the edge, or, where no verdict confirmed one, up to where it was seen to stand.
+/// The value up to which a frame is known to stand: the margin, or the last confirmed value if the margin is not confirmed.
 fn known(margin: &Margin) -> Option<f64> {
     match margin {
         Margin::Value { at, .. } | Margin::Unconfirmed { stands: at, .. } => Some(*at),
@@ -64,11 +64,9 @@ fn known(margin: &Margin) -> Option<f64> {
     }
 }
 
-/// The bullet with the least reserve.
-pub fn closest(bullets: &[MarginBar]) -> Option<&MarginBar> {
-    bullets
-        .iter()
-        .min_by(|a, b| a.reserve.total_cmp(&b.reserve))
+/// The bar with the smallest reserve.
+pub fn closest(bars: &[MarginBar]) -> Option<&MarginBar> {
+    bars.iter().min_by(|a, b| a.reserve.total_cmp(&b.reserve))
 }
 
 fn friction(found: &FrameAnalysis, margins: &Margins) -> Option<MarginBar> {
@@ -82,7 +80,7 @@ fn friction(found: &FrameAnalysis, margins: &Margins) -> Option<MarginBar> {
     })
 }
 
-/// What must be at least so much, and is so much.
+/// A bar for a quantity that must not fall below a limit, such as friction.
 fn needed(name: &str, unit: &str, margin: &Margin, have: f64) -> Option<MarginBar> {
     if *margin == Margin::NotAsked {
         return None;
@@ -127,7 +125,7 @@ fn needed(name: &str, unit: &str, margin: &Margin, have: f64) -> Option<MarginBa
     })
 }
 
-/// What may grow to either side, from nothing.
+/// A bar for a quantity that may grow from 0 to both sides, such as a tilt.
 fn sided(name: &str, unit: &str, sides: &Sides, all: f64, none: &str) -> Option<MarginBar> {
     if sides.left == Margin::NotAsked {
         return None;
@@ -169,7 +167,7 @@ fn sided(name: &str, unit: &str, sides: &Sides, all: f64, none: &str) -> Option<
     })
 }
 
-/// What may grow from where it is.
+/// A bar for a quantity that may grow from its present value, such as a load.
 fn upwards(name: &str, margin: &Margin, now: f64, end: Option<f64>) -> Option<MarginBar> {
     if matches!(margin, Margin::NotAsked | Margin::NotApplicable) {
         return None;

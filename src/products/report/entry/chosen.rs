@@ -1,27 +1,31 @@
-//! [`chosen`]: which steps of a long scene a report draws.
+//! [`chosen`]: selects the steps of a long scene that a report draws.
 //!
-//! Hundreds of figures on one page are more than a browser lays out, and more than anybody looks at: the first and the last
-//! step are drawn, those where the verdict becomes another, and others between, as evenly as they come.
+//! A browser cannot lay out hundreds of figures on one page, and nobody looks at them. A report draws the first and the
+//! last step, the steps at which the verdict changes, and others spread evenly between them.
 
 use crate::analysis::Analysis;
 
-/// Of more steps than this not all are drawn.
-pub(super) const MOST: usize = 24;
+/// A report draws at most this many steps.
+pub(super) const MAX_DRAWN_STEPS: usize = 24;
 
-/// Whether each step of an analysis is drawn.
+/// For each step, whether it is drawn.
 pub(super) fn chosen(analysis: &Analysis) -> Vec<bool> {
     let verdicts: Vec<_> = analysis.frames.iter().map(|f| f.verdict).collect();
     let count = verdicts.len();
-    if count <= MOST {
+    if count <= MAX_DRAWN_STEPS {
         return vec![true; count];
     }
     let mut chosen = vec![false; count];
     let changes = (1..count).filter(|i| verdicts[*i] != verdicts[*i - 1]);
-    for step in [0, count - 1].into_iter().chain(changes).take(MOST) {
+    for step in [0, count - 1]
+        .into_iter()
+        .chain(changes)
+        .take(MAX_DRAWN_STEPS)
+    {
         chosen[step] = true;
     }
-    // The middle of the longest stretch without a figure, until there are enough.
-    for _ in chosen.iter().filter(|c| **c).count()..MOST {
+    // Add the middle of the longest gap until there are enough figures.
+    for _ in chosen.iter().filter(|c| **c).count()..MAX_DRAWN_STEPS {
         let drawn: Vec<usize> = (0..count).filter(|i| chosen[*i]).collect();
         let gaps = drawn.windows(2).map(|pair| (pair[0], pair[1]));
         let longest = gaps.fold((0, 0), |best, gap| {
@@ -36,14 +40,14 @@ pub(super) fn chosen(analysis: &Analysis) -> Vec<bool> {
     chosen
 }
 
-/// What a page says of the steps that it does not draw; `None` where it draws all.
+/// A sentence about the steps that are not drawn; `None` if all are.
 pub(super) fn left_out(analysis: &Analysis) -> Option<String> {
     let count = analysis.frames.len();
-    (count > MOST).then(|| {
+    (count > MAX_DRAWN_STEPS).then(|| {
         format!(
-            "Of {count} steps {MOST} are drawn here, with their tables: the first, the last, those where the verdict becomes \
-             another, and some between. Of the others the verdict and its reasons are told; the commands at the end make \
-             their figures and numbers."
+            "{MAX_DRAWN_STEPS} of {count} steps are drawn here, with their tables: the first, the last, those at which the verdict \
+             changes, and some between. The others are listed with their verdict and its reasons. The commands at the end \
+             make their figures and numbers."
         )
     })
 }
@@ -72,7 +76,7 @@ mod tests {
         let scene = Scene::from_json(&text).expect("a scene");
         let analysis = Analysis::new(&scene);
         let drawn = chosen(&analysis);
-        assert_eq!(drawn.iter().filter(|d| **d).count(), MOST);
+        assert_eq!(drawn.iter().filter(|d| **d).count(), MAX_DRAWN_STEPS);
         for step in [0, 41, 42, 99] {
             assert!(drawn[step], "step {step}");
         }

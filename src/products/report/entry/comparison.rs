@@ -1,8 +1,8 @@
-//! [`compared`]: two scenes side by side, and what changed from one to the other.
+//! [`compared`]: compares two scenes.
 //!
-//! Blocks are the same where their ids are, interfaces where their bodies are and they lie in one place; steps are compared
-//! in their order. A force has changed where it differs by more than a twentieth of the larger one. Blocks that differ, or
-//! are loaded or held otherwise, and forces that changed are marked in both figures.
+//! 1. Steps are paired by their order, blocks by their ids, and interfaces by their bodies and their order between these.
+//! 2. A force counts as changed if it differs by more than 5 % of the larger one.
+//! 3. Changed blocks (outline, place, weight, friction, loads, robots) and changed forces are marked in both figures.
 
 mod setting;
 mod shape;
@@ -26,21 +26,21 @@ use crate::wording::verdict::{self, plain};
 use setting::Settings;
 use shape::Shapes;
 
-/// A force, a weight or a margin has changed where it differs by more than this share of the larger one.
-const CHANGED: f64 = 0.05;
-/// Least and largest radius of the ring around a changed force, pixels.
+/// Forces that differ by more than this share of the larger one count as changed.
+const CHANGE_TOL: f64 = 0.05;
+/// The smallest and largest radius of the ring around a changed force, in pixels.
 const RING: (f64, f64) = (3.0, 9.0);
 
-/// One of two scenes that are compared.
+/// One of the two scenes of a comparison.
 #[derive(Clone, Copy, Debug)]
 pub struct Side<'s> {
-    /// Its file.
+    /// The scene file.
     pub file: File<'s>,
-    /// What was found out about it.
+    /// Its analysis.
     pub analysis: &'s Analysis,
 }
 
-/// What a report tells of two scenes beside each other.
+/// The content of a report on two scenes.
 pub fn compared(sides: [Side<'_>; 2], wanted: &ReportOptions) -> Entry {
     let [was, is] = sides;
     let options = step::options(wanted);
@@ -68,7 +68,7 @@ pub fn compared(sides: [Side<'_>; 2], wanted: &ReportOptions) -> Entry {
                 alone(side, number, drawing, only_in(counts, number))
             }
         };
-        // The other scene may have more steps than the one whose step this is.
+        // The letter counts the steps of both scenes.
         step.letter = if several {
             letter(number)
         } else {
@@ -119,7 +119,7 @@ fn only_in(counts: [usize; 2], number: usize) -> &'static str {
     }
 }
 
-/// A step that one of the two has not.
+/// A step that only one of the scenes has.
 fn alone(side: Side<'_>, number: usize, drawing: Option<Drawing>, why: &str) -> Step {
     let (scene, found) = (&side.analysis.scene, &side.analysis.frames[number]);
     Step {
@@ -153,7 +153,7 @@ fn plate(side: Side<'_>, found: &FrameAnalysis, drawing: Drawing) -> Figure {
     }
 }
 
-/// A step that both have.
+/// A step that both scenes have.
 fn both(
     sides: [Side<'_>; 2],
     number: usize,
@@ -165,27 +165,7 @@ fn both(
     let shape = Shapes::new(sides, number);
     let forces = forces(sides, number);
     let settings = Settings::new(sides, number);
-    let mut stated = vec![match (then.verdict, now.verdict) {
-        (Verdict::Stable, Verdict::Stable) => "both stand".to_owned(),
-        (Verdict::Unstable, Verdict::Unstable) => "both fall".to_owned(),
-        (Verdict::Undecided, Verdict::Undecided) => "both are undecided".to_owned(),
-        (a, b) => format!("the first {}, the second {}", verb(a), verb(b)),
-    }];
-    let mut differs = shape.stated();
-    if differs.is_empty() {
-        differs.push("the same blocks in the same places".into());
-    }
-    stated.extend(differs);
-    stated.extend(settings.stated());
-    stated.push(match forces.iter().filter(|f| f.changed()).count() {
-        _ if forces.is_empty() => "no interface in both".to_owned(),
-        0 => "no force changed by over 5 %".to_owned(),
-        n => format!(
-            "{n} of {} changed by over 5 %",
-            counted(forces.len(), "shared force")
-        ),
-    });
-    let sentence = stated.join("; ");
+    let sentence = changes_sentence([then, now], &shape, &settings, &forces);
     let mut step = bare(
         &is.analysis.scene,
         number,
@@ -234,6 +214,37 @@ fn both(
     step
 }
 
+/// A sentence about the verdicts and all changes of a step.
+fn changes_sentence(
+    [then, now]: [&FrameAnalysis; 2],
+    shape: &Shapes,
+    settings: &Settings,
+    forces: &[SharedForce],
+) -> String {
+    let mut stated = vec![match (then.verdict, now.verdict) {
+        (Verdict::Stable, Verdict::Stable) => "both stand".to_owned(),
+        (Verdict::Unstable, Verdict::Unstable) => "both fall".to_owned(),
+        (Verdict::Undecided, Verdict::Undecided) => "both are undecided".to_owned(),
+        (a, b) => format!("the first {}, the second {}", verb(a), verb(b)),
+    }];
+    let mut differs = shape.stated();
+    if differs.is_empty() {
+        differs.push("the same blocks in the same places".into());
+    }
+    stated.extend(differs);
+    stated.extend(settings.stated());
+    stated.push(match forces.iter().filter(|f| f.changed()).count() {
+        _ if forces.is_empty() => "no interface in both".to_owned(),
+        0 => "no force changed by over 5 %".to_owned(),
+        n => format!(
+            "{n} of {} changed by over 5 %",
+            counted(forces.len(), "shared force")
+        ),
+    });
+    stated.join("; ")
+}
+
+/// The verb for a verdict in a sentence.
 fn verb(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Undecided => "is undecided",
@@ -247,8 +258,8 @@ fn capital(words: &str) -> String {
     first.unwrap_or_default() + letters.as_str()
 }
 
-/// A force that both frames have at one interface.
-struct Shared {
+/// The forces of both frames at the same interface.
+struct SharedForce {
     between: [crate::scene::BodyId; 2],
     amounts: [f64; 2],
     difference: f64,
@@ -256,15 +267,16 @@ struct Shared {
     at: [Point; 2],
 }
 
-impl Shared {
+impl SharedForce {
     fn changed(&self) -> bool {
         let larger = self.amounts[0].max(self.amounts[1]);
-        larger > self.noise && self.difference > CHANGED * larger
+        larger > self.noise && self.difference > CHANGE_TOL * larger
     }
 }
 
-/// The interfaces that both frames have, by the names of their bodies and, of several between two bodies, by their order.
-fn forces(sides: [Side<'_>; 2], number: usize) -> Vec<Shared> {
+/// The interfaces of both frames, paired by the names of their bodies. Several interfaces between two bodies are paired by
+/// their order.
+fn forces(sides: [Side<'_>; 2], number: usize) -> Vec<SharedForce> {
     let key = |scene: &Scene, contact: &Contact| {
         contact.interface.bodies.map(|b| scene.name(b).to_owned())
     };
@@ -274,6 +286,7 @@ fn forces(sides: [Side<'_>; 2], number: usize) -> Vec<Shared> {
         before.entry(key(was.0, contact)).or_default().push(contact);
     }
     let sizes = was.1.contacts.iter().chain(&is.1.contacts);
+    // Forces below a millionth of the largest are solver noise.
     let noise = 1e-6 * sizes.map(|c| c.resultant.force.norm()).fold(0.0, f64::max);
     let mut taken: BTreeMap<[String; 2], usize> = BTreeMap::new();
     let mut shared = Vec::new();
@@ -284,7 +297,7 @@ fn forces(sides: [Side<'_>; 2], number: usize) -> Vec<Shared> {
             continue;
         };
         *turn += 1;
-        shared.push(Shared {
+        shared.push(SharedForce {
             between: contact.interface.bodies,
             amounts: [then, contact].map(|c| c.resultant.force.norm()),
             difference: (contact.resultant.force - then.resultant.force).norm(),
@@ -333,7 +346,7 @@ fn totals(then: &FrameAnalysis, now: &FrameAnalysis) -> Grid {
 fn margins(sides: [Side<'_>; 2], number: usize) -> Grid {
     let mut grid = Grid::new("Margins", &["margin", "first", "second"]);
     let [first, second] =
-        sides.map(|side| bullet::of(&side.analysis.scene, &side.analysis.frames[number]));
+        sides.map(|side| bullet::margin_bars(&side.analysis.scene, &side.analysis.frames[number]));
     for bullet in &first {
         let same = second.iter().find(|b| b.name == bullet.name);
         let after = same.map_or("–".to_owned(), |b| b.words.clone());
@@ -351,7 +364,7 @@ fn margins(sides: [Side<'_>; 2], number: usize) -> Grid {
     grid
 }
 
-fn grid(scene: &Scene, forces: &[Shared]) -> Grid {
+fn grid(scene: &Scene, forces: &[SharedForce]) -> Grid {
     let mut grid = Grid::new(
         "Forces that changed by over 5 %",
         &[
@@ -376,7 +389,7 @@ fn grid(scene: &Scene, forces: &[Shared]) -> Grid {
     grid
 }
 
-/// The radius of rings, smaller where many would lie on each other.
+/// The radius of the rings: smaller if many rings would overlap.
 fn radius(places: &[PagePoint]) -> f64 {
     let (least, most) = RING;
     let span = |of: fn(&PagePoint) -> f64| {
@@ -390,7 +403,7 @@ fn radius(places: &[PagePoint]) -> f64 {
     };
     let (width, height) = (span(|p| p.x), span(|p| p.y));
     let count = places.len() as f64;
-    // How far apart they would lie, spread over a box or along a line.
+    // The mean distance of the rings if they were spread evenly over their bounding box, or along a line.
     let apart = f64::max(
         libm::sqrt(width * height / count),
         width.max(height) / count,
@@ -401,7 +414,7 @@ fn radius(places: &[PagePoint]) -> f64 {
     }
 }
 
-/// Outlines blocks and rings points of a scene in its drawing.
+/// Marks blocks by an outline and points by a ring in a drawing of the scene.
 fn mark(drawing: &mut Drawing, scene: &Scene, blocks: &[usize], rings: &[Point], colour: Colour) {
     if blocks.is_empty() && rings.is_empty() {
         return;

@@ -1,7 +1,7 @@
-//! [`cost`]: what a step simulated and what it left out, with its unknowns, and where its time went.
+//! [`cost`]: the table of effects of a step, with unknowns and times.
 //!
-//! Effects share one program, which is solved once: unknowns are counted effect by effect, time stage by stage. Only
-//! margins and wedging are found on their own, and have a time of their own.
+//! All effects share one linear program, which is solved once. Unknowns are therefore counted by effect, but times by
+//! stage. Only margins and wedging are computed separately and have times of their own.
 
 use super::Grid;
 use crate::analysis::{EffectName, FrameAnalysis};

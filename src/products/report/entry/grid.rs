@@ -1,27 +1,27 @@
-//! [`Grid`]: a table, as words.
+//! [`Grid`]: a table of text cells.
 
-/// A table: heads, and lines of as many cells.
+/// A table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
-    /// What it lists.
+    /// The caption.
     pub caption: String,
-    /// The heads of its columns, and whether numbers stand below.
+    /// The column heads, and whether the column contains numbers.
     pub heads: Vec<(String, bool)>,
-    /// Its lines.
+    /// The rows.
     pub lines: Vec<Line>,
 }
 
-/// A line of a table.
+/// A row of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
-    /// The name of what it tells of, as the figure's marks bear it: `i3`, `r0`, `f2`; empty for none.
+    /// The id of the mark in the figure that belongs to this row: `i3`, `r0`, `f2`; empty for none.
     pub mark: String,
-    /// Its cells.
+    /// The cells.
     pub cells: Vec<String>,
 }
 
 impl Grid {
-    /// An empty table; columns of numbers begin with `#`.
+    /// An empty table. A `#` at the beginning of a head marks a column of numbers.
     pub fn new(caption: impl Into<String>, heads: &[&str]) -> Grid {
         let head = |head: &&str| match head.strip_prefix('#') {
             Some(rest) => (rest.to_owned(), true),
@@ -34,7 +34,7 @@ impl Grid {
         }
     }
 
-    /// One line more, of something that the figure marks, or of nothing.
+    /// Adds a row. `mark` is the id of a mark in the figure, or empty.
     pub fn add(&mut self, mark: impl Into<String>, cells: impl IntoIterator<Item = String>) {
         self.lines.push(Line {
             mark: mark.into(),

@@ -1,8 +1,8 @@
-//! [`Entry`]: what a report tells of one scene, in words, numbers and drawings, without any markup.
+//! [`Entry`]: the content of a report on one scene: text, numbers and drawings without markup.
 //!
-//! Made once from an analysis; every writer reads it and none asks the analysis again, so that a page, its Markdown and its
-//! PDF cannot disagree. Every word that came from a file is one harmless line here already ([`text::line`]); a writer
-//! still puts it through its own sink.
+//! An entry is made once from an analysis. The writers for HTML, Markdown and PDF read the entry only, so their contents
+//! agree. Text from scene files is reduced to one safe line here ([`text::line`]), and each writer escapes it for its
+//! format.
 
 mod bullet;
 mod chosen;
@@ -32,14 +32,14 @@ use crate::study::{Study, summary};
 use crate::text;
 use crate::wording::number::{letter, prefixed};
 
-/// What a report is asked.
+/// The options of a report.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReportOptions {
-    /// Colours of the figures.
+    /// The theme of the figures.
     pub theme: Theme,
-    /// The theme's name where one was chosen, for the command that makes a figure again.
+    /// The name of the theme if the user chose one; the commands in the report repeat it.
     pub theme_name: Option<String>,
-    /// Whether it tells how long solving took.
+    /// Whether it reports solving times.
     pub timing: Timing,
 }
 
@@ -53,56 +53,56 @@ impl Default for ReportOptions {
     }
 }
 
-/// A scene's file: its name as it was given, and its text.
+/// A scene file: its name as given by the user, and its text.
 #[derive(Clone, Copy, Debug)]
 pub struct File<'f> {
-    /// The path as given, `-` for standard input.
+    /// The path as given; `-` for standard input.
     pub name: &'f str,
-    /// The text.
+    /// The text of the file.
     pub text: &'f str,
 }
 
-/// What a report tells of one scene.
+/// The content of a report on one scene.
 #[derive(Clone, Debug)]
 pub struct Entry {
-    /// Its line in the table of all scenes.
+    /// Its row in the table of all scenes.
     pub row: Row,
-    /// What is to be reported of the scene as a whole.
+    /// Sentences about the whole scene.
     pub remarks: Vec<String>,
     /// Its steps, one per frame.
     pub steps: Vec<Step>,
-    /// Charts over its steps; none where there is one step.
+    /// Charts over its steps; empty for a single step.
     pub charts: Vec<Chart>,
-    /// What accuracy costs on it, where that was asked for.
+    /// The accuracy study of the scene, if requested.
     pub study: Option<Chart>,
-    /// Commands that make its figures again, each with what it makes.
+    /// Commands that draw its figures again: the purpose and the command.
     pub commands: Vec<(String, String)>,
-    /// The scene file to copy, the same values with harmless characters.
+    /// The scene file for copying: the same values, with escaped characters.
     pub source: String,
     /// The objects of `check --json`, one line each.
     pub results: Vec<String>,
 }
 
-/// A figure and what it shows.
+/// A figure with its caption.
 #[derive(Clone, Debug)]
 pub struct Figure {
-    /// What it shows.
+    /// The caption.
     pub caption: String,
     /// The figure.
     pub drawing: Drawing,
 }
 
-/// A chart as an SVG document, and what it shows.
+/// A chart as an SVG document, with its caption.
 #[derive(Clone, Debug)]
 pub struct Chart {
-    /// What it shows.
+    /// The caption.
     pub caption: String,
     /// The SVG.
     pub svg: String,
 }
 
 impl Chart {
-    /// The SVG as a document of its own.
+    /// The SVG with the namespace that a file needs.
     pub(crate) fn document(&self) -> Cow<'_, str> {
         if self.svg.contains("xmlns=") {
             return Cow::Borrowed(&self.svg);
@@ -113,9 +113,9 @@ impl Chart {
 }
 
 impl Entry {
-    /// What a report tells of an analysis.
-    pub fn new(file: File<'_>, analysis: &Analysis, wanted: &ReportOptions) -> Entry {
-        let steps = step::all(analysis, wanted);
+    /// The content of a report on an analysis.
+    pub fn new(file: File<'_>, analysis: &Analysis, options: &ReportOptions) -> Entry {
+        let steps = step::all(analysis, options);
         Entry {
             row: Row::new(file.name, analysis),
             remarks: analysis
@@ -125,20 +125,20 @@ impl Entry {
                 .map(|words| text::line(words))
                 .chain(chosen::left_out(analysis))
                 .collect(),
-            charts: courses(analysis),
+            charts: step_charts(analysis),
             study: None,
-            commands: commands(file.name, analysis, wanted),
+            commands: commands(file.name, analysis, options),
             source: text::json(file.text),
-            results: vec![result(file.name, analysis, wanted.timing)],
+            results: vec![result(file.name, analysis, options.timing)],
             steps,
         }
     }
 
-    /// Adds what accuracy costs on the scene.
+    /// Adds the accuracy study of the scene.
     ///
     /// # Errors
-    /// Where the words of the picture cannot be laid out.
-    pub fn measured(&mut self, study: &Study) -> Result<(), OutlineError> {
+    /// If the text of the picture cannot be laid out.
+    pub fn add_study(&mut self, study: &Study) -> Result<(), OutlineError> {
         self.study = Some(Chart {
             caption: format!(
                 "What accuracy costs on this scene. {}",
@@ -156,15 +156,15 @@ impl Entry {
     }
 }
 
-/// The object of `check --json` in one line, with the file it was read from.
+/// The result of the scene as JSON in one line, like `check --json`.
 fn result(name: &str, analysis: &Analysis, timing: Timing) -> String {
     let object = to_json_of(name, analysis, timing, Layout::OneLine);
     object.trim_end().to_owned()
 }
 
-/// The commands that make a scene's figures again.
-fn commands(name: &str, analysis: &Analysis, wanted: &ReportOptions) -> Vec<(String, String)> {
-    let theme = wanted
+/// Commands that draw the figures of a scene again.
+fn commands(name: &str, analysis: &Analysis, options: &ReportOptions) -> Vec<(String, String)> {
+    let theme = options
         .theme_name
         .as_ref()
         .map_or(String::new(), |theme| format!(" --theme {theme}"));
@@ -186,8 +186,8 @@ fn commands(name: &str, analysis: &Analysis, wanted: &ReportOptions) -> Vec<(Str
     commands
 }
 
-/// Charts over the steps of a scene.
-fn courses(analysis: &Analysis) -> Vec<Chart> {
+/// Charts over the steps of a scene: forces, tilt, friction.
+fn step_charts(analysis: &Analysis) -> Vec<Chart> {
     let frames = &analysis.frames;
     if frames.len() < 2 {
         return Vec::new();
@@ -217,7 +217,7 @@ fn courses(analysis: &Analysis) -> Vec<Chart> {
     }
     let caption = match lines.len() {
         1 => "Total force over the steps",
-        _ => "Total force over the steps, and what would have to be glued",
+        _ => "Total force and total sticking over the steps",
     };
     let mut charts = vec![(caption, newtons.as_str(), lines)];
     if frames.iter().any(|f| f.margins.is_some()) {
@@ -231,12 +231,12 @@ fn courses(analysis: &Analysis) -> Vec<Chart> {
         });
         let friction = frames.iter().map(|f| f.margins.as_ref()?.friction.at());
         charts.push((
-            "The smaller of the largest tilts to either side, over the steps",
+            "Largest tilt (the smaller of left and right) over the steps",
             "degrees",
             vec![("tilt".to_owned(), blue, tilt.collect())],
         ));
         charts.push((
-            "The least friction with which it stands, over the steps",
+            "Least friction coefficient with which it stands, over the steps",
             "coefficient",
             vec![("friction".to_owned(), blue, friction.collect())],
         ));
@@ -248,7 +248,7 @@ fn courses(analysis: &Analysis) -> Vec<Chart> {
             steps: steps.clone(),
             lines,
         };
-        // A chart of no numbers is no chart.
+        // A chart without any number is left out.
         let svg = chart::course(&chart).ok()?;
         Some(Chart {
             caption: caption.to_owned(),

@@ -1,4 +1,4 @@
-//! [`Row`]: a scene's line in the table of all scenes.
+//! [`Row`]: the row of a scene in the table of all scenes.
 
 use super::bullet;
 use crate::analysis::{Analysis, Verdict};
@@ -9,41 +9,40 @@ use crate::text;
 use crate::wording::failure;
 use crate::wording::number::{percent, quantity};
 
-/// Width and height of a thumbnail, pixels.
+/// Width and height of a thumbnail, in pixels.
 const THUMBNAIL: (f64, f64) = (96.0, 60.0);
-/// Of more blocks than this a thumbnail shows every so manyth.
-const MOST: usize = 400;
+/// A thumbnail shows at most this many blocks, evenly chosen: more would not be distinguishable.
+const MAX_THUMBNAIL_BLOCKS: usize = 400;
 
-/// A scene at a glance.
+/// A summary of a scene.
 #[derive(Clone, Debug)]
 pub struct Row {
-    /// The file as it was given.
+    /// The path as given by the user.
     pub name: String,
-    /// The scene's title, its file's name where it has none.
+    /// The title of the scene, or the name of its file.
     pub title: String,
     /// The worst verdict of its steps.
     pub verdict: Verdict,
-    /// What it was before, where two scenes are compared.
+    /// The verdict of the first scene in a comparison.
     pub before: Option<Verdict>,
-    /// How many of its steps stand, and how many there are.
+    /// The number of steps that stand, and the number of steps.
     pub stand: (usize, usize),
-    /// How many blocks its steps place, all together.
+    /// The number of blocks that its steps place.
     pub blocks: usize,
-    /// The closest margin of all steps: in words, and what is left in parts of what there is.
+    /// The smallest margin of all steps: a description, and the remaining share from 0 to 1.
     pub closest: Option<(String, f64)>,
-    /// The largest share of the friction available that an interface uses, in the steps that stand; `None` where none does:
-    /// there missing forces would be counted among those that press and rub.
+    /// The largest share of the available friction that an interface uses, among the steps that stand. `None` if no step
+    /// stands: the forces of a falling step include the missing forces.
     pub friction: Option<f64>,
-    /// The largest force of one interface or robot in the steps that stand, N; `None` where none does: there missing forces
-    /// would be counted among those that press and rub.
+    /// The largest force of an interface or robot in N, among the steps that stand; `None` if no step stands.
     pub largest: Option<f64>,
-    /// What fails first, in words; empty where all stands. Of a comparison what changed.
+    /// The largest failure of the first step that does not stand; in a comparison, the changes. Empty if all steps stand.
     pub fails: String,
-    /// How it looks.
+    /// A small picture.
     pub thumbnail: Thumbnail,
 }
 
-/// Outlines in a small picture, as steps of SVG paths.
+/// A small picture: outlines as SVG path data.
 #[derive(Clone, Debug, Default)]
 pub struct Thumbnail {
     /// The blocks.
@@ -53,13 +52,13 @@ pub struct Thumbnail {
 }
 
 impl Row {
-    /// The row of an analysis.
+    /// Makes the row of an analysis.
     pub fn new(name: &str, analysis: &Analysis) -> Row {
         let scene = &analysis.scene;
         let frames = &analysis.frames;
         let mut bullets = Vec::new();
         for frame in frames {
-            bullets.extend(bullet::of(scene, frame));
+            bullets.extend(bullet::margin_bars(scene, frame));
         }
         let standing = || frames.iter().filter(|f| f.verdict == Verdict::Stable);
         let mut placed: Vec<usize> = scene
@@ -71,10 +70,10 @@ impl Row {
         placed.dedup();
         let fails = frames.iter().find(|f| f.verdict != Verdict::Stable);
         let fails = fails.map_or(String::new(), |found| {
-            let uncarried = failure::uncarried(scene, found);
+            let unsupported = failure::unsupported_phrase(scene, found);
             let largest = failure::by_amount(found).into_iter().next();
-            let largest = largest.map(|f| failure::missing(scene, f));
-            uncarried.or(largest).unwrap_or_else(|| found.doubt())
+            let largest = largest.map(|f| failure::missing_phrase(scene, f));
+            unsupported.or(largest).unwrap_or_else(|| found.doubt())
         });
         let title = match scene.title.trim() {
             "" => file_name(name),
@@ -110,19 +109,19 @@ impl Row {
 }
 
 impl Row {
-    /// How much of the friction available is used, in words.
+    /// The share of the available friction that is used, as text.
     pub(crate) fn friction_words(&self) -> String {
         self.friction.map_or_else(|| "none stands".into(), percent)
     }
 
-    /// The largest force, in words.
+    /// The largest force as text.
     pub(crate) fn largest_words(&self) -> String {
         let words = |largest| quantity(largest, "N");
         self.largest.map_or_else(|| "none stands".into(), words)
     }
 }
 
-/// A file's name without its folders and ending.
+/// The name of a file without folders and extension.
 pub(super) fn file_name(name: &str) -> String {
     let last = name.rsplit(['/', '\\']).next().unwrap_or(name);
     let stem = last.strip_suffix(".json").unwrap_or(last);
@@ -150,20 +149,20 @@ fn thumbnail(analysis: &Analysis, placed: &[usize]) -> Thumbnail {
         height - 5.0 - scale * bounds.height(),
     );
     let camera = Camera::new(bounds, at, scale);
-    let every = placed.len().div_ceil(MOST).max(1);
+    let every = placed.len().div_ceil(MAX_THUMBNAIL_BLOCKS).max(1);
     let mut blocks = String::new();
     for id in placed.iter().step_by(every) {
-        blocks.push_str(&steps(&camera.polygon(polygon(*id))));
+        blocks.push_str(&path_data(&camera.polygon(polygon(*id))));
     }
     let mut ground = String::new();
-    for part in scene.ground.iter().take(MOST) {
-        ground.push_str(&steps(&camera.polygon(&part.body.polygon)));
+    for part in scene.ground.iter().take(MAX_THUMBNAIL_BLOCKS) {
+        ground.push_str(&path_data(&camera.polygon(&part.body.polygon)));
     }
     Thumbnail { blocks, ground }
 }
 
-/// Steps of a path to a tenth of a pixel; what lies far outside is drawn in to the edge.
-fn steps(outline: &Outline) -> String {
+/// SVG path data, rounded to 0.1 pixels. Points far outside are moved to the border.
+fn path_data(outline: &Outline) -> String {
     let (width, height) = THUMBNAIL;
     let number = |x: f64| {
         let tenths = (x * 10.0).round() / 10.0 + 0.0;

@@ -1,4 +1,4 @@
-//! [`Step`]: what a report tells of one frame.
+//! [`Step`]: the content of a report on one frame.
 
 use super::bullet::{self, MarginBar};
 use super::chosen::chosen;
@@ -14,59 +14,59 @@ use crate::text::line;
 use crate::wording::number::{digits, letter, listed, percent, place, prefixed};
 use crate::wording::{failure, proof, verdict};
 
-/// Width of a figure, pixels.
+/// Width of a figure, in pixels.
 const WIDTH: f64 = 560.0;
-/// Of fewer interfaces a table says more than a chart.
-const FEW: usize = 8;
-/// So many figures of one scene are drawn with marks for the mouse only where they have at most this many of them.
-const MOST_TOUCHES: usize = 3000;
+/// With fewer interfaces, a table shows more than a chart.
+const MIN_CHART_INTERFACES: usize = 8;
+/// Figures with more interfaces than this get no hover targets: the page would become too large.
+const MAX_HOVER_TARGETS: usize = 3000;
 
-/// What a report tells of one frame.
+/// The content of a report on one frame.
 #[derive(Clone, Debug)]
 pub struct Step {
-    /// Its letter in a strip; empty where it is the only one.
+    /// Its letter in a strip of frames; empty for a single frame.
     pub letter: String,
-    /// Its title, or what stands for one.
+    /// Its title, or `Step 3`.
     pub title: String,
-    /// Whether it stands.
+    /// The verdict.
     pub verdict: Verdict,
-    /// The verdict in a sentence, with its reason.
+    /// A sentence with the verdict and its reasons.
     pub sentence: String,
-    /// What else a reader should know, a sentence each.
+    /// More sentences.
     pub remarks: Vec<String>,
     /// The figures.
     pub plates: Vec<Figure>,
-    /// What of the first figure belongs to which line of the tables.
+    /// The hover targets in the first figure, one for each row of the tables.
     pub touches: Vec<HoverTarget>,
-    /// The margins, where they were asked for.
+    /// The margins, if they were computed.
     pub bullets: Vec<MarginBar>,
-    /// Charts of its forces.
+    /// Charts of the forces.
     pub charts: Vec<Chart>,
-    /// Its tables, those first that say most; empty ones are left out.
+    /// The tables, most important first, without empty ones.
     pub grids: Vec<Grid>,
-    /// What its proof means.
+    /// An explanation of the proof.
     pub proof: String,
 }
 
-/// Whether a frame has a motion to show.
+/// Whether a frame has a collapse mechanism to show.
 pub(super) fn has_mechanism(found: &FrameAnalysis) -> bool {
     found.verdict == Verdict::Unstable && !found.mechanism.is_empty()
 }
 
-/// How figures of a report are drawn: what stands beside them on the page is not said in them.
+/// The options for figures in a report: the page shows titles and verdicts next to them.
 pub(super) fn options(wanted: &ReportOptions) -> Options {
     Options {
         theme: wanted.theme.clone(),
         titles: false,
         captions: false,
         verdicts: false,
-        // Laid out for half a page: on it, and on a phone, its words can be read.
+        // Half the width of a page: the labels are legible there and on a phone.
         width: Some(WIDTH),
         ..Options::default()
     }
 }
 
-/// The steps of an analysis.
+/// All steps of an analysis.
 pub(super) fn all(analysis: &Analysis, wanted: &ReportOptions) -> Vec<Step> {
     let options = options(wanted);
     let chosen = chosen(analysis);
@@ -84,23 +84,22 @@ pub(super) fn all(analysis: &Analysis, wanted: &ReportOptions) -> Vec<Step> {
     let scene = &analysis.scene;
     let mut steps = Vec::with_capacity(analysis.frames.len());
     for (number, found) in analysis.frames.iter().enumerate() {
-        let mut step = of(scene, number, found, (wanted, chosen[number]));
+        let mut step = without_figures(scene, number, found, (wanted, chosen[number]));
         let Some(drawing) = chosen[number].then(|| forces.next()).flatten() else {
             steps.push(step);
             continue;
         };
         step.plates.push(Figure {
             caption: if found.failures.is_empty() {
-                "The force on every block, as an arrow as long as it is large.".into()
+                "The forces on every block. The length of an arrow shows its size.".into()
             } else {
-                "The force on every block, and in the colour of failure what would have to stick for it to stand."
-                    .into()
+                "The forces on every block. The missing forces have the colour of failures.".into()
             },
             drawing,
         });
         if let Some(drawing) = has_mechanism(found).then(|| motions.next()).flatten() {
             step.plates.push(Figure {
-                caption: "How it begins to fall: dashed where the blocks stand.".into(),
+                caption: "How it begins to fall. Dashed: the blocks before they move.".into(),
                 drawing,
             });
         }
@@ -109,8 +108,8 @@ pub(super) fn all(analysis: &Analysis, wanted: &ReportOptions) -> Vec<Step> {
     steps
 }
 
-/// What is reported of a frame, without its figures; of one that is not drawn no more than why it stands or falls.
-fn of(
+/// The text and tables of a frame, without figures. A frame that is not drawn gets the reasons of its verdict only.
+fn without_figures(
     scene: &Scene,
     number: usize,
     found: &FrameAnalysis,
@@ -134,7 +133,7 @@ fn of(
         remarks: remarks(found),
         plates: Vec::new(),
         touches: Vec::new(),
-        bullets: bullet::of(scene, found),
+        bullets: bullet::margin_bars(scene, found),
         charts: Vec::new(),
         grids: Vec::new(),
         proof: proof::sentence(found.proof),
@@ -161,7 +160,9 @@ fn of(
 fn remarks(found: &FrameAnalysis) -> Vec<String> {
     let mut remarks = Vec::new();
     if !found.least_force && found.verdict == Verdict::Stable {
-        remarks.push("These forces balance; it was not shown that no smaller sum does.".to_owned());
+        remarks.push(
+            "These forces balance. It was not proved that their total is the smallest.".to_owned(),
+        );
     }
     let wedging = found
         .effects
@@ -188,7 +189,7 @@ fn totals(scene: &Scene, number: usize, found: &FrameAnalysis) -> Grid {
     );
     if found.total_sticking > 0.0 {
         add(
-            "total sticking: what would have to be glued for it to stand",
+            "total sticking: the least adhesion with which it would stand",
             format!("{} N", digits(found.total_sticking)),
         );
     }
@@ -201,7 +202,7 @@ fn totals(scene: &Scene, number: usize, found: &FrameAnalysis) -> Grid {
         add(
             &line(&format!(
                 "largest force at an interface{}, between {between}",
-                of_what(found)
+                force_qualifier(found)
             )),
             format!("{} N", digits(size(largest))),
         );
@@ -217,7 +218,7 @@ fn sum(contact: &Contact) -> f64 {
     contact.normal_forces[0] + contact.normal_forces[1]
 }
 
-/// Where a resultant sits: 0 in the middle of its interface, 1 at an end; `None` without force or length.
+/// The eccentricity of a resultant: 0 in the middle of its interface, 1 at an end; `None` without force or length.
 fn off_middle(contact: &Contact) -> Option<f64> {
     let length = contact.interface.length();
     if contact.interface.kind == ContactKind::Corner || length <= 0.0 || size(contact) == 0.0 {
@@ -227,18 +228,18 @@ fn off_middle(contact: &Contact) -> Option<f64> {
     Some((2.0 * off.abs() / length).min(1.0))
 }
 
-/// What the forces of a frame are where they are no balance of what contacts and robots can give.
-fn of_what(found: &FrameAnalysis) -> &'static str {
+/// A qualifier for table captions: the forces of a falling frame include missing forces.
+fn force_qualifier(found: &FrameAnalysis) -> &'static str {
     match found.verdict {
         Verdict::Stable => "",
         Verdict::Unstable => ", with the missing forces added",
-        Verdict::Undecided => ", in what was found, which is not proved",
+        Verdict::Undecided => ", not proved",
     }
 }
 
 fn interfaces(scene: &Scene, found: &FrameAnalysis) -> Grid {
     let mut grid = Grid::new(
-        format!("Interfaces{}", of_what(found)),
+        format!("Interfaces{}", force_qualifier(found)),
         &[
             "between",
             "#normal force N, N",
@@ -268,7 +269,7 @@ fn interfaces(scene: &Scene, found: &FrameAnalysis) -> Grid {
 
 fn robots(scene: &Scene, found: &FrameAnalysis) -> Grid {
     let mut grid = Grid::new(
-        format!("Robots{}", of_what(found)),
+        format!("Robots{}", force_qualifier(found)),
         &[
             "robot",
             "holds",
@@ -324,7 +325,7 @@ fn proved(found: &FrameAnalysis) -> Grid {
 }
 
 fn charts(found: &FrameAnalysis) -> Vec<Chart> {
-    if found.contacts.len() < FEW {
+    if found.contacts.len() < MIN_CHART_INTERFACES {
         return Vec::new();
     }
     let largest = found.contacts.iter().map(size).fold(0.0, f64::max);
@@ -338,25 +339,25 @@ fn charts(found: &FrameAnalysis) -> Vec<Chart> {
         .collect();
     let kinds = [
         (
-            "How many interfaces carry how much force",
+            "Number of interfaces by force",
             format!("force at an interface, {unit}"),
             Bars::counted(&forces, None),
         ),
         (
-            "How many pressed interfaces use how much of their friction",
+            "Number of loaded interfaces by share of friction used",
             "friction used, %".to_owned(),
             Bars::counted(&used, Some(100.0)),
         ),
     ];
     let drawn = kinds.into_iter().filter_map(|(caption, x, bars)| {
-        let caption = format!("{caption}{}", of_what(found));
+        let caption = format!("{caption}{}", force_qualifier(found));
         let chart = Bars {
             title: caption.clone(),
             x,
             y: "interfaces".to_owned(),
             ..bars
         };
-        // Without any force there is nothing to count.
+        // Without any force there is no chart.
         let svg = chart::bars(&chart).ok()?;
         Some(Chart { caption, svg })
     });
@@ -364,7 +365,7 @@ fn charts(found: &FrameAnalysis) -> Vec<Chart> {
 }
 
 fn touches(scene: &Scene, found: &FrameAnalysis) -> Vec<HoverTarget> {
-    if found.contacts.len() > MOST_TOUCHES {
+    if found.contacts.len() > MAX_HOVER_TARGETS {
         return Vec::new();
     }
     let mut touches = Vec::new();

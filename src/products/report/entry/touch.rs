@@ -1,26 +1,25 @@
-//! [`HoverTarget`]: what of a figure belongs to a line of a table, for a mouse that hovers over either.
+//! [`HoverTarget`]: the part of a figure that is highlighted together with a table row.
 
 use crate::drawing::{Camera, Colour, Drawing, Group, Item, Outline, Path, Stroke};
 use crate::geometry::Point;
 
-/// Width of a mark, pixels: as wide as a mouse can find.
+/// Width of a target for an interface, in pixels: wide enough to hit with a mouse.
 const WIDTH: f64 = 10.0;
-/// Radius of the mark of a point, pixels.
+/// Radius of a target for a point, in pixels.
 const RADIUS: f64 = 11.0;
 
-/// A part of a scene that a line of a table tells of.
+/// A part of a scene that a table row describes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HoverTarget {
-    /// Its name, as of the line.
+    /// The id, the same as of the row.
     pub mark: String,
-    /// Its numbers in words.
+    /// A description with its numbers.
     pub words: String,
-    /// The ends of an interface, or a point twice; metres.
+    /// The ends of an interface, or a point twice, in metres.
     pub ends: [Point; 2],
 }
 
-/// A drawing with an invisible mark over each of some parts of its scene, on top of everything. Nothing is added to a
-/// drawing that shows no scene.
+/// Adds an invisible target to a drawing for each part, above everything else. A drawing without a scene is unchanged.
 pub fn touched(drawing: &Drawing, touches: &[HoverTarget]) -> Drawing {
     let mut drawing = drawing.clone();
     onto_scene(&mut drawing, &|camera| {
@@ -33,25 +32,25 @@ pub fn touched(drawing: &Drawing, touches: &[HoverTarget]) -> Drawing {
     drawing
 }
 
-/// Lays marks over the first scene that a drawing shows.
+/// Adds marks above the first scene of a drawing.
 pub(super) fn onto_scene(drawing: &mut Drawing, marks: &dyn Fn(&Camera) -> Group) {
     for item in &mut drawing.items {
         if let Item::Group(group) = item
-            && laid(group, marks)
+            && add_to_scene(group, marks)
         {
             break;
         }
     }
 }
 
-/// Lays marks over the first group that shows a scene, and says whether there was one.
-fn laid(group: &mut Group, marks: &dyn Fn(&Camera) -> Group) -> bool {
+/// Adds marks to the first group with a scene. Returns whether there is one.
+fn add_to_scene(group: &mut Group, marks: &dyn Fn(&Camera) -> Group) -> bool {
     if let Some(camera) = group.camera {
         group.items.push(marks(&camera).into());
         return true;
     }
     group.items.iter_mut().any(|item| match item {
-        Item::Group(inner) => laid(inner, marks),
+        Item::Group(inner) => add_to_scene(inner, marks),
         _ => false,
     })
 }

@@ -1,8 +1,12 @@
-//! [`changes`]: what became of the elements of an SVG: which appeared, vanished, moved, turned, took another colour or other words.
+//! [`changes`]: describes the differences between two SVG drawings.
 //!
-//! Made for the SVG that we write, and right for any other: what is reported is always so, but a shape that another program
-//! writes as other elements is reported as other elements. Names made from a drawing's content (`id`) are left out, and
-//! numbers are compared within a fortieth of a pixel, since a hundredth is where they are rounded.
+//! 1. [`tree`] reads both files into trees of elements.
+//! 2. [`pairing`] pairs the elements of both trees.
+//! 3. [`shape`] and the functions below describe what changed in each pair: position, rotation, outline, colour, text.
+//!
+//! It works for SVG of any program. A shape that another program writes with other elements is reported as changed, though.
+//! Attributes that depend on the whole content (`id`) are ignored. Positions are compared with a tolerance of 0.025 pixels,
+//! because drystone rounds them to 0.01.
 
 mod pairing;
 mod shape;
@@ -12,24 +16,25 @@ use shape::Movement;
 use tree::Element;
 pub use tree::SvgParseError;
 
-/// So far may a place be from the one expected, pixels.
-const NEAR: f64 = 0.025;
-/// A change that so many elements share is reported once.
-const SHARED: usize = 4;
+/// Tolerance for positions, in pixels: two values rounded to 0.01 that stand for the same number differ by at most 0.01,
+/// and sums of two of them by 0.02.
+const POSITION_TOL: f64 = 0.025;
+/// A change that at least this many elements share is reported once.
+const MIN_GROUPED: usize = 4;
 
-/// Something that happened to an element.
+/// A change of one element.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Event {
-    /// The element, as a person would point at it.
-    whose: String,
-    /// What happened to it.
-    what: String,
+    /// A description of the element.
+    element: String,
+    /// A description of the change.
+    change: String,
 }
 
-/// What became of the elements of a drawing, in words; nothing where they agree.
+/// The differences between two drawings in words; empty if they agree.
 ///
 /// # Errors
-/// Which of the two is no SVG, and why: `expected` first.
+/// Why one of the texts is not SVG; `expected` is read first.
 ///
 /// # Example
 /// ```
@@ -50,37 +55,37 @@ pub fn changes(expected: &str, found: &str) -> Result<Vec<String>, SvgParseError
     Ok(described(events))
 }
 
-/// Events in words, those that many elements share reported once.
+/// Describes the changes; a change that many elements share is reported once.
 fn described(events: Vec<Event>) -> Vec<String> {
     let mut described: Vec<String> = Vec::new();
     let mut done: Vec<&str> = Vec::new();
     for event in &events {
-        if done.contains(&event.what.as_str()) {
+        if done.contains(&event.change.as_str()) {
             continue;
         }
-        let alike: Vec<&Event> = events.iter().filter(|e| e.what == event.what).collect();
-        if alike.len() < SHARED {
-            described.push(format!("{}: {}", event.whose, event.what));
+        let alike: Vec<&Event> = events.iter().filter(|e| e.change == event.change).collect();
+        if alike.len() < MIN_GROUPED {
+            described.push(format!("{}: {}", event.element, event.change));
             continue;
         }
-        done.push(&event.what);
+        done.push(&event.change);
         described.push(format!(
             "{} elements, such as {}: {}",
             alike.len(),
-            event.whose,
-            event.what
+            event.element,
+            event.change
         ));
     }
     described
 }
 
-/// Compares two elements that stand for the same thing. `within` is what a person would call the place they are in.
+/// Compares a pair of elements and their children. `within` describes the element around them.
 fn compare(old: &Element, new: &Element, within: &str, events: &mut Vec<Event>) {
-    let whose = new.called(within);
-    let mut tell = |what: String| {
+    let element = new.called(within);
+    let mut report = |change: String| {
         events.push(Event {
-            whose: whose.clone(),
-            what,
+            element: element.clone(),
+            change,
         });
     };
     for (what, a, b) in [
@@ -89,7 +94,7 @@ fn compare(old: &Element, new: &Element, within: &str, events: &mut Vec<Event>) 
         ("words", &old.words, &new.words),
     ] {
         if !same_words(a, b) {
-            tell(match (a.is_empty(), b.is_empty()) {
+            report(match (a.is_empty(), b.is_empty()) {
                 (true, _) => format!("{what} is new: {b:?}"),
                 (_, true) => format!("{what} is gone: {a:?}"),
                 _ => format!("{what} {a:?} → {b:?}"),
@@ -97,22 +102,22 @@ fn compare(old: &Element, new: &Element, within: &str, events: &mut Vec<Event>) 
         }
     }
     if old.tag == "svg" && old.tag == new.tag && old.size() != new.size() {
-        tell(format!("size {} → {}", old.size(), new.size()));
+        report(format!("size {} → {}", old.size(), new.size()));
     }
     match shape::movement(old, new) {
         Movement::None => {}
-        movement => tell(movement.words()),
+        movement => report(movement.words()),
     }
     for (name, a) in &old.attributes {
         match new.attribute(name) {
             Some(b) if same_value(a, b) => {}
-            Some(b) => tell(format!("{name} {a} → {b}")),
-            None => tell(format!("{name} {a} is gone")),
+            Some(b) => report(format!("{name} {a} → {b}")),
+            None => report(format!("{name} {a} is gone")),
         }
     }
     for (name, b) in &new.attributes {
         if old.attribute(name).is_none() {
-            tell(format!("{name} {b} is new"));
+            report(format!("{name} {b} is new"));
         }
     }
     let inside = new.place(within);
@@ -120,19 +125,19 @@ fn compare(old: &Element, new: &Element, within: &str, events: &mut Vec<Event>) 
         match pair {
             (Some(old), Some(new)) => compare(old, new, &inside, events),
             (Some(old), None) => events.push(Event {
-                whose: old.called(&inside),
-                what: "vanished".into(),
+                element: old.called(&inside),
+                change: "vanished".into(),
             }),
             (None, Some(new)) => events.push(Event {
-                whose: new.called(&inside),
-                what: "appeared".into(),
+                element: new.called(&inside),
+                change: "appeared".into(),
             }),
             (None, None) => {}
         }
     }
 }
 
-/// Whether two values of an attribute are the same but for rounding.
+/// Whether two attribute values are equal up to rounding.
 fn same_value(a: &str, b: &str) -> bool {
     if a == b {
         return true;
@@ -145,13 +150,13 @@ fn same_value(a: &str, b: &str) -> bool {
         && a.iter()
             .zip(&b)
             .all(|(a, b)| match (a.parse::<f64>(), b.parse::<f64>()) {
-                (Ok(x), Ok(y)) => (x - y).abs() <= NEAR,
+                (Ok(x), Ok(y)) => (x - y).abs() <= POSITION_TOL,
                 _ => a == b,
             })
 }
 
-/// Whether words are the same, but for the last digit of a number that was rounded: one with a decimal point, or in degrees or
-/// percent. The facts tell amounts more precisely.
+/// Whether two texts are equal up to the last digit of rounded numbers. A number counts as rounded if it has a decimal point
+/// or is followed by ° or %. The facts layer compares the same numbers more precisely.
 fn same_words(a: &str, b: &str) -> bool {
     if a == b {
         return true;
@@ -169,7 +174,7 @@ fn same_words(a: &str, b: &str) -> bool {
         })
 }
 
-/// What the last digit of a number is worth.
+/// The value of one unit in the last digit of a number.
 fn unit(number: &str) -> f64 {
     let decimals = number.split_once('.').map_or(0, |(_, d)| d.len());
     format!("1e-{decimals}").parse().unwrap_or(1.0)
@@ -182,7 +187,7 @@ fn colour(text: &str) -> Option<[u8; 3]> {
     Some([r, g, b])
 }
 
-/// A text cut into numbers and what stands between them.
+/// Splits a text into numbers and the text between them.
 fn pieces(text: &str) -> Vec<&str> {
     let mut pieces = Vec::new();
     let mut begin = 0;
@@ -195,7 +200,7 @@ fn pieces(text: &str) -> Vec<&str> {
         }
     }
     pieces.push(&text[begin..]);
-    // A full stop behind a number is no decimal point.
+    // Remove the full stop of a sentence after a number: it is not a decimal point.
     pieces.iter_mut().for_each(|p| {
         if p.len() > 1 {
             *p = p.trim_end_matches('.');
@@ -228,7 +233,7 @@ mod tests {
     }
 
     #[test]
-    fn one_lost_among_many_alike_is_told_alone() {
+    fn one_missing_element_among_equal_ones_is_reported_alone() {
         let paths = |lost: usize| {
             let path = |x: usize| format!("<path d=\"M{} 5l3 4h2z\" fill=\"#000000\"/>", 7 * x);
             let all = (0..30).filter(|x| *x != lost).map(path);
@@ -245,7 +250,7 @@ mod tests {
     }
 
     #[test]
-    fn what_many_share_is_told_once() {
+    fn a_change_of_many_elements_is_reported_once() {
         let texts = |x: usize| {
             let text = |k: usize| format!("<text x=\"{}\" y=\"{}\">word {k}</text>", x, 9 * k);
             page(&(0..9).map(text).collect::<String>())
@@ -258,7 +263,7 @@ mod tests {
     }
 
     #[test]
-    fn broken_files_have_their_own_words() {
+    fn broken_files_have_messages_of_their_own() {
         let sound = page("");
         for (text, words) in [
             ("", "it is empty (0 bytes)"),
@@ -270,8 +275,8 @@ mod tests {
                 "<<<<<<< HEAD\n<svg/>",
                 "line 1 is a mark of a merge conflict",
             ),
-            ("<svg><g></svg>", "it is no SVG"),
-            ("{}", "it is no SVG"),
+            ("<svg><g></svg>", "it is not SVG"),
+            ("{}", "it is not SVG"),
         ] {
             let refused = changes(text, &sound).expect_err(text).to_string();
             assert!(refused.starts_with(words), "{refused}");

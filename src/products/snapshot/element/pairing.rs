@@ -1,27 +1,32 @@
-//! [`pairs`]: which element of one list stands for which of another.
+//! [`pairs`]: pairs the elements of two lists.
 //!
-//! What is the same in both lists holds its place first; in the gaps between, what is called the same; in the gaps between
-//! those, what is of one kind, where there are as many of it.
+//! The algorithm is a longest common subsequence in three stages, as in a text diff:
+//!
+//! 1. Pair elements that are equal.
+//! 2. Between those pairs, pair elements with the same tag, class, label, text and number of path points.
+//! 3. Between those, pair elements with the same tag, class and label.
+//!
+//! What is left is paired by kind if both lists have equally many elements of the kind.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 use super::tree::Element;
 
-/// Lists beyond this product of lengths are paired from the front instead of at best.
-const MOST: usize = 4_000_000;
+/// The largest table for the longest common subsequence: 4 million entries of 4 bytes. Longer lists use a greedy search.
+const MAX_TABLE_ENTRIES: usize = 4_000_000;
 
 type Pair<'e> = (Option<&'e Element>, Option<&'e Element>);
 
-/// The elements of two lists in pairs, in order; what has no partner stands alone.
+/// Pairs the elements of two lists, in order. An element without a partner is paired with `None`.
 pub(super) fn pairs<'e>(old: &'e [Element], new: &'e [Element]) -> Vec<Pair<'e>> {
     let mut pairs = Vec::new();
     between(old, new, 0, &mut pairs);
     pairs
 }
 
-/// What two elements that may stand for the same thing have in common, ever less of it.
+/// A hash of the properties that two elements must share to be paired at this stage.
 fn key(element: &Element, stage: usize) -> u64 {
-    // Within one run only: nothing of it is reported.
+    // The hash may differ between versions of Rust: it is not stored or printed.
     let mut hasher = DefaultHasher::new();
     match stage {
         0 => element.hash(&mut hasher),
@@ -43,6 +48,7 @@ fn key(element: &Element, stage: usize) -> u64 {
     hasher.finish()
 }
 
+/// Pairs the common elements of a stage, and continues between them with the next stage.
 fn between<'e>(old: &'e [Element], new: &'e [Element], stage: usize, pairs: &mut Vec<Pair<'e>>) {
     if stage == 3 || old.is_empty() || new.is_empty() {
         pair_rest(old, new, pairs);
@@ -58,7 +64,7 @@ fn between<'e>(old: &'e [Element], new: &'e [Element], stage: usize, pairs: &mut
     between(&old[a..], &new[b..], stage + 1, pairs);
 }
 
-/// Pairs of one kind where there are as many of it; the rest came or went.
+/// Pairs elements by kind if both lists have equally many; otherwise they have appeared or vanished.
 fn pair_rest<'e>(old: &'e [Element], new: &'e [Element], pairs: &mut Vec<Pair<'e>>) {
     let kind = |e: &Element| (e.tag.clone(), e.class.clone());
     let of = |list: &'e [Element], k: &(String, String)| -> Vec<&'e Element> {
@@ -78,7 +84,7 @@ fn pair_rest<'e>(old: &'e [Element], new: &'e [Element], pairs: &mut Vec<Pair<'e
     }
 }
 
-/// A longest list of places at which two lists have the same keys in the same order.
+/// A longest common subsequence of two lists of keys, as pairs of positions. Common beginnings and ends are split off first.
 fn common(old: &[u64], new: &[u64]) -> Vec<(usize, usize)> {
     let ahead = old.iter().zip(new).take_while(|(a, b)| a == b).count();
     let (a, b) = (&old[ahead..], &new[ahead..]);
@@ -90,8 +96,8 @@ fn common(old: &[u64], new: &[u64]) -> Vec<(usize, usize)> {
         .count();
     let (a, b) = (&a[..a.len() - behind], &b[..b.len() - behind]);
     let mut found: Vec<(usize, usize)> = (0..ahead).map(|i| (i, i)).collect();
-    let middle = if a.len().saturating_mul(b.len()) > MOST {
-        from_the_front(a, b)
+    let middle = if a.len().saturating_mul(b.len()) > MAX_TABLE_ENTRIES {
+        greedy(a, b)
     } else {
         longest(a, b)
     };
@@ -101,7 +107,7 @@ fn common(old: &[u64], new: &[u64]) -> Vec<(usize, usize)> {
     found
 }
 
-/// By a table of the lengths that the rests have in common.
+/// The longest common subsequence by dynamic programming: the table holds its length for all pairs of suffixes.
 fn longest(a: &[u64], b: &[u64]) -> Vec<(usize, usize)> {
     let across = b.len() + 1;
     let mut table = vec![0u32; (a.len() + 1) * across];
@@ -129,8 +135,8 @@ fn longest(a: &[u64], b: &[u64]) -> Vec<(usize, usize)> {
     found
 }
 
-/// Each with the next of the same key, where that does not skip more than a few.
-fn from_the_front(a: &[u64], b: &[u64]) -> Vec<(usize, usize)> {
+/// A greedy common subsequence: pairs each key with its next occurrence among 64 keys.
+fn greedy(a: &[u64], b: &[u64]) -> Vec<(usize, usize)> {
     let mut found = Vec::new();
     let mut next = 0;
     for (i, key) in a.iter().enumerate() {

@@ -1,27 +1,27 @@
-//! [`movement`]: what became of an element's place and outline. The only file here that names svgtypes.
+//! [`movement`]: describes how the position or outline of an element changed. No other file of this folder uses svgtypes.
 
 use svgtypes::{SimplePathSegment, SimplifyingPathParser};
 
-use super::NEAR;
+use super::POSITION_TOL;
 use super::tree::Element;
 
-/// What became of a shape.
+/// A change of a shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Movement {
-    /// It is where it was.
+    /// No change.
     None,
-    /// It was moved to the right and down, pixels.
+    /// A translation to the right and down, in pixels.
     Moved(f64, f64),
-    /// It was turned, degrees anticlockwise, and perhaps moved.
+    /// A rotation in degrees anticlockwise, perhaps with a translation.
     Turned(f64),
-    /// It has another outline: so far from the old one, pixels.
+    /// Another outline with the same number of points: the largest distance of a point from its old position, in pixels.
     Reshaped(f64),
-    /// Its outline has other parts.
+    /// An outline with other segments.
     Redrawn,
 }
 
 impl Movement {
-    /// In words.
+    /// A description of the change.
     pub(super) fn words(self) -> String {
         let short = |value: f64| {
             let text = format!("{:.2}", value.abs());
@@ -32,7 +32,7 @@ impl Movement {
             Movement::Moved(x, y) => {
                 let way = |by: f64, there: &str, back: &str| {
                     let word = if by > 0.0 { there } else { back };
-                    (by.abs() > NEAR).then(|| format!("{} px {word}", short(by)))
+                    (by.abs() > POSITION_TOL).then(|| format!("{} px {word}", short(by)))
                 };
                 let ways = [way(x, "to the right", "to the left"), way(y, "down", "up")];
                 let ways: Vec<String> = ways.into_iter().flatten().collect();
@@ -52,7 +52,7 @@ impl Movement {
     }
 }
 
-/// What became of an element's shape.
+/// Finds the change of an element's shape. The simplest explanation is tried first: none, translation, rotation, reshape.
 pub(super) fn movement(old: &Element, new: &Element) -> Movement {
     if old.shape == new.shape || old.tag == "svg" {
         return Movement::None;
@@ -70,23 +70,28 @@ pub(super) fn movement(old: &Element, new: &Element) -> Movement {
         });
         far.fold(0.0, f64::max)
     };
+    // 1. No change: all points are where they were.
     let stayed = far(&b, &|p| p);
-    if stayed <= NEAR {
+    if stayed <= POSITION_TOL {
         return Movement::None;
     }
+    // 2. A translation of the centroids moves all points to their new positions.
     let (from, to) = (centre(&a), centre(&b));
     let (x, y) = (to[0] - from[0], to[1] - from[1]);
-    if far(&b, &|p| [p[0] + x, p[1] + y]) <= 2.0 * NEAR {
-        if x.abs() <= NEAR && y.abs() <= NEAR {
+    if far(&b, &|p| [p[0] + x, p[1] + y]) <= 2.0 * POSITION_TOL {
+        if x.abs() <= POSITION_TOL && y.abs() <= POSITION_TOL {
             return Movement::None;
         }
-        // A hundredth is where places are rounded: what moves together differs by one.
+        // Positions are rounded to 0.01. Round the translation more coarsely, so that elements that moved together report
+        // the same distance.
         let whole = |by: f64| match by.abs() {
             far if far < 0.2 => (by * 100.0).round() / 100.0,
             _ => (by * 10.0).round() / 10.0,
         };
         return Movement::Moved(whole(x), whole(y));
     }
+    // 3. The best rotation about the centroids in the least-squares sense (the Procrustes problem in the plane): its angle
+    // is atan2(Σ p × q, Σ p · q).
     let (mut along, mut across) = (0.0, 0.0);
     for (p, q) in a.iter().zip(&b) {
         let (p, q) = (
@@ -105,8 +110,8 @@ pub(super) fn movement(old: &Element, new: &Element) -> Movement {
             to[1] + sin * p[0] + cos * p[1],
         ]
     };
-    if far(&b, &turned) <= 2.0 * NEAR {
-        // The page's y points down.
+    if far(&b, &turned) <= 2.0 * POSITION_TOL {
+        // The y axis of the page points down, so the angle changes its sign.
         return Movement::Turned(-angle.to_degrees());
     }
     Movement::Reshaped(stayed)
@@ -120,7 +125,7 @@ fn centre(points: &[[f64; 2]]) -> [f64; 2] {
     [sum[0] / count, sum[1] / count]
 }
 
-/// The points of an element, and the letters of what joins them. `None` where a number cannot be read.
+/// The points of an element, and the letters of its path commands. `None` if a number cannot be read.
 fn points(element: &Element) -> Option<(Vec<[f64; 2]>, String)> {
     let mut points = Vec::new();
     let mut letters = String::new();

@@ -1,80 +1,80 @@
-//! [`Element`]: an element of an SVG with what can be compared of it. The only file that names roxmltree here.
+//! [`Element`]: an SVG element with the properties that are compared. No other file of this folder uses roxmltree.
 
 use roxmltree::{Document, Node};
 
-/// Elements may lie so deep in each other.
-const DEEPEST: usize = 200;
+/// The largest nesting depth; deeper files could overflow the stack.
+const MAX_DEPTH: usize = 200;
 
-/// A text that is no SVG.
+/// Why a text is not SVG.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SvgParseError {
-    /// No bytes at all.
+    /// The file is empty.
     #[error("it is empty (0 bytes)")]
     Empty,
-    /// What Git LFS leaves where the file itself was not fetched.
+    /// A Git LFS pointer in place of the file.
     #[error("it is a Git LFS pointer and not the drawing; fetch it with `git lfs pull`")]
     Pointer,
-    /// Two versions of it in one file.
-    #[error("line {0} is a mark of a merge conflict; settle it, or accept the drawing anew")]
+    /// A file with merge conflicts.
+    #[error("line {0} is a mark of a merge conflict; resolve it, or accept the drawing again")]
     Conflict(usize),
-    /// No XML, or none that ends.
-    #[error("it is no SVG: {0}")]
+    /// Text that is not XML, or not SVG.
+    #[error("it is not SVG: {0}")]
     Xml(String),
 }
 
 /// An element.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub(super) struct Element {
-    /// `g`, `path`, `text`.
+    /// The tag: `g`, `path`, `text`.
     pub tag: String,
     /// Its class; empty for none.
     pub class: String,
-    /// The words of its title, or its label.
+    /// The text of its `<title>`, or its `aria-label`.
     pub title: String,
-    /// The words of its description.
+    /// The text of its `<desc>`.
     pub description: String,
-    /// Its words where it is text.
+    /// The text of a `<text>` or `<style>` element.
     pub words: String,
-    /// What says where it is: path data, and the numbers that are places and sizes.
+    /// Attributes for position and size.
     pub shape: Vec<(String, String)>,
-    /// Everything else that is drawn, in the file's order.
+    /// All other attributes, in the order of the file.
     pub attributes: Vec<(String, String)>,
-    /// What is in it.
+    /// The child elements.
     pub children: Vec<Element>,
 }
 
-/// Attributes that say where an element is.
+/// Attributes for position and size.
 const SHAPE: [&str; 13] = [
     "d", "points", "x", "y", "x1", "y1", "x2", "y2", "cx", "cy", "r", "width", "height",
 ];
-/// Attributes that hold names made from a drawing's content.
-const LEFT_OUT: [&str; 2] = ["id", "aria-labelledby"];
+/// Attributes that are ignored: drystone derives them from the content of the whole drawing.
+const IGNORED: [&str; 2] = ["id", "aria-labelledby"];
 
 impl Element {
-    /// An attribute that is no place.
+    /// The value of an attribute other than position and size.
     pub(super) fn attribute(&self, name: &str) -> Option<&str> {
         let found = self.attributes.iter().find(|(n, _)| n == name);
         found.map(|(_, value)| value.as_str())
     }
 
-    /// A place or size.
+    /// The value of an attribute for position or size.
     pub(super) fn place_of(&self, name: &str) -> Option<&str> {
         let found = self.shape.iter().find(|(n, _)| n == name);
         found.map(|(_, value)| value.as_str())
     }
 
-    /// Width and height of the page.
+    /// The width and height of the page.
     pub(super) fn size(&self) -> String {
         let side = |name: &str| self.place_of(name).unwrap_or("?").to_owned();
         format!("{} × {}", side("width"), side("height"))
     }
 
-    /// Its title without the numbers that stand behind a colon.
+    /// The title up to a colon, after which drystone writes numbers.
     pub(super) fn label(&self) -> &str {
         self.title.split(": ").next().unwrap_or_default()
     }
 
-    /// What a person would call it.
+    /// A description of the element for messages.
     pub(super) fn called(&self, within: &str) -> String {
         let what = if self.class.is_empty() {
             &self.tag
@@ -92,7 +92,7 @@ impl Element {
         }
     }
 
-    /// What a person would call the place that things in it are in.
+    /// A description of the place of its children.
     pub(super) fn place(&self, within: &str) -> String {
         if self.tag == "svg" || !self.title.is_empty() {
             self.called(within)
@@ -124,9 +124,9 @@ pub(super) fn read(text: &str) -> Result<Element, SvgParseError> {
 }
 
 fn element(node: Node<'_, '_>, depth: usize) -> Result<Element, SvgParseError> {
-    if depth > DEEPEST {
+    if depth > MAX_DEPTH {
         return Err(SvgParseError::Xml(format!(
-            "its elements lie more than {DEEPEST} deep"
+            "its elements are nested more than {MAX_DEPTH} levels deep"
         )));
     }
     let mut found = Element {
@@ -138,9 +138,9 @@ fn element(node: Node<'_, '_>, depth: usize) -> Result<Element, SvgParseError> {
         match name {
             "class" => found.class = value,
             "aria-label" => found.title = value,
-            _ if LEFT_OUT.contains(&name) => {}
+            _ if IGNORED.contains(&name) => {}
             _ if SHAPE.contains(&name) => found.shape.push((name.to_owned(), value)),
-            // A name made from the content again; what it names is compared itself.
+            // The name in a reference depends on the content. The element that it refers to is compared itself.
             _ if value.starts_with("url(#") => {
                 found.attributes.push((name.to_owned(), "url".into()))
             }

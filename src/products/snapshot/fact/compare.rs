@@ -1,32 +1,33 @@
-//! What became of facts, in words.
+//! Describes the differences between two lists of facts.
 
 use std::collections::BTreeMap;
 
-use super::round::{PLAIN, last_digit, short};
+use super::round::{UNITLESS_STEP, last_digit, short};
 use super::{Fact, Facts, Section, Value};
 
-/// Something that is not as it was.
+/// A difference.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Change {
-    /// What, in words on one line.
+    /// A description on one line.
     pub words: String,
-    /// How much it matters: verdicts first, then what there is, then by how much numbers changed, the most first.
+    /// The weight for sorting: verdicts, falling blocks, objects that appear or vanish, failures, then numbers by how many
+    /// units of their last digit they changed.
     weight: f64,
 }
 
-/// What a block is that falls.
+/// The kind of a fact that says that a block falls.
 const FALLING: &str = "falling";
-/// So many blocks that begin or cease to fall are listed one by one.
-const ONE_BY_ONE: usize = 4;
+/// More blocks than this that begin or stop to fall share one line.
+const MAX_SINGLE_BLOCKS: usize = 4;
 
-/// Before everything else: a verdict.
-const VERDICT: f64 = 4e9;
-/// Then what falls.
-const FALL: f64 = 3e9;
-/// Then what is there or not.
-const THERE: f64 = 2e9;
-/// Then what fails.
-const FAILURE: f64 = 1e9;
+/// Weight of a changed verdict. Changes of numbers have weights up to 1e6, far below these classes.
+const VERDICT_WEIGHT: f64 = 4e9;
+/// Weight of a block that begins or stops to fall.
+const FALL_WEIGHT: f64 = 3e9;
+/// Weight of an object that appears or vanishes.
+const PRESENCE_WEIGHT: f64 = 2e9;
+/// Weight of a failure.
+const FAILURE_WEIGHT: f64 = 1e9;
 
 pub(super) fn changes(expected: &Facts, found: &Facts) -> Vec<Change> {
     let mut changes = Vec::new();
@@ -36,23 +37,23 @@ pub(super) fn changes(expected: &Facts, found: &Facts) -> Vec<Change> {
             (Some(old), Some(new)) => section(old, new, several, &mut changes),
             (Some(old), None) => changes.push(Change {
                 words: format!("{} is gone", heading(old)),
-                weight: THERE,
+                weight: PRESENCE_WEIGHT,
             }),
             (None, Some(new)) => changes.push(Change {
                 words: format!("{} is new", heading(new)),
-                weight: THERE,
+                weight: PRESENCE_WEIGHT,
             }),
             (None, None) => {}
         }
     }
-    // Stable: in the order of the facts where they matter alike.
+    // A stable sort: changes of equal weight keep the order of the facts.
     changes.sort_by(|a, b| b.weight.total_cmp(&a.weight));
     changes
 }
 
 type Pair<'f> = (Option<&'f Section>, Option<&'f Section>);
 
-/// Sections that belong together: by their order where there are as many, else frames by their titles.
+/// Pairs the sections of both lists: by position if there are equally many, otherwise by their titles.
 fn pairs<'f>(expected: &'f [Section], found: &'f [Section]) -> Vec<Pair<'f>> {
     if expected.len() == found.len() {
         return expected
@@ -88,6 +89,7 @@ fn heading(section: &Section) -> String {
     }
 }
 
+/// Compares the facts of two paired sections.
 fn section(old: &Section, new: &Section, several: bool, changes: &mut Vec<Change>) {
     let is_frame = new.head.kind.starts_with("frame ");
     let place = if several && is_frame {
@@ -95,48 +97,76 @@ fn section(old: &Section, new: &Section, several: bool, changes: &mut Vec<Change
     } else {
         String::new()
     };
+    head(old, new, is_frame, changes);
+    let (was, is) = (by_name(&old.facts), by_name(&new.facts));
+    let mut names = ordered_keys(&was, &is, new);
+    group_falling(&was, &is, &mut names, &place, changes);
+    for key in names {
+        let change = match (was.get(key), is.get(key)) {
+            (Some(old), Some(new)) => values(&old.values, &new.values).map(|(words, weight)| {
+                let is_failure = key.0.starts_with("failure");
+                Change {
+                    words: format!("{place}{}: {words}", called(key)),
+                    weight: weight + if is_failure { FAILURE_WEIGHT } else { 0.0 },
+                }
+            }),
+            (Some(old), None) => Some(presence_change(key, old, &place, Presence::Gone)),
+            (None, Some(new)) => Some(presence_change(key, new, &place, Presence::New)),
+            (None, None) => None,
+        };
+        changes.extend(change);
+    }
+}
+
+/// Compares the headings of two sections: the title, and the verdict of a frame.
+fn head(old: &Section, new: &Section, is_frame: bool, changes: &mut Vec<Change>) {
+    let what = if is_frame {
+        heading(new)
+    } else {
+        "the scene".into()
+    };
     if old.head.names != new.head.names {
         let title = |s: &Section| s.head.names.first().cloned().unwrap_or_default();
-        let what = if is_frame {
-            heading(new)
-        } else {
-            "the scene".into()
-        };
         changes.push(Change {
             words: format!(
                 "{what}: the title was \"{}\", it is \"{}\"",
                 title(old),
                 title(new)
             ),
-            weight: FAILURE,
+            weight: FAILURE_WEIGHT,
         });
     }
     if let Some((words, weight)) = values(&old.head.values, &new.head.values) {
-        let (what, weight) = if is_frame {
-            (heading(new), VERDICT)
-        } else {
-            ("the scene".into(), weight)
-        };
         changes.push(Change {
             words: format!("{what}: {words}"),
-            weight,
+            weight: if is_frame { VERDICT_WEIGHT } else { weight },
         });
     }
-    let (was, is) = (by_name(&old.facts), by_name(&new.facts));
-    let mut names: Vec<&Key> = was.keys().chain(is.keys()).collect();
-    // In the order of the new facts, what is gone behind them.
+}
+
+/// The keys of both lists in the order of the new facts; those that are gone come last.
+fn ordered_keys<'k>(was: &'k ByName<'_>, is: &'k ByName<'_>, new: &Section) -> Vec<&'k Key> {
     let order = |key: &Key| {
         let kind = if key.0 == FALLING { "block" } else { &key.0 };
         let same = |f: &Fact| f.kind == kind && f.names == key.1;
         let place = new.facts.iter().position(same);
         (place.unwrap_or(usize::MAX), key.2)
     };
+    let mut names: Vec<&Key> = was.keys().chain(is.keys()).collect();
     names.sort_by(|a, b| order(a).cmp(&order(b)).then(a.cmp(b)));
     names.dedup();
-    for (before, now, what) in [
-        (&was, &is, "no longer stand"),
-        (&is, &was, "fall no longer"),
-    ] {
+    names
+}
+
+/// Reports many blocks that begin or stop to fall in one line, and removes their keys.
+fn group_falling(
+    was: &ByName<'_>,
+    is: &ByName<'_>,
+    names: &mut Vec<&Key>,
+    place: &str,
+    changes: &mut Vec<Change>,
+) {
+    for (before, now, what) in [(was, is, "no longer stand"), (is, was, "no longer fall")] {
         let fresh =
             |key: &Key| key.0 == FALLING && now.contains_key(key) && !before.contains_key(key);
         let who: Vec<String> = names
@@ -144,40 +174,21 @@ fn section(old: &Section, new: &Section, several: bool, changes: &mut Vec<Change
             .filter(|k| fresh(k))
             .map(|k| k.1.join("–"))
             .collect();
-        if who.len() <= ONE_BY_ONE {
+        if who.len() <= MAX_SINGLE_BLOCKS {
             continue;
         }
         names.retain(|key| !fresh(key));
         changes.push(Change {
             words: format!("{place}{} blocks {what}: {}", who.len(), who.join(", ")),
-            weight: FALL,
+            weight: FALL_WEIGHT,
         });
-    }
-    for key in names {
-        let change = match (was.get(key), is.get(key)) {
-            (Some(old), Some(new)) => {
-                values(&old.values, &new.values).map(|(words, weight)| Change {
-                    words: format!("{place}{}: {words}", called(key)),
-                    weight: weight
-                        + if key.0.starts_with("failure") {
-                            FAILURE
-                        } else {
-                            0.0
-                        },
-                })
-            }
-            (Some(old), None) => Some(came_or_went(key, old, &place, Way::Gone)),
-            (None, Some(new)) => Some(came_or_went(key, new, &place, Way::New)),
-            (None, None) => None,
-        };
-        changes.extend(change);
     }
 }
 
-/// Kind, names, and the how manieth of these.
+/// The key of a fact: kind, names, and a counter for facts with the same kind and names.
 type Key = (String, Vec<String>, usize);
 
-/// Facts by what is known of them.
+/// Facts by key.
 type ByName<'f> = BTreeMap<Key, &'f Fact>;
 
 fn by_name(facts: &[Fact]) -> ByName<'_> {
@@ -213,26 +224,26 @@ fn called((kind, names, number): &Key) -> String {
     }
 }
 
-enum Way {
+enum Presence {
     Gone,
     New,
 }
 
-fn came_or_went(key: &Key, fact: &Fact, place: &str, way: Way) -> Change {
+fn presence_change(key: &Key, fact: &Fact, place: &str, presence: Presence) -> Change {
     let block = key.1.join("–");
-    let (words, weight) = match (key.0.as_str(), way) {
-        (FALLING, Way::New) => (format!("block {block} no longer stands"), FALL),
-        (FALLING, Way::Gone) => (format!("block {block} falls no longer"), FALL),
-        (kind, way) => {
+    let (words, weight) = match (key.0.as_str(), presence) {
+        (FALLING, Presence::New) => (format!("block {block} no longer stands"), FALL_WEIGHT),
+        (FALLING, Presence::Gone) => (format!("block {block} no longer falls"), FALL_WEIGHT),
+        (kind, presence) => {
             let weight = if kind.starts_with("failure") {
-                FAILURE
+                FAILURE_WEIGHT
             } else {
-                THERE
+                PRESENCE_WEIGHT
             };
             let first = fact.values.first().map(described).unwrap_or_default();
-            let is = match way {
-                Way::Gone => "is gone:",
-                Way::New => "is new:",
+            let is = match presence {
+                Presence::Gone => "is gone:",
+                Presence::New => "is new:",
             };
             (format!("{} {is} {first}", called(key)), weight)
         }
@@ -250,7 +261,7 @@ fn described(value: &Value) -> String {
     parts.join(" ")
 }
 
-/// What changed among values, in words, and how much the largest change matters.
+/// The changed values in words, and the weight of the largest change.
 fn values(old: &[Value], new: &[Value]) -> Option<(String, f64)> {
     let mut words = Vec::new();
     let mut weight: f64 = 0.0;
@@ -303,7 +314,7 @@ fn change(old: &Value, new: &Value) -> String {
     format!("{name}{} → {}{unit}", list(old), list(new))
 }
 
-/// By how many of their last digits two values differ, where that is more than rounding explains.
+/// The difference of two values in units of their last digit; `None` if rounding can explain it.
 fn differ(old: &Value, new: &Value) -> Option<f64> {
     let shape = old.unit == new.unit && old.numbers.len() == new.numbers.len();
     if !shape {
@@ -313,15 +324,19 @@ fn differ(old: &Value, new: &Value) -> Option<f64> {
     for (a, b) in old.numbers.iter().zip(&new.numbers) {
         match (a.parse::<f64>(), b.parse::<f64>()) {
             (Ok(x), Ok(y)) => {
-                // Without a unit they are counts and coefficients, which nothing was solved for.
+                // Numbers without a unit are counts and coefficients: no solver noise, so the step is fixed.
                 let rounded = last_digit(a).max(last_digit(b));
-                let digit = if new.unit.is_empty() { PLAIN } else { rounded };
+                let digit = if new.unit.is_empty() {
+                    UNITLESS_STEP
+                } else {
+                    rounded
+                };
                 most = most.max((x - y).abs() / digit);
             }
             _ if a == b => {}
             _ => most = 1e6,
         }
     }
-    // 1½: each of the two may have been rounded to the other side of the same number.
+    // Solver noise may round two equal numbers to neighbouring digits, which differ by 1 unit. 1.5 separates 1 from 2.
     (most > 1.5).then_some(most)
 }

@@ -1,7 +1,7 @@
-//! [`Facts`]: what was found out about a scene, as text that a person reads, keeps beside the scene and compares.
+//! [`Facts`]: the results of a scene as text that people can read, store and compare.
 //!
-//! One line per fact, under a heading per frame: what is known by its names stands before the colon, what was found about it
-//! behind.
+//! Each fact is one line, under a heading for its frame. The object and its names are before the colon, the results are
+//! after it.
 //!
 //! ```text
 //! drystone facts 1
@@ -13,9 +13,9 @@
 //!   interface "a" "ground": N 6.00000 N, T 0.00000 N, N at its ends 3.00000 3.00000 N, μ 0.7
 //! ```
 //!
-//! Numbers are rounded to so many digits of the largest load of a block, and compared within one and a half of the last digit:
-//! noise of a solution is below that, a change by a hundredth far above it. Where nothing is proved, in frames that are
-//! undecided, no forces are reported.
+//! Numbers are rounded to [`DIGITS`] digits of the largest load. Two numbers are equal if they differ by at most 1.5 units
+//! of the last digit: solver noise is smaller, and a change by one percent is far larger. Frames that are undecided have no
+//! proof, so their forces are not reported.
 
 mod compare;
 mod read;
@@ -28,44 +28,44 @@ pub use write::DIGITS;
 
 use crate::analysis::Analysis;
 
-/// What was found out about a scene, as lines.
+/// The results of a scene as lines of text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Facts {
-    /// Those of the scene as a whole, and then those of each frame.
+    /// The facts of the scene, then those of each frame.
     sections: Vec<Section>,
 }
 
 /// The facts of the scene, or of one frame.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Section {
-    /// The line it begins with.
+    /// The heading.
     head: Fact,
     facts: Vec<Fact>,
 }
 
-/// A line: what it is about, and what was found.
+/// One line: an object and its results.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Fact {
-    /// What sort of thing: `block`, `interface`, `failure tension`.
+    /// The kind of object: `block`, `interface`, `failure tension`.
     kind: String,
-    /// Its names.
+    /// The names of the object.
     names: Vec<String>,
     values: Vec<Value>,
 }
 
-/// One thing found: a word, or a quantity with its numbers and unit.
+/// One result: a word, or a quantity with numbers and a unit.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Value {
-    /// What it is; empty for a word alone.
+    /// The name of the quantity; empty for a word.
     name: String,
-    /// The numbers as they are written; none for a word.
+    /// The numbers as text; empty for a word.
     numbers: Vec<String>,
     /// The unit, or the word.
     unit: String,
 }
 
 impl Facts {
-    /// The facts of an analysis, its numbers rounded to so many digits: [`DIGITS`] unless there is a reason.
+    /// The facts of an analysis. Numbers have `digits` significant digits, usually [`DIGITS`].
     ///
     /// ```
     /// use drystone::{Analysis, Scene, snapshot::fact::{DIGITS, Facts}};
@@ -82,23 +82,23 @@ impl Facts {
     /// assert!(described(1.2).changes(&described(1.2 + 1e-9)).is_empty());
     /// ```
     pub fn new(analysis: &Analysis, digits: usize) -> Facts {
-        write::of(analysis, digits)
+        write::from_analysis(analysis, digits)
     }
 
-    /// The text to keep.
+    /// The text to store.
     pub fn text(&self) -> String {
         write::text(self)
     }
 
-    /// Facts from a text that was kept.
+    /// Reads a stored text.
     ///
     /// # Errors
-    /// [`FactsError`] with the line that is none.
+    /// [`FactsError`] with the first line that is not a fact.
     pub fn read(text: &str) -> Result<Facts, FactsError> {
         read::facts(text)
     }
 
-    /// What became of these facts in others, in words, what matters most first; nothing where they agree.
+    /// The differences between these facts and others in words, most important first; empty if they agree.
     pub fn changes(&self, found: &Facts) -> Vec<Change> {
         compare::changes(self, found)
     }

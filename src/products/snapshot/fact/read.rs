@@ -1,29 +1,29 @@
-//! From a text that was kept to facts.
+//! Reads stored facts.
 
 use super::write::HEAD;
 use super::{Fact, Facts, Section, Value};
 
-/// A text that holds no facts, and where it goes wrong.
+/// Why a text is not a list of facts.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum FactsError {
-    /// No bytes at all.
+    /// The file is empty.
     #[error("it is empty (0 bytes)")]
     Empty,
-    /// What Git LFS leaves where the file itself was not fetched.
+    /// A Git LFS pointer in place of the file.
     #[error("it is a Git LFS pointer and not the facts; fetch them with `git lfs pull`")]
     Pointer,
-    /// Two versions of it in one file.
-    #[error("line {0} is a mark of a merge conflict; settle it, or accept the facts anew")]
+    /// A file with merge conflicts.
+    #[error("line {0} is a mark of a merge conflict; resolve it, or accept the facts again")]
     Conflict(usize),
-    /// It begins otherwise.
+    /// The first line is missing.
     #[error("it does not begin with \"{HEAD}\"")]
     Foreign,
-    /// A line is none.
-    #[error("line {line} is no fact: {text}")]
+    /// A line that cannot be read.
+    #[error("line {line} is not a fact: {text}")]
     Line {
-        /// Its number, from 1.
+        /// The line, counted from 1.
         line: usize,
-        /// What it says, shortened.
+        /// The beginning of its text.
         text: String,
     },
 }
@@ -90,7 +90,7 @@ fn fact(line: &str) -> Option<Fact> {
     })
 }
 
-/// The name up to the closing quotation mark, and what stands behind it.
+/// The name up to the closing quotation mark, and the text after it.
 fn unquoted(text: &str) -> Option<(String, &str)> {
     let mut name = String::new();
     let mut escaped = false;
@@ -107,7 +107,7 @@ fn unquoted(text: &str) -> Option<(String, &str)> {
     None
 }
 
-/// Words, numbers and a unit; or a word alone.
+/// Reads a name, numbers and a unit; or a word.
 fn value(text: &str) -> Value {
     let parts: Vec<&str> = text.split_whitespace().collect();
     let is_number = |part: &&str| part.parse::<f64>().is_ok() || *part == "none";

@@ -1,23 +1,23 @@
-//! [`Rounding`]: numbers to a fixed place, the same for all that belong together.
+//! [`Rounding`]: rounds numbers of one quantity to the same decimal place.
 
-/// The place to which numbers without a unit are rounded.
-pub(super) const PLAIN: f64 = 1e-6;
+/// Numbers without a unit (counts, coefficients) are rounded to this.
+pub(super) const UNITLESS_STEP: f64 = 1e-6;
 
-/// Where numbers of one size end.
+/// The decimal place of the last digit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Rounding {
-    /// Decimals of what is written.
+    /// The decimals of the mantissa.
     decimals: usize,
-    /// The power of ten behind it.
+    /// The power of ten, 0 for plain numbers.
     exponent: i32,
 }
 
 impl Rounding {
-    /// Numbers of which the largest has so many digits. Nothing or what is not finite counts as 1.
-    pub(super) fn to(digits: usize, largest: f64) -> Rounding {
+    /// The place at which the largest number has `digits` digits. 0 and numbers that are not finite count as 1.
+    pub(super) fn new(digits: usize, largest: f64) -> Rounding {
         let sound = largest > 0.0 && largest.is_finite();
         let size = if sound { largest } else { 1.0 };
-        // Printed, for the exponent of ten without a logarithm's last bits.
+        // Print the number to get its exponent: a logarithm may be off by one at powers of ten.
         let printed = format!("{size:e}");
         let ten: i32 = printed
             .split_once('e')
@@ -37,7 +37,7 @@ impl Rounding {
         }
     }
 
-    /// A number as it is written; never −0.
+    /// The rounded number as text; never −0.
     pub(super) fn write(self, value: f64) -> String {
         if !value.is_finite() {
             return "none".into();
@@ -45,7 +45,7 @@ impl Rounding {
         let decimals = self.decimals;
         let scaled = match self.exponent {
             0 => format!("{value:.decimals$}"),
-            // By way of the decimal text: a power of ten is no exact factor.
+            // Parse the power of ten from text: `powi` is not exact.
             e => {
                 let unit: f64 = format!("1e{e}").parse().unwrap_or(1.0);
                 format!("{:.decimals$}", value / unit)
@@ -64,7 +64,7 @@ impl Rounding {
     }
 }
 
-/// What the last digit of a written number is worth.
+/// The value of one unit in the last digit of a number.
 pub(super) fn last_digit(written: &str) -> f64 {
     let (mantissa, exponent) = written.split_once('e').unwrap_or((written, "0"));
     let decimals = mantissa.split_once('.').map_or(0, |(_, d)| d.len());
@@ -74,7 +74,7 @@ pub(super) fn last_digit(written: &str) -> f64 {
         .unwrap_or(0.0)
 }
 
-/// A written number without the zeros that say how precisely it is known.
+/// A number without trailing zeros.
 pub(super) fn short(written: &str) -> String {
     let (mantissa, exponent) = match written.split_once('e') {
         Some((mantissa, exponent)) => (mantissa, format!("e{exponent}")),
@@ -95,8 +95,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_largest_number_has_the_digits_and_the_others_its_place() {
-        let written = |largest: f64, value: f64| Rounding::to(6, largest).write(value);
+    fn all_numbers_end_at_the_place_of_the_largest() {
+        let written = |largest: f64, value: f64| Rounding::new(6, largest).write(value);
         assert_eq!(written(24.0, 4.460_206_8), "4.4602");
         assert_eq!(written(6.0, -0.000_000_4), "0.00000");
         assert_eq!(written(0.05, 0.012_345_67), "0.0123457");

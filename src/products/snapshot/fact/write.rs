@@ -1,4 +1,4 @@
-//! From an analysis to facts, and from facts to text.
+//! Makes facts from an analysis, and text from facts.
 
 use super::round::Rounding;
 use super::{Fact, Facts, Section, Value};
@@ -7,22 +7,22 @@ use crate::geometry::{Point, Vector};
 use crate::scene::{BlockId, BodyId, RobotId, Scene};
 use crate::text;
 
-/// Digits of a force of the size of the largest load.
+/// The significant digits of a force as large as the largest load.
 pub const DIGITS: usize = 6;
-/// What the facts of this version begin with.
+/// The first line of a facts file, with the version of the format.
 pub(super) const HEAD: &str = "drystone facts 1";
-/// A block that moves by less than this share of what moves fastest is not said to fall: another solution of the same
-/// program may hold it still.
-const STILL: f64 = 1e-3;
+/// Blocks slower than this, relative to the fastest block, are not reported as falling. Another optimum of the same
+/// program may hold such a block, so the fact would not be reproducible.
+const MIN_FALLING_SPEED: f64 = 1e-3;
 
-/// Places of the numbers of one scene.
-struct Places {
+/// The roundings for the quantities of one scene.
+struct Roundings {
     force: Rounding,
     length: Rounding,
     torque: Rounding,
 }
 
-pub(super) fn of(analysis: &Analysis, digits: usize) -> Facts {
+pub(super) fn from_analysis(analysis: &Analysis, digits: usize) -> Facts {
     let scene = &analysis.scene;
     let blocks = scene.blocks.iter().map(|b| b.weight.abs());
     let loads = scene.loads.iter().map(|l| l.force.norm());
@@ -31,26 +31,26 @@ pub(super) fn of(analysis: &Analysis, digits: usize) -> Facts {
     let size = corners
         .map(|p| p.x.abs().max(p.y.abs()))
         .fold(0.0, f64::max);
-    let places = Places {
-        force: Rounding::to(digits, largest),
-        length: Rounding::to(digits, size),
-        torque: Rounding::to(digits, largest * size),
+    let roundings = Roundings {
+        force: Rounding::new(digits, largest),
+        length: Rounding::new(digits, size),
+        torque: Rounding::new(digits, largest * size),
     };
-    let gravity = Rounding::to(digits, scene.gravity.norm());
+    let gravity = Rounding::new(digits, scene.gravity.norm());
     let gravity = quantity("gravity", &pair(scene.gravity), gravity, "m/s²");
     let mut values = vec![gravity];
     if scene.kernel > 0.0 {
-        values.push(plain("kernel", scene.kernel));
+        values.push(unitless("kernel", scene.kernel));
     }
     let blocks = scene.blocks.iter().map(|block| Fact {
         kind: "block".into(),
         names: vec![name(&block.id)],
         values: vec![
-            quantity("weight", &[block.weight], places.force, "N"),
+            quantity("weight", &[block.weight], roundings.force, "N"),
             quantity(
                 "centroid",
                 &[block.centroid.x, block.centroid.y],
-                places.length,
+                roundings.length,
                 "m",
             ),
         ],
@@ -69,7 +69,7 @@ pub(super) fn of(analysis: &Analysis, digits: usize) -> Facts {
             names: vec![name(&step.title)],
             values: vec![word(verdict(found.verdict))],
         };
-        let facts = frame(scene, step.placed.len(), found, &places);
+        let facts = frame(scene, step.placed.len(), found, &roundings);
         sections.push(Section { head, facts });
     }
     Facts { sections }
@@ -83,10 +83,10 @@ fn verdict(verdict: Verdict) -> &'static str {
     }
 }
 
-fn frame(scene: &Scene, placed: usize, found: &FrameAnalysis, places: &Places) -> Vec<Fact> {
-    let newtons = |name: &str, value: f64| quantity(name, &[value], places.force, "N");
+fn frame(scene: &Scene, placed: usize, found: &FrameAnalysis, roundings: &Roundings) -> Vec<Fact> {
+    let newtons = |name: &str, value: f64| quantity(name, &[value], roundings.force, "N");
     let mut sums = vec![
-        plain("blocks", placed as f64),
+        unitless("blocks", placed as f64),
         newtons("weight", found.weight),
     ];
     let proved = found.verdict != Verdict::Undecided;
@@ -102,15 +102,15 @@ fn frame(scene: &Scene, placed: usize, found: &FrameAnalysis, places: &Places) -
     let contacts = found
         .contacts
         .iter()
-        .map(|c| contact(scene, c, proved, places));
+        .map(|c| contact(scene, c, proved, roundings));
     facts.extend(contacts);
     if proved {
-        facts.extend(found.robots.iter().map(|r| robot(scene, r, places)));
-        facts.extend(found.failures.iter().map(|f| failure(scene, f, places)));
+        facts.extend(found.robots.iter().map(|r| robot(scene, r, roundings)));
+        facts.extend(found.failures.iter().map(|f| failure(scene, f, roundings)));
     }
     let moves = found.mechanism.iter().filter(|m| {
         let speed = m.velocity.norm().max(m.spin.abs() * found.length);
-        speed > STILL
+        speed > MIN_FALLING_SPEED
     });
     let mut falling: Vec<BlockId> = moves.map(|m| m.block).collect();
     falling.extend(&found.unsupported);
@@ -124,16 +124,21 @@ fn frame(scene: &Scene, placed: usize, found: &FrameAnalysis, places: &Places) -
     facts
 }
 
-fn contact(scene: &Scene, contact: &Contact, proved: bool, places: &Places) -> Fact {
+fn contact(scene: &Scene, contact: &Contact, proved: bool, roundings: &Roundings) -> Fact {
     let [n1, n2] = contact.normal_forces;
     let mut values = Vec::new();
     if proved {
-        values.push(quantity("N", &[n1 + n2], places.force, "N"));
-        values.push(quantity("T", &[contact.friction_force], places.force, "N"));
-        let ends = in_order(contact.application_points, [n1, n2]);
-        values.push(quantity("N at its ends", &ends, places.force, "N"));
+        values.push(quantity("N", &[n1 + n2], roundings.force, "N"));
+        values.push(quantity(
+            "T",
+            &[contact.friction_force],
+            roundings.force,
+            "N",
+        ));
+        let ends = sorted_by_position(contact.application_points, [n1, n2]);
+        values.push(quantity("N at its ends", &ends, roundings.force, "N"));
     }
-    values.push(plain("μ", contact.interface.friction));
+    values.push(unitless("μ", contact.interface.friction));
     Fact {
         kind: "interface".into(),
         names: bodies(scene, contact.interface.bodies),
@@ -141,9 +146,9 @@ fn contact(scene: &Scene, contact: &Contact, proved: bool, places: &Places) -> F
     }
 }
 
-/// The forces at two points in an order that does not depend on which of the points is reported first. No edge of a usual
-/// structure has the slope at which the two would tie.
-fn in_order(at: [Point; 2], forces: [f64; 2]) -> [f64; 2] {
+/// The forces at two points, sorted by position: the facts must not depend on the order of the points in the result.
+/// The slope of the sort direction is irrational (0.38…, from the golden ratio), so that two ends of an edge hardly ever tie.
+fn sorted_by_position(at: [Point; 2], forces: [f64; 2]) -> [f64; 2] {
     let along = |p: Point| p.x + 0.381_966_011_25 * p.y;
     let [a, b] = forces;
     if along(at[0]) <= along(at[1]) {
@@ -153,7 +158,7 @@ fn in_order(at: [Point; 2], forces: [f64; 2]) -> [f64; 2] {
     }
 }
 
-/// Names of two bodies, the ground last: which of them a result tells first is no fact about the structure.
+/// The sorted names of two bodies, the ground last: the facts must not depend on the order of the bodies in the result.
 fn bodies(scene: &Scene, bodies: [BodyId; 2]) -> Vec<String> {
     let mut names: Vec<(bool, String)> = bodies
         .iter()
@@ -163,13 +168,13 @@ fn bodies(scene: &Scene, bodies: [BodyId; 2]) -> Vec<String> {
     names.into_iter().map(|(_, name)| name).collect()
 }
 
-fn robot(scene: &Scene, robot: &RobotForce, places: &Places) -> Fact {
+fn robot(scene: &Scene, robot: &RobotForce, roundings: &Roundings) -> Fact {
     Fact {
         kind: "robot".into(),
         names: grip(scene, robot.robot, robot.block),
         values: vec![
-            quantity("force", &pair(robot.force), places.force, "N"),
-            quantity("torque", &[robot.torque], places.torque, "N·m"),
+            quantity("force", &pair(robot.force), roundings.force, "N"),
+            quantity("torque", &[robot.torque], roundings.torque, "N·m"),
         ],
     }
 }
@@ -179,8 +184,8 @@ fn grip(scene: &Scene, robot: RobotId, block: BlockId) -> Vec<String> {
     vec![name(&robot.id), name(&block.id)]
 }
 
-fn failure(scene: &Scene, failure: &Failure, places: &Places) -> Fact {
-    let newtons = |amount: f64| vec![quantity("missing", &[amount], places.force, "N")];
+fn failure(scene: &Scene, failure: &Failure, roundings: &Roundings) -> Fact {
+    let newtons = |amount: f64| vec![quantity("missing", &[amount], roundings.force, "N")];
     let (kind, names, values) = match *failure {
         Failure::Tension {
             bodies: b, force, ..
@@ -196,7 +201,7 @@ fn failure(scene: &Scene, failure: &Failure, places: &Places) -> Fact {
         } => (
             "failure robot",
             grip(scene, robot, block),
-            vec![quantity("missing", &pair(force), places.force, "N")],
+            vec![quantity("missing", &pair(force), roundings.force, "N")],
         ),
         Failure::RobotTorque {
             robot,
@@ -206,7 +211,7 @@ fn failure(scene: &Scene, failure: &Failure, places: &Places) -> Fact {
         } => (
             "failure robot",
             grip(scene, robot, block),
-            vec![quantity("missing", &[torque], places.torque, "N·m")],
+            vec![quantity("missing", &[torque], roundings.torque, "N·m")],
         ),
     };
     Fact {
@@ -220,21 +225,21 @@ fn pair(v: Vector) -> [f64; 2] {
     [v.x, v.y]
 }
 
-/// A name on one line, as short as a line can bear.
+/// A name on one line, shortened to 200 characters.
 fn name(foreign: &str) -> String {
     text::heading(foreign, 200)
 }
 
-fn quantity(name: &str, values: &[f64], place: Rounding, unit: &str) -> Value {
+fn quantity(name: &str, values: &[f64], rounding: Rounding, unit: &str) -> Value {
     Value {
         name: name.into(),
-        numbers: values.iter().map(|v| place.write(*v)).collect(),
+        numbers: values.iter().map(|v| rounding.write(*v)).collect(),
         unit: unit.into(),
     }
 }
 
-/// A number without a unit, to six decimals at most.
-fn plain(name: &str, value: f64) -> Value {
+/// A number without a unit, with at most six decimals.
+fn unitless(name: &str, value: f64) -> Value {
     let written = format!("{value:.6}");
     Value {
         name: name.into(),

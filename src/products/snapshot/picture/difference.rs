@@ -1,16 +1,17 @@
-//! [`Difference`]: how many pixels differ, by how much, and where.
+//! [`Difference`]: counts the pixels that differ, and shows where they are.
 
 use super::Picture;
-use super::palette::apart;
-use super::perception::{differ, smoothed};
+use super::palette::max_channel_difference;
+use super::perception::{differ, is_antialiased};
 
-/// From when on two pixels differ.
+/// The differences that pixels may have.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PixelTolerance {
-    /// So much may each channel differ, of 255. Where something shows through, channels count by how much of them is seen.
+    /// The largest allowed difference of a channel, of 255. Colours of transparent pixels are multiplied by alpha first.
+    /// The default is 1: another processor or compiler may round a blended colour to the neighbouring value.
     pub channel: u8,
-    /// Where given, pixels beyond that are told apart as eyes do: by distances in brightness and colour above this threshold, from
-    /// 0 to 1, and not where they only smooth the same edge in another way.
+    /// If given, pixels beyond `channel` must also look different: their colour distance must exceed this threshold, from 0
+    /// to 1, and they must not be antialiasing of the same edge. pixelmatch uses 0.1.
     pub perceptual: Option<f64>,
 }
 
@@ -23,36 +24,75 @@ impl Default for PixelTolerance {
     }
 }
 
-/// What a pixel of the difference shows.
+/// The result for one pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Mark {
     Same,
     Smoothed,
     Changed,
-    /// Only one of the two pictures reaches so far.
+    /// Outside one of the pictures.
     Beyond,
 }
 
-/// How two pictures differ.
+/// A pixel of both pictures.
+struct PixelPair<'p> {
+    expected: &'p Picture,
+    found: &'p Picture,
+    x: u32,
+    y: u32,
+}
+
+impl PixelPair<'_> {
+    /// The mark of the pixel and the largest difference of a channel; `None` if the tolerance allows the difference.
+    fn compare(&self, tolerance: PixelTolerance) -> Option<(Mark, u8)> {
+        let (expected, found) = (self.expected, self.found);
+        let (a, b) = (expected.pixel(self.x, self.y), found.pixel(self.x, self.y));
+        // The palette of a reference may have rounded the colours.
+        let rounding = expected.rounding_of(a).max(found.rounding_of(b));
+        let by = visible_difference(a, b);
+        if by <= tolerance.channel.saturating_add(rounding) {
+            return None;
+        }
+        let Some(threshold) = tolerance.perceptual else {
+            return Some((Mark::Changed, by));
+        };
+        if !differ(a, b, threshold) {
+            return None;
+        }
+        // Antialiasing is found from the neighbours, which correspond only in pictures of equal size.
+        let same_size = (expected.width, expected.height) == (found.width, found.height);
+        let antialiased = same_size
+            && (is_antialiased(expected, found, self.x, self.y)
+                || is_antialiased(found, expected, self.x, self.y));
+        let mark = if antialiased {
+            Mark::Smoothed
+        } else {
+            Mark::Changed
+        };
+        Some((mark, by))
+    }
+}
+
+/// The difference of two pictures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Difference {
-    /// Pixels that differ, where both pictures have pixels.
+    /// The number of pixels that differ, among those of both pictures.
     pub changed: u64,
-    /// Pixels that differ in how an edge is smoothed and are let pass.
+    /// The number of pixels that differ only in antialiasing; they count as equal.
     pub smoothed: u64,
-    /// Pixels that both pictures have.
+    /// The number of pixels that both pictures have.
     pub of: u64,
-    /// The largest difference of a channel among the pixels that differ, of 255.
+    /// The largest difference of a channel, of 255.
     pub largest: u8,
-    /// Left, top, width and height of the box around the pixels that differ.
+    /// Left, top, width and height of the bounding box of the pixels that differ.
     pub bounds: Option<[u32; 4]>,
-    /// Width and height of the expected and of the found picture.
+    /// The sizes of the expected and of the found picture: width and height.
     pub sizes: [(u32, u32); 2],
     marks: Vec<Mark>,
 }
 
 impl Difference {
-    /// Compares a picture with the one that is expected.
+    /// Compares a picture with the expected one.
     ///
     /// # Example
     /// ```
@@ -67,89 +107,93 @@ impl Difference {
     /// assert_eq!(found.words(), "2 of 40 pixels differ, by up to 240 of 255, within 2 × 2 pixels from (3, 0)");
     /// ```
     pub fn new(expected: &Picture, found: &Picture, tolerance: PixelTolerance) -> Difference {
-        let wide = expected.width.max(found.width);
-        let high = expected.height.max(found.height);
-        let (across, down) = (
+        let (width, height) = (
             expected.width.min(found.width),
             expected.height.min(found.height),
         );
         let mut difference = Difference {
             changed: 0,
             smoothed: 0,
-            of: u64::from(across) * u64::from(down),
+            of: u64::from(width) * u64::from(height),
             largest: 0,
             bounds: None,
             sizes: [expected, found].map(|p| (p.width, p.height)),
             marks: Vec::new(),
         };
-        // The box as left, top, right, bottom.
-        let mut seen: Option<[u32; 4]> = None;
-        let mut changes: Vec<(u32, u32, Mark)> = Vec::new();
-        for y in 0..down {
+        let mut marked: Vec<(u32, u32, Mark)> = Vec::new();
+        for y in 0..height {
             let row = |p: &Picture| {
                 let begin = y as usize * p.width as usize;
-                begin..begin + across as usize
+                begin..begin + width as usize
             };
+            // 1. Skip equal rows and equal pixels: most of a picture.
             let (a, b) = (&expected.rgba[row(expected)], &found.rgba[row(found)]);
             if a == b {
                 continue;
             }
-            for (x, (a, b)) in (0..across).zip(a.iter().zip(b)) {
+            for (x, (a, b)) in (0..width).zip(a.iter().zip(b)) {
                 if a == b {
                     continue;
                 }
-                let allowed = tolerance
-                    .channel
-                    .saturating_add(expected.rounded(*a).max(found.rounded(*b)));
-                let by = visible(*a, *b);
-                if by <= allowed {
-                    continue;
+                // 2. Compare the pixel, and mark it if it differs.
+                let pair = PixelPair {
+                    expected,
+                    found,
+                    x,
+                    y,
+                };
+                if let Some((mark, by)) = pair.compare(tolerance) {
+                    difference.count(mark, by, x, y);
+                    marked.push((x, y, mark));
                 }
-                let mut mark = Mark::Changed;
-                if let Some(threshold) = tolerance.perceptual {
-                    if !differ(*a, *b, threshold) {
-                        continue;
-                    }
-                    let same_size = difference.sizes[0] == difference.sizes[1];
-                    if same_size
-                        && (smoothed(expected, found, x, y) || smoothed(found, expected, x, y))
-                    {
-                        mark = Mark::Smoothed;
-                    }
-                }
-                changes.push((x, y, mark));
-                if mark == Mark::Smoothed {
-                    difference.smoothed += 1;
-                    continue;
-                }
-                difference.changed += 1;
-                difference.largest = difference.largest.max(by);
-                seen = Some(match seen {
-                    None => [x, y, x, y],
-                    Some([l, t, r, d]) => [l.min(x), t.min(y), r.max(x), d.max(y)],
-                });
             }
         }
-        difference.bounds = seen.map(|[l, t, r, d]| [l, t, r - l + 1, d - t + 1]);
+        // 3. Keep the marks for the image of the difference.
         if !difference.is_none() {
-            difference.marks = vec![Mark::Beyond; wide as usize * high as usize];
-            let place = |x: u32, y: u32| y as usize * wide as usize + x as usize;
-            for y in 0..down {
-                difference.marks[place(0, y)..place(0, y) + across as usize].fill(Mark::Same);
-            }
-            for (x, y, mark) in changes {
-                difference.marks[place(x, y)] = mark;
-            }
+            difference.set_marks(&marked);
         }
         difference
     }
 
-    /// Whether there is none worth telling.
+    /// Adds a differing pixel to the counts and to the bounding box.
+    fn count(&mut self, mark: Mark, by: u8, x: u32, y: u32) {
+        if mark == Mark::Smoothed {
+            self.smoothed += 1;
+            return;
+        }
+        self.changed += 1;
+        self.largest = self.largest.max(by);
+        self.bounds = Some(match self.bounds {
+            None => [x, y, 1, 1],
+            Some([left, top, width, height]) => {
+                let (right, bottom) = ((left + width).max(x + 1), (top + height).max(y + 1));
+                let (left, top) = (left.min(x), top.min(y));
+                [left, top, right - left, bottom - top]
+            }
+        });
+    }
+
+    /// Fills the marks of all pixels of the larger of both sizes.
+    fn set_marks(&mut self, marked: &[(u32, u32, Mark)]) {
+        let [(ew, eh), (fw, fh)] = self.sizes;
+        let (all_across, all_down) = (ew.max(fw), eh.max(fh));
+        self.marks = vec![Mark::Beyond; all_across as usize * all_down as usize];
+        let index = |x: u32, y: u32| y as usize * all_across as usize + x as usize;
+        for y in 0..eh.min(fh) {
+            let begin = index(0, y);
+            self.marks[begin..begin + ew.min(fw) as usize].fill(Mark::Same);
+        }
+        for (x, y, mark) in marked {
+            self.marks[index(*x, *y)] = *mark;
+        }
+    }
+
+    /// Whether the pictures count as equal.
     pub fn is_none(&self) -> bool {
         self.changed == 0 && self.sizes[0] == self.sizes[1]
     }
 
-    /// The difference in a sentence.
+    /// A sentence that describes the difference.
     pub fn words(&self) -> String {
         let [(ew, eh), (fw, fh)] = self.sizes;
         let mut words = Vec::new();
@@ -159,7 +203,7 @@ impl Difference {
         if let Some([x, y, w, h]) = self.bounds {
             let smoothed = match self.smoothed {
                 0 => String::new(),
-                n => format!("; {n} more only smooth an edge in another way"),
+                n => format!("; {n} more differ only in antialiasing"),
             };
             words.push(format!(
                 "{} of {} pixels differ, by up to {} of 255, within {w} × {h} pixels from ({x}, {y}){smoothed}",
@@ -169,8 +213,8 @@ impl Difference {
         words.join("; ")
     }
 
-    /// The expected picture faded, what differs in red within its box, smoothing that is let pass in yellow, and what only one of
-    /// the pictures has in blue.
+    /// An image of the difference: the expected picture in pale grey, differing pixels in red with their bounding box,
+    /// antialiasing in yellow, and pixels that only one picture has in blue.
     pub fn image(&self, expected: &Picture) -> Picture {
         let [(ew, eh), (fw, fh)] = self.sizes;
         let (wide, high) = (ew.max(fw), eh.max(fh));
@@ -195,19 +239,19 @@ impl Difference {
     }
 }
 
-/// The largest difference of a channel as it is seen: each channel by its share of alpha, and alpha itself.
-fn visible(a: [u8; 4], b: [u8; 4]) -> u8 {
+/// The largest visible difference of a channel: colours are multiplied by alpha, and alpha counts as a channel.
+fn visible_difference(a: [u8; 4], b: [u8; 4]) -> u8 {
     if a[3] == 255 && b[3] == 255 {
-        return apart(a, b);
+        return max_channel_difference(a, b);
     }
     let premultiplied = |[r, g, b, alpha]: [u8; 4]| {
         let share = |c: u8| ((u16::from(c) * u16::from(alpha) + 127) / 255) as u8;
         [share(r), share(g), share(b), alpha]
     };
-    apart(premultiplied(a), premultiplied(b))
+    max_channel_difference(premultiplied(a), premultiplied(b))
 }
 
-/// A pale grey as dark as the colour is, in 32 steps.
+/// A pale grey by the brightness of a colour, in 32 steps: few colours make a small PNG.
 fn faded([r, g, b, a]: [u8; 4]) -> [u8; 4] {
     let grey = (299 * u32::from(r) + 587 * u32::from(g) + 114 * u32::from(b)) / 1000;
     let ink = (255 - grey) * u32::from(a) / 255;
@@ -215,7 +259,7 @@ fn faded([r, g, b, a]: [u8; 4]) -> [u8; 4] {
     [pale as u8, pale as u8, pale as u8, 255]
 }
 
-/// A line around a box, three pixels off.
+/// Draws a rectangle around a box, at a distance of 3 pixels.
 fn frame(picture: &mut Picture, [x, y, w, h]: [u32; 4]) {
     const OFF: u32 = 3;
     const LINE: [u8; 4] = [0xf0, 0x70, 0x80, 255];

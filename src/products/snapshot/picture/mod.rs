@@ -1,10 +1,10 @@
-//! [`Picture`]: the pixels of a PNG, whoever wrote it.
+//! [`Picture`]: reads PNG files of any program, and writes small reference files.
 //!
-//! Every sort of PNG becomes 8 bits of red, green, blue and alpha, not premultiplied; 16 bits are rounded to 8. What is no
-//! whole PNG is refused with a sentence of its own ([`PictureError`]). A picture written by [`Picture::encode`] may have had
-//! its rare colours rounded to make the file small; it then says by how much each, and the comparison counts that in.
+//! Every PNG becomes 8-bit red, green, blue and alpha, not premultiplied; 16 bits are rounded to 8. Other files give a
+//! [`PictureError`] that says what they are. [`Picture::encode`] may round rare colours to make the file small. It then
+//! stores the rounding of each colour, and [`Difference`] allows for it.
 //!
-//! The second door of the png crate: `output::png` writes what we draw, this reads what anyone wrote.
+//! `output::png` writes the pictures that users ask for; this module reads and writes references.
 
 mod difference;
 mod palette;
@@ -20,21 +20,21 @@ use palette::Palette;
 
 use crate::output::png::{MAX_PIXELS, MAX_SIDE};
 
-/// The keyword under which a reference says what it shows: a scene or a figure.
+/// The PNG text keyword for the subject of a reference: a scene or a figure.
 const SUBJECT: &str = "drystone-snapshot";
-/// The keyword under which a reference says by how much the colours of its table were rounded.
+/// The PNG text keyword for the roundings of the colours in the palette.
 const ROUNDING: &str = "drystone-rounding";
-/// How a Git LFS pointer begins.
+/// The first bytes of a Git LFS pointer.
 const POINTER: &[u8] = b"version https://git-lfs";
-/// How every PNG begins.
+/// The first bytes of a PNG.
 const SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
 
-/// What a reference shows.
+/// The subject of a reference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Subject {
-    /// A scene file beside it.
+    /// A scene file next to the reference.
     Scene,
-    /// A drawing that a test makes.
+    /// A drawing from a test.
     Figure,
 }
 
@@ -47,66 +47,66 @@ impl Subject {
     }
 }
 
-/// Why a file is no picture to compare with.
+/// Why a file cannot be compared.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum PictureError {
-    /// No bytes at all.
+    /// The file is empty.
     #[error("it is empty (0 bytes)")]
     Empty,
-    /// What Git LFS leaves where the file itself was not fetched.
+    /// A Git LFS pointer in place of the file.
     #[error("it is a Git LFS pointer and not the picture; fetch it with `git lfs pull`")]
     Pointer,
-    /// Another format.
-    #[error("it is no PNG: {0}")]
+    /// A file of another format.
+    #[error("it is not a PNG: {0}")]
     Foreign(&'static str),
-    /// The end is missing.
-    #[error("it is cut off: its {0} bytes end before the picture does")]
+    /// A PNG whose end is missing.
+    #[error("it is truncated after {0} bytes")]
     Truncated(usize),
-    /// Something inside is wrong.
+    /// A PNG that cannot be decoded.
     #[error("it is a damaged PNG: {0}")]
     Damaged(String),
-    /// More than is compared.
+    /// A picture with too many pixels.
     #[error(
         "{width} × {height} pixels are too many: at most {MAX_SIDE} along a side and {} million in all",
         MAX_PIXELS / 1_000_000
     )]
     Large {
-        /// Pixels across.
+        /// The width in pixels.
         width: u32,
-        /// Pixels down.
+        /// The height in pixels.
         height: u32,
     },
-    /// Several pictures.
-    #[error("it is an animation of {0} pictures; a snapshot is one picture")]
+    /// An animation.
+    #[error("it is an animation of {0} pictures; a snapshot must be a single picture")]
     Animation(u32),
 }
 
-/// Pixels.
+/// A picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Picture {
-    /// Pixels across.
+    /// The width in pixels.
     pub width: u32,
-    /// Pixels down.
+    /// The height in pixels.
     pub height: u32,
-    /// Red, green, blue and alpha of each pixel, row by row from the upper left corner, not premultiplied. Where alpha is 0 the
-    /// others are.
+    /// Red, green, blue and alpha of each pixel, row by row from the upper left corner, not premultiplied. If alpha is 0, the
+    /// other channels are 0 too, because nobody sees them.
     rgba: Vec<[u8; 4]>,
-    /// By how much each channel of a colour may have been rounded; colours that are absent were not.
+    /// The largest rounding of a channel, for each colour that was rounded.
     rounding: BTreeMap<[u8; 4], u8>,
-    /// What it says that it shows.
+    /// The subject that is stored in the file.
     pub subject: Option<Subject>,
 }
 
 impl Picture {
-    /// Pixels as they are: red, green, blue and alpha, row by row, not premultiplied.
+    /// A picture from its pixels: red, green, blue and alpha, row by row, not premultiplied.
     ///
     /// # Panics
-    /// Where there are not `width` × `height` pixels.
+    /// If there are not `width` × `height` pixels.
     pub fn new(width: u32, height: u32, mut rgba: Vec<[u8; 4]>) -> Picture {
         assert_eq!(
             rgba.len() as u64,
             u64::from(width) * u64::from(height),
-            "a picture has as many pixels as its width times its height"
+            "the number of pixels must be width times height"
         );
         for pixel in rgba.iter_mut().filter(|p| p[3] == 0) {
             *pixel = [0; 4];
@@ -120,10 +120,10 @@ impl Picture {
         }
     }
 
-    /// The picture in a PNG.
+    /// Decodes a PNG.
     ///
     /// # Errors
-    /// [`PictureError`], whatever the bytes are.
+    /// [`PictureError`] for any other bytes.
     ///
     /// # Example
     /// ```
@@ -169,7 +169,7 @@ impl Picture {
         let mut picture = Picture::new(
             width,
             height,
-            straight(&data, frame.color_type, frame.bit_depth),
+            to_rgba(&data, frame.color_type, frame.bit_depth),
         );
         picture.rounding = rounding.unwrap_or_default();
         picture.subject = [Subject::Scene, Subject::Figure]
@@ -178,11 +178,11 @@ impl Picture {
         Ok(picture)
     }
 
-    /// A small PNG: a table of at most 256 colours where nothing shows through. Colours that cover much of the picture are kept
-    /// as they are, the others are rounded as little as the table allows, and the file says by how much each.
+    /// Encodes a small PNG with a palette of at most 256 colours, if the picture is opaque. Frequent colours are exact. The
+    /// others are rounded as little as the palette allows, and the file stores the rounding of each.
     ///
     /// # Errors
-    /// The encoder's reason.
+    /// The message of the encoder.
     pub fn encode(&self, subject: Option<Subject>) -> Result<Vec<u8>, String> {
         palette::encode(self, Palette::new(&self.rgba).as_ref(), subject)
     }
@@ -190,7 +190,7 @@ impl Picture {
     /// Red, green, blue and alpha of the pixel in column x and row y.
     ///
     /// # Panics
-    /// Beyond the edge.
+    /// If the pixel is outside the picture.
     pub fn pixel(&self, x: u32, y: u32) -> [u8; 4] {
         self.rgba[y as usize * self.width as usize + x as usize]
     }
@@ -200,8 +200,9 @@ impl Picture {
         &self.rgba
     }
 
-    /// Whether its table is full, as that of a picture whose colours were rounded, and no rounding is reported.
-    pub(super) fn lost_its_note(&self) -> bool {
+    /// Whether the picture seems to have lost the note on its roundings: it has nearly as many colours as a full palette,
+    /// and neither a rounding nor a subject.
+    pub(super) fn has_lost_rounding_note(&self) -> bool {
         let mut colours: Vec<[u8; 4]> = self
             .rgba
             .chunk_by(|a, b| a == b)
@@ -212,13 +213,13 @@ impl Picture {
         self.rounding.is_empty() && self.subject.is_none() && (200..=256).contains(&colours.len())
     }
 
-    /// By how much a channel of this colour may have been rounded when the picture was written.
-    fn rounded(&self, colour: [u8; 4]) -> u8 {
+    /// The largest rounding of a channel of this colour.
+    fn rounding_of(&self, colour: [u8; 4]) -> u8 {
         self.rounding.get(&colour).copied().unwrap_or(0)
     }
 }
 
-/// What bytes are that do not begin like a PNG.
+/// The error for bytes that do not begin like a PNG.
 fn foreign(bytes: &[u8]) -> Option<PictureError> {
     let begins = |with: &[u8]| bytes.starts_with(with);
     if bytes.is_empty() {
@@ -235,22 +236,21 @@ fn foreign(bytes: &[u8]) -> Option<PictureError> {
     }
     Some(PictureError::Foreign(match bytes {
         b if b.starts_with(b"\x89PNG") => {
-            "its line ends were changed, as for a text; mark *.png as binary in .gitattributes"
+            "its line endings were converted as in a text file; mark *.png as binary in .gitattributes"
         }
         b if b.starts_with(b"\xff\xd8") => "it is a JPEG",
         b if b.starts_with(b"GIF8") => "it is a GIF",
         b if b.starts_with(b"RIFF") => "it is a WebP or another RIFF file",
-        b if b.len() >= 7 && b[..7].iter().all(|b| *b == b'<') => {
-            "it has the marks of a merge conflict"
-        }
-        [b'<', ..] => "it is SVG or another text in angle brackets",
-        b if b.iter().all(|b| *b == 0) => "it holds nothing but zeros",
-        _ => "it begins with other bytes",
+        b if b.len() >= 7 && b[..7].iter().all(|b| *b == b'<') => "it contains a merge conflict",
+        [b'<', ..] => "it is SVG or another XML file",
+        b if b.iter().all(|b| *b == 0) => "all its bytes are zero",
+        _ => "it begins with unknown bytes",
     }))
 }
 
-/// Samples of any colour type as red, green, blue and alpha of 8 bits. Palettes and few bits are expanded already.
-fn straight(data: &[u8], colour: ColorType, depth: BitDepth) -> Vec<[u8; 4]> {
+/// Converts samples of any colour type to 8-bit red, green, blue and alpha. The decoder has expanded palettes and samples of
+/// fewer than 8 bits already.
+fn to_rgba(data: &[u8], colour: ColorType, depth: BitDepth) -> Vec<[u8; 4]> {
     let eight: Vec<u8>;
     let samples = if depth == BitDepth::Sixteen {
         let round = |pair: &[u8]| {

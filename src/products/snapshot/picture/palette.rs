@@ -1,41 +1,45 @@
-//! [`Palette`]: at most 256 colours for a picture, and by how much that rounds each.
+//! [`Palette`]: chooses at most 256 colours for a picture, and records the rounding of each.
 //!
-//! Our pictures are flat: a few colours cover nearly all of a page, and many hundreds stand along smoothed edges. The first are
-//! kept as they are, so that a changed colour is seen however small the change; the others are gathered in boxes, the box with the
-//! widest channel being cut in half until the table is full, which keeps the largest rounding small. Rounding is reported
-//! per colour in the file, as two hexadecimal digits each: a comparison that did not know it would have to be blind by as
-//! much everywhere.
+//! Figures are flat: a few colours cover nearly all of the page, and hundreds occur along antialiased edges. The algorithm
+//! is a variant of median cut (Heckbert 1982) that minimises the largest error:
+//!
+//! 1. Frequent colours stay exact, so that even a small change of such a colour is found.
+//! 2. The other colours start in one box. The box with the widest channel is cut in half until the palette is full.
+//! 3. Each box is represented by the colour next to its centre.
+//!
+//! The file stores the rounding of each colour as two hexadecimal digits. Without it, the comparison would have to allow
+//! the largest rounding for every pixel.
 
 use std::collections::BTreeMap;
 
 use super::{Picture, ROUNDING, SUBJECT, Subject};
 
-/// Colours in a table.
-const MOST: usize = 256;
-/// So many of the commonest colours are kept as they are.
-const KEPT: usize = 128;
-/// So many pixels have a colour that is worth keeping as it is.
-const COMMON: usize = 24;
+/// The size of a PNG palette.
+const MAX_COLOURS: usize = 256;
+/// At most this many frequent colours stay exact; the rest of the palette is for boxes.
+const MAX_EXACT_COLOURS: usize = 128;
+/// A colour is frequent if at least this many pixels have it: a small arrow head, not an antialiased edge.
+const MIN_FREQUENT_PIXELS: usize = 24;
 
-/// A table of colours.
+/// A palette.
 pub(super) struct Palette {
-    /// The colours, in order.
+    /// The colours, sorted.
     colours: Vec<[u8; 4]>,
-    /// By how much a channel of a pixel may differ from its colour in the table.
+    /// The largest rounding of a channel, for each colour of the palette.
     rounding: Vec<u8>,
-    /// The place in the table of each colour of the picture.
-    place: BTreeMap<[u8; 4], u8>,
+    /// The index in the palette for each colour of the picture.
+    index: BTreeMap<[u8; 4], u8>,
 }
 
 impl Palette {
-    /// The table for these pixels. `None` where something shows through and there are too many colours: those pictures are kept
-    /// whole.
+    /// The palette for these pixels. `None` for pictures with transparent pixels and more than 256 colours, which are stored
+    /// without a palette.
     pub(super) fn new(pixels: &[[u8; 4]]) -> Option<Palette> {
         let mut counts: BTreeMap<[u8; 4], usize> = BTreeMap::new();
         for run in pixels.chunk_by(|a, b| a == b) {
             *counts.entry(run[0]).or_default() += run.len();
         }
-        if counts.len() <= MOST {
+        if counts.len() <= MAX_COLOURS {
             let exact = counts.into_keys().map(|c| (c, vec![c])).collect();
             return Some(Palette::with(exact));
         }
@@ -43,17 +47,17 @@ impl Palette {
             return None;
         }
         let mut common: Vec<([u8; 4], usize)> = counts.iter().map(|(c, n)| (*c, *n)).collect();
-        common.retain(|(_, count)| *count >= COMMON);
-        // The commonest first; the map's order decides between equals.
+        common.retain(|(_, count)| *count >= MIN_FREQUENT_PIXELS);
+        // Most frequent first. Equal counts keep the order of the map, so that the result is reproducible.
         common.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
-        common.truncate(KEPT);
-        let mut entries: Vec<([u8; 4], Vec<[u8; 4]>)> = Vec::with_capacity(MOST);
+        common.truncate(MAX_EXACT_COLOURS);
+        let mut entries: Vec<([u8; 4], Vec<[u8; 4]>)> = Vec::with_capacity(MAX_COLOURS);
         for (colour, _) in common {
             counts.remove(&colour);
             entries.push((colour, vec![colour]));
         }
         let rest: Vec<[u8; 4]> = counts.into_keys().collect();
-        for members in boxes(rest, MOST - entries.len()) {
+        for members in boxes(rest, MAX_COLOURS - entries.len()) {
             entries.push((middle(&members), members));
         }
         Some(Palette::with(entries))
@@ -64,26 +68,29 @@ impl Palette {
         let mut palette = Palette {
             colours: Vec::new(),
             rounding: Vec::new(),
-            place: BTreeMap::new(),
+            index: BTreeMap::new(),
         };
         for (number, (colour, members)) in entries.into_iter().enumerate() {
-            let far = members.iter().map(|m| apart(*m, colour)).max();
+            let far = members
+                .iter()
+                .map(|m| max_channel_difference(*m, colour))
+                .max();
             palette.colours.push(colour);
             palette.rounding.push(far.unwrap_or(0));
             let places = members.into_iter().map(|m| (m, number as u8));
-            palette.place.extend(places);
+            palette.index.extend(places);
         }
         palette
     }
 
-    /// The note of the roundings, where there are any.
+    /// The note that stores the roundings, if there are any.
     fn note(&self) -> Option<String> {
         let any = self.rounding.iter().any(|r| *r > 0);
         any.then(|| self.rounding.iter().map(|r| format!("{r:02x}")).collect())
     }
 }
 
-/// The roundings of a note, by colour. A note that does not fit its table says nothing.
+/// Reads the roundings from a note. A note whose length does not match the palette is ignored.
 pub(super) fn rounding(note: &str, table: &[u8]) -> BTreeMap<[u8; 4], u8> {
     let digits: Vec<char> = note.chars().collect();
     let values = digits.chunks(2).map(|pair| {
@@ -99,12 +106,12 @@ pub(super) fn rounding(note: &str, table: &[u8]) -> BTreeMap<[u8; 4], u8> {
 }
 
 /// The largest difference of a channel.
-pub(super) fn apart(a: [u8; 4], b: [u8; 4]) -> u8 {
+pub(super) fn max_channel_difference(a: [u8; 4], b: [u8; 4]) -> u8 {
     let channels = a.iter().zip(b).map(|(a, b)| a.abs_diff(b));
     channels.max().unwrap_or(0)
 }
 
-/// Lowest and highest value of the widest channel, and which that is.
+/// The lowest and highest value of the widest channel, and its index.
 fn widest(members: &[[u8; 4]]) -> (u8, u8, usize) {
     let range = |channel: usize| {
         let values = members.iter().map(|m| m[channel]);
@@ -121,13 +128,13 @@ fn widest(members: &[[u8; 4]]) -> (u8, u8, usize) {
     best
 }
 
-/// Colours in at most so many boxes, the largest width of a box being as small as halving makes it.
-fn boxes(all: Vec<[u8; 4]>, most: usize) -> Vec<Vec<[u8; 4]>> {
+/// Sorts colours into at most `max` boxes by halving the widest box again and again.
+fn boxes(all: Vec<[u8; 4]>, max: usize) -> Vec<Vec<[u8; 4]>> {
     let mut boxes = vec![all];
     let mut widths = vec![widest(&boxes[0])];
-    while boxes.len() < most {
+    while boxes.len() < max {
         let wide = |w: &(u8, u8, usize)| w.1.saturating_sub(w.0);
-        // The first of the widest.
+        // The first of the widest boxes.
         let mut at = 0;
         for (place, width) in widths.iter().enumerate() {
             if wide(width) > wide(&widths[at]) {
@@ -149,7 +156,7 @@ fn boxes(all: Vec<[u8; 4]>, most: usize) -> Vec<Vec<[u8; 4]>> {
     boxes
 }
 
-/// The member nearest to the middle of a box: a colour of its own in every table.
+/// The member nearest to the centre of a box. It belongs to no other box, so all colours of a palette differ.
 fn middle(members: &[[u8; 4]]) -> [u8; 4] {
     let mut centre = [0; 4];
     for (channel, value) in centre.iter_mut().enumerate() {
@@ -157,11 +164,13 @@ fn middle(members: &[[u8; 4]]) -> [u8; 4] {
         let (low, high) = values.fold((255, 0), |(low, high), v| (v.min(low), v.max(high)));
         *value = low + (high - low) / 2;
     }
-    let nearest = members.iter().min_by_key(|m| apart(**m, centre));
+    let nearest = members
+        .iter()
+        .min_by_key(|m| max_channel_difference(**m, centre));
     nearest.copied().unwrap_or(centre)
 }
 
-/// A PNG with this table, or with all its colours where there is none.
+/// Encodes a PNG with a palette, or with true colours if there is none.
 pub(super) fn encode(
     picture: &Picture,
     palette: Option<&Palette>,
@@ -184,7 +193,7 @@ pub(super) fn encode(
         }
         Some(palette) => {
             encoder.set_color(png::ColorType::Indexed);
-            // Neighbours in a table are no neighbours in colour: differences say nothing.
+            // PNG filters store differences of neighbouring bytes. Differences of palette indices do not compress better.
             encoder.set_filter(png::Filter::NoFilter);
             let opaque = palette.colours.iter().flat_map(|c| [c[0], c[1], c[2]]);
             encoder.set_palette(opaque.collect::<Vec<u8>>());
@@ -197,7 +206,7 @@ pub(super) fn encode(
             }
             data = Vec::with_capacity(picture.rgba.len());
             for run in picture.rgba.chunk_by(|a, b| a == b) {
-                let place = palette.place.get(&run[0]).copied().unwrap_or_default();
+                let place = palette.index.get(&run[0]).copied().unwrap_or_default();
                 data.resize(data.len() + run.len(), place);
             }
         }
@@ -226,17 +235,17 @@ mod tests {
     }
 
     #[test]
-    fn common_colours_are_kept_and_every_rounding_is_told() {
+    fn frequent_colours_are_exact_and_every_rounding_is_stored() {
         let page = page();
         let bytes = page.encode(Some(Subject::Scene)).expect("encoded");
         let read = Picture::decode(&bytes).expect("readable");
         assert_eq!(read.subject, Some(Subject::Scene));
-        assert_eq!(read.rounded([255; 4]), 0);
-        assert_eq!(read.rounded([30, 60, 90, 255]), 0);
+        assert_eq!(read.rounding_of([255; 4]), 0);
+        assert_eq!(read.rounding_of([30, 60, 90, 255]), 0);
         let mut worst = 0;
         for (before, after) in page.pixels().iter().zip(read.pixels()) {
-            let far = apart(*before, *after);
-            assert!(far <= read.rounded(*after), "{before:?} {after:?}");
+            let far = max_channel_difference(*before, *after);
+            assert!(far <= read.rounding_of(*after), "{before:?} {after:?}");
             worst = worst.max(far);
         }
         assert!((1..32).contains(&worst), "{worst}");
@@ -244,7 +253,7 @@ mod tests {
     }
 
     #[test]
-    fn few_colours_and_clear_pages_lose_nothing() {
+    fn few_colours_and_transparent_pages_lose_nothing() {
         let few = Picture::new(3, 1, vec![[1, 2, 3, 255], [9, 9, 9, 40], [7, 7, 7, 0]]);
         let read = Picture::decode(&few.encode(None).expect("encoded")).expect("readable");
         assert_eq!(read, few);
@@ -255,7 +264,7 @@ mod tests {
     }
 
     #[test]
-    fn a_note_that_does_not_fit_says_nothing() {
+    fn a_note_of_the_wrong_length_is_ignored() {
         assert!(rounding("0102", &[0; 9]).is_empty());
         assert!(rounding("zz01ff", &[0; 9]).is_empty());
         assert_eq!(rounding("03", &[1, 2, 4])[&[1, 2, 4, 255]], 3);

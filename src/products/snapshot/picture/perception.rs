@@ -1,15 +1,15 @@
-//! Whether a difference of two pixels would be seen, and whether it is only another smoothing of the same edge.
+//! Decides whether two colours look different, and whether a pixel is part of an antialiased edge.
 //!
-//! Distances are those of Kotsarenko and Ramos (2010), in brightness and two axes of colour; smoothed edges are found by the
-//! neighbours as Vyšniauskas (2009) does: a pixel between a darker and a brighter neighbour, one of which lies in an even
-//! area in both pictures. The same two rules make up pixelmatch, whose counts a test repeats.
+//! Colour distance: Kotsarenko and Ramos (2010), in the YIQ colour space. Antialiasing: Vyšniauskas (2009). A pixel is
+//! antialiased if it has a darker and a brighter neighbour, and one of these lies in an area of one colour in both
+//! pictures. pixelmatch uses the same two rules; a test compares with its counts.
 
 use super::Picture;
 
-/// The largest distance there is, between black and white.
-const LARGEST: f64 = 35_215.0;
+/// The largest distance, between black and white.
+const MAX_DISTANCE: f64 = 35_215.0;
 
-/// A colour on white, its transparency gone.
+/// A colour blended with a white background.
 fn on_white([r, g, b, a]: [u8; 4]) -> [f64; 3] {
     let share = f64::from(a) / 255.0;
     [r, g, b].map(|c| 255.0 + (f64::from(c) - 255.0) * share)
@@ -19,9 +19,9 @@ fn brightness([r, g, b]: [f64; 3]) -> f64 {
     0.298_895_31 * r + 0.586_622_47 * g + 0.114_482_23 * b
 }
 
-/// Whether two colours look different, by a threshold from 0 (any) to 1 (black from white).
+/// Whether two colours look different. The threshold goes from 0 (any difference) to 1 (black and white).
 pub(super) fn differ(a: [u8; 4], b: [u8; 4], threshold: f64) -> bool {
-    distance(a, b) > LARGEST * threshold * threshold
+    distance(a, b) > MAX_DISTANCE * threshold * threshold
 }
 
 fn distance(a: [u8; 4], b: [u8; 4]) -> f64 {
@@ -36,7 +36,7 @@ fn distance(a: [u8; 4], b: [u8; 4]) -> f64 {
     0.5053 * y * y + 0.299 * i * i + 0.1957 * q * q
 }
 
-/// The neighbours of a pixel, and whether it lies at the edge of its picture.
+/// The neighbours of a pixel, and whether it lies at the border of the picture.
 fn neighbours(picture: &Picture, x: u32, y: u32) -> (impl Iterator<Item = (u32, u32)>, bool) {
     let (left, top) = (x.saturating_sub(1), y.saturating_sub(1));
     let (right, bottom) = (
@@ -48,8 +48,9 @@ fn neighbours(picture: &Picture, x: u32, y: u32) -> (impl Iterator<Item = (u32, 
     (all.filter(move |place| *place != (x, y)), edge)
 }
 
-/// Whether a pixel of `picture` is part of a smoothed edge that `other` has too.
-pub(super) fn smoothed(picture: &Picture, other: &Picture, x: u32, y: u32) -> bool {
+/// Whether a pixel of `picture` is part of an antialiased edge that `other` has too.
+pub(super) fn is_antialiased(picture: &Picture, other: &Picture, x: u32, y: u32) -> bool {
+    // Find the darkest and the brightest neighbour. More than two equal neighbours: an area, not an edge.
     let own = brightness(on_white(picture.pixel(x, y)));
     let (around, edge) = neighbours(picture, x, y);
     let mut equal = usize::from(edge);
@@ -71,12 +72,12 @@ pub(super) fn smoothed(picture: &Picture, other: &Picture, x: u32, y: u32) -> bo
             brightest = (delta, (i, j));
         }
     }
-    let even = |(i, j): (u32, u32)| even(picture, i, j) && even(other, i, j);
-    darkest.0 < 0.0 && brightest.0 > 0.0 && (even(darkest.1) || even(brightest.1))
+    let is_flat = |(i, j): (u32, u32)| is_flat(picture, i, j) && is_flat(other, i, j);
+    darkest.0 < 0.0 && brightest.0 > 0.0 && (is_flat(darkest.1) || is_flat(brightest.1))
 }
 
-/// Whether more than two neighbours of a pixel have its colour.
-fn even(picture: &Picture, x: u32, y: u32) -> bool {
+/// Whether more than two neighbours of a pixel have its colour. The border of the picture counts as one neighbour.
+fn is_flat(picture: &Picture, x: u32, y: u32) -> bool {
     let (around, edge) = neighbours(picture, x, y);
     let own = picture.pixel(x, y);
     let same = around.filter(|(i, j)| picture.pixel(*i, *j) == own);

@@ -1,4 +1,4 @@
-//! The basic shapes of SVG as tracks.
+//! Converts the basic shapes of SVG to subpaths.
 
 use core::f64::consts::FRAC_PI_2;
 
@@ -8,13 +8,13 @@ use svgtypes::PointsParser;
 use super::path;
 use super::viewport::{Viewport, length};
 use crate::geometry::{Point, Vector};
-use crate::import::track::{Arc, Piece, Track};
+use crate::import::subpath::{Arc, Segment, Subpath};
 
-/// The tracks of a shape, in its own coordinates.
+/// The subpaths of a shape, in its own coordinates.
 ///
 /// # Errors
-/// What is wrong with it, in words.
-pub(super) fn tracks(node: Node<'_, '_>, viewport: Viewport) -> Result<Vec<Track>, String> {
+/// A message if the shape has no valid size.
+pub(super) fn subpaths(node: Node<'_, '_>, viewport: Viewport) -> Result<Vec<Subpath>, String> {
     let tag = node.tag_name().name();
     let across = |name| length(node, name, viewport.width);
     let down = |name| length(node, name, viewport.height);
@@ -49,34 +49,34 @@ pub(super) fn tracks(node: Node<'_, '_>, viewport: Viewport) -> Result<Vec<Track
                     positive("radius ry", ry.or(rx))?,
                 )
             };
-            Ok(vec![Track::ellipse(centre, rx, ry)])
+            Ok(vec![Subpath::ellipse(centre, rx, ry)])
         }
         "polygon" | "polyline" => {
             let text = node.attribute("points").unwrap_or("");
             let points: Vec<Point> = PointsParser::from(text)
                 .map(|p| Point::new(p.0, p.1))
                 .collect();
-            let Some(track) = Track::closed(&points) else {
+            let Some(subpath) = Subpath::closed(&points) else {
                 return Err("it has no points".into());
             };
             let closed = tag == "polygon";
-            Ok(vec![Track { closed, ..track }])
+            Ok(vec![Subpath { closed, ..subpath }])
         }
         "line" => {
             let place = |x, y| Point::new(across(x).unwrap_or(0.0), down(y).unwrap_or(0.0));
-            let pieces = vec![Piece::Line(place("x2", "y2"))];
-            Ok(vec![Track {
+            let segments = vec![Segment::Line(place("x2", "y2"))];
+            Ok(vec![Subpath {
                 start: place("x1", "y1"),
-                pieces,
+                segments,
                 closed: false,
             }])
         }
-        _ => path::tracks(node.attribute("d").unwrap_or(""))
+        _ => path::subpaths(node.attribute("d").unwrap_or(""))
             .map_err(|why| format!("its path data cannot be read ({why})")),
     }
 }
 
-fn rectangle(at: Point, size: Vector, radii: Vector) -> Track {
+fn rectangle(at: Point, size: Vector, radii: Vector) -> Subpath {
     let corner = |x: f64, y: f64| at + Vector::new(x * size.x, y * size.y);
     if !(radii.x > 0.0 && radii.y > 0.0) {
         let corners = [
@@ -85,15 +85,15 @@ fn rectangle(at: Point, size: Vector, radii: Vector) -> Track {
             corner(1.0, 1.0),
             corner(0.0, 1.0),
         ];
-        return Track {
+        return Subpath {
             start: corners[0],
-            pieces: corners[1..].iter().map(|p| Piece::Line(*p)).collect(),
+            segments: corners[1..].iter().map(|p| Segment::Line(*p)).collect(),
             closed: true,
         };
     }
     let (u, v) = (Vector::new(radii.x, 0.0), Vector::new(0.0, radii.y));
-    let mut pieces = Vec::new();
-    // Clockwise on the page, from the end of the upper left rounding.
+    let mut segments = Vec::new();
+    // Clockwise on the page, starting after the rounded upper left corner.
     let roundings = [
         (corner(1.0, 0.0) - u + v, -1.0, -v, u),
         (corner(1.0, 1.0) - u - v, 0.0, u, v),
@@ -101,8 +101,8 @@ fn rectangle(at: Point, size: Vector, radii: Vector) -> Track {
         (corner(0.0, 0.0) + u + v, 2.0, -u, -v),
     ];
     for (centre, quarters, from, to) in roundings {
-        pieces.push(Piece::Line(centre + from));
-        pieces.push(Piece::Arc(Arc {
+        segments.push(Segment::Line(centre + from));
+        segments.push(Segment::Arc(Arc {
             centre,
             u,
             v,
@@ -111,9 +111,9 @@ fn rectangle(at: Point, size: Vector, radii: Vector) -> Track {
             to: centre + to,
         }));
     }
-    Track {
+    Subpath {
         start: corner(0.0, 0.0) + u,
-        pieces,
+        segments,
         closed: true,
     }
 }
@@ -123,19 +123,19 @@ mod tests {
     use super::*;
     use crate::geometry::snap::area;
 
-    fn shape(element: &str) -> Result<Vec<Track>, String> {
+    fn shape(element: &str) -> Result<Vec<Subpath>, String> {
         let document = roxmltree::Document::parse(element).expect("XML");
         let viewport = Viewport {
             width: 200.0,
             height: 100.0,
             copied: (None, None),
         };
-        tracks(document.root_element(), viewport)
+        subpaths(document.root_element(), viewport)
     }
 
     fn shape_area(element: &str) -> f64 {
-        let tracks = shape(element).expect("a shape");
-        area(&tracks[0].flattened(1e-4, 1e-9).expect("closed"))
+        let subpaths = shape(element).expect("a shape");
+        area(&subpaths[0].flattened(1e-4, 1e-9).expect("closed"))
     }
 
     #[test]
@@ -166,7 +166,7 @@ mod tests {
     }
 
     #[test]
-    fn shapes_without_a_size_say_so() {
+    fn shapes_without_a_size_are_reported() {
         for (element, why) in [
             ("<rect width='4'/>", "it has no height"),
             ("<circle r='-1'/>", "its radius is -1"),

@@ -1,18 +1,20 @@
-//! A figure that drystone drew, read back: its blocks, ground and robots, and nothing of its forces.
+//! Reads a figure by drystone: its blocks, ground and robots, but not its forces.
 
 use roxmltree::{Node, NodeType};
 
+use super::element;
 use super::style::Style;
 use super::viewport::Viewport;
-use super::{Around, Walk, element, is, words};
+use super::walk::{Context, Walk};
+use super::xml::{is, words};
 use crate::import::affine::Affine;
-use crate::import::draft::{Form, Part, Role, Rule, Values};
+use crate::import::draft::{FillRule, Form, Part, Role, Values};
 
 const SCALE: &str = "data-drystone-scale";
 const ORIGIN: &str = "data-drystone-origin";
 
-/// The frames of a figure of ours, in their order; `None` for any other drawing.
-pub(super) fn pictures<'a, 'd>(root: Node<'a, 'd>) -> Option<Vec<Node<'a, 'd>>> {
+/// The frames of a figure by drystone, in order; `None` for other drawings.
+pub(super) fn frames<'a, 'd>(root: Node<'a, 'd>) -> Option<Vec<Node<'a, 'd>>> {
     let found: Vec<Node<'a, 'd>> = root
         .descendants()
         .filter(|n| {
@@ -23,7 +25,7 @@ pub(super) fn pictures<'a, 'd>(root: Node<'a, 'd>) -> Option<Vec<Node<'a, 'd>>> 
 }
 
 impl<'a, 'd> Walk<'a, 'd> {
-    /// One frame of a figure, by its number from 0; the last where none is asked for.
+    /// Reads one frame of a figure, counted from 0; the last by default.
     pub(super) fn figure(
         &mut self,
         pictures: &[Node<'a, 'd>],
@@ -38,7 +40,10 @@ impl<'a, 'd> Walk<'a, 'd> {
             } else {
                 format!("{count} frames")
             };
-            return Err(format!("there is no frame {}: it has {has}", number + 1));
+            return Err(format!(
+                "there is no frame {}: the figure has {has}",
+                number + 1
+            ));
         };
         let numbers = |name: &str| -> Option<Vec<f64>> {
             let text = picture.attribute(name)?;
@@ -50,7 +55,7 @@ impl<'a, 'd> Walk<'a, 'd> {
         let (pixels, origin) = (numbers(SCALE), numbers(ORIGIN));
         let (Some([pixels]), Some([x, y])) = (pixels.as_deref(), origin.as_deref()) else {
             return Err(format!(
-                "its {SCALE} and {ORIGIN} are not the three numbers that drystone writes"
+                "its {SCALE} and {ORIGIN} are not the three numbers that drystone writes; export the figure again"
             ));
         };
         let metres = scale.unwrap_or(1.0 / pixels);
@@ -61,14 +66,14 @@ impl<'a, 'd> Walk<'a, 'd> {
             "a figure by drystone".into()
         } else {
             format!(
-                "a figure by drystone; taken from its frame {} of {count}",
+                "a figure by drystone; imported from frame {} of {count}",
                 number + 1
             )
         };
         self.draft.notes.push(format!(
-            "{note}: colours and arrows tell forces and are not taken, and weights, friction and limits are not in it"
+            "{note}: colours and arrows show forces and are not imported; weights, friction and limits are not in the figure"
         ));
-        let around = Around {
+        let around = Context {
             map: Affine([metres, 0.0, 0.0, -metres, -metres * x, metres * y]),
             style: Style::ROOT,
             viewport: Viewport {
@@ -81,18 +86,18 @@ impl<'a, 'd> Walk<'a, 'd> {
             copy: None,
             depth: 0,
         };
-        self.within(picture, &around);
+        self.read_groups(picture, &around);
         Ok(())
     }
 
-    fn within(&mut self, node: Node<'a, 'd>, around: &Around) {
-        // A figure of ours nests no deeper.
+    fn read_groups(&mut self, node: Node<'a, 'd>, around: &Context) {
+        // Figures by drystone are not nested deeper.
         if around.depth > 4 {
             return;
         }
         for child in node.children().filter(|n| is(*n, "g")) {
-            // An editor may have moved things.
-            let around = Around {
+            // The user may have moved groups in an editor.
+            let around = Context {
                 map: around.map.after(&self.transform(child, around)),
                 depth: around.depth + 1,
                 ..around.clone()
@@ -105,33 +110,33 @@ impl<'a, 'd> Walk<'a, 'd> {
             match child.attribute("class").unwrap_or("") {
                 "ground" => {
                     for path in child.children().filter(|n| is(*n, "path")) {
-                        self.body(path, &around, Role::Ground, "");
+                        self.add_body(path, &around, Role::Ground, "");
                     }
                 }
                 "blocks" => {
-                    // Very many blocks come in one path for each colour, without names.
+                    // Figures with very many blocks have one path per colour, without names.
                     for path in child.children().filter(|n| is(*n, "path")) {
-                        self.body(path, &around, Role::Block, "");
+                        self.add_body(path, &around, Role::Block, "");
                     }
-                    self.within(child, &around);
+                    self.read_groups(child, &around);
                 }
                 "block" => {
                     let name = title.strip_prefix("Block ").unwrap_or(&title);
                     if let Some(path) = child.children().find(|n| is(*n, "path")) {
-                        self.body(path, &around, Role::Block, name);
+                        self.add_body(path, &around, Role::Block, name);
                     }
                 }
-                "robots" => self.within(child, &around),
+                "robots" => self.read_groups(child, &around),
                 "robot" => {
                     let name = title.strip_prefix("Robot ").unwrap_or(&title);
                     let name = name.split_once(" holds block ").map_or(name, |n| n.0);
                     if let Some(path) = child.children().find(|n| is(*n, "path")) {
-                        self.body(path, &around, Role::Robot, name);
+                        self.add_body(path, &around, Role::Robot, name);
                     }
                 }
                 "plans" => {
                     for plan in child.children().filter(|n| is(*n, "g")) {
-                        self.skip(plan, &around, "is only planned");
+                        self.skip(plan, &around, "it is only planned in this frame");
                     }
                 }
                 _ => {}
@@ -139,21 +144,21 @@ impl<'a, 'd> Walk<'a, 'd> {
         }
     }
 
-    fn body(&mut self, path: Node<'a, 'd>, around: &Around, kind: Role, name: &str) {
+    fn add_body(&mut self, path: Node<'a, 'd>, around: &Context, kind: Role, name: &str) {
         let map = around.map.after(&self.transform(path, around));
         let element = match (kind, name) {
             (Role::Block, name) if !name.is_empty() => format!("block \"{name}\""),
             (Role::Robot, name) => format!("robot \"{name}\""),
             _ => self.lines.element(path),
         };
-        match element::tracks(path, around.viewport) {
-            Ok(tracks) => self.draft.parts.push(Part {
+        match element::subpaths(path, around.viewport) {
+            Ok(subpaths) => self.draft.parts.push(Part {
                 kind,
                 name: name.to_owned(),
                 element,
-                form: Form::Tracks(
-                    tracks.iter().map(|t| t.mapped(&map)).collect(),
-                    Rule::NonZero,
+                form: Form::Subpaths(
+                    subpaths.iter().map(|t| t.mapped(&map)).collect(),
+                    FillRule::NonZero,
                 ),
                 fill: None,
                 values: Values::default(),

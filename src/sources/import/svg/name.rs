@@ -1,32 +1,33 @@
-//! What elements are called: by people, by the programs that drew them, and in messages.
+//! The names of elements: those given by users, those made by programs, and those in messages.
 
 use roxmltree::Node;
 
 const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
 
-/// The name a person gave an element: Inkscape's label or Illustrator's name; else its id, unless a program made that up.
-pub(super) fn given(node: Node<'_, '_>) -> Option<String> {
+/// The name that the user gave to an element: the label of Inkscape, the name of Illustrator, or an id that no program
+/// generated.
+pub(super) fn user_name(node: Node<'_, '_>) -> Option<String> {
     label(node).or_else(|| {
-        let id = node.attribute("id").filter(|id| !is_made_up(node, id))?;
+        let id = node.attribute("id").filter(|id| !is_generated(node, id))?;
         Some(unescaped(id)).filter(|name| !name.is_empty())
     })
 }
 
-/// The best name there is, made up or not.
-pub(super) fn any(node: Node<'_, '_>) -> Option<String> {
-    given(node).or_else(|| {
+/// The name given by the user, or a generated id.
+pub(super) fn any_name(node: Node<'_, '_>) -> Option<String> {
+    user_name(node).or_else(|| {
         let id = node.attribute("id")?;
         Some(unescaped(id)).filter(|name| !name.is_empty())
     })
 }
 
-/// All names by which an element may say what it is.
-pub(super) fn all(node: Node<'_, '_>) -> impl Iterator<Item = String> {
+/// All names from which an element may get its role.
+pub(super) fn all_names(node: Node<'_, '_>) -> impl Iterator<Item = String> {
     let id = node.attribute("id").map(unescaped);
     label(node).into_iter().chain(id)
 }
 
-/// Whether a group is a layer, whose name is that of a place and not of a thing.
+/// Whether a group is an Inkscape layer. The name of a layer is not used for the blocks in it.
 pub(super) fn is_layer(node: Node<'_, '_>) -> bool {
     node.attribute((INKSCAPE, "groupmode")) == Some("layer")
 }
@@ -37,14 +38,14 @@ fn label(node: Node<'_, '_>) -> Option<String> {
     (!name.is_empty()).then(|| name.to_owned())
 }
 
-/// Whether an id is the tag and a number, as Inkscape numbers what it draws.
-fn is_made_up(node: Node<'_, '_>, id: &str) -> bool {
+/// Whether an id was generated: Inkscape uses the tag and a number.
+fn is_generated(node: Node<'_, '_>, id: &str) -> bool {
     id.strip_prefix(node.tag_name().name()).is_some_and(|rest| {
         !rest.is_empty() && rest.bytes().all(|b| b.is_ascii_digit() || b == b'-')
     })
 }
 
-/// An id without Illustrator's escapes: `_x30_` is a 0, and a number between underscores at the end tells twins apart.
+/// Undoes the escapes of Illustrator: `_x30_` stands for 0, and `_2_` at the end marks the second object of a name.
 fn unescaped(id: &str) -> String {
     let mut out = String::new();
     let mut rest = id.trim();
@@ -77,7 +78,7 @@ fn unescaped(id: &str) -> String {
     out + rest
 }
 
-/// Where lines begin, to tell the line of an element that has no name.
+/// The offsets of lines, for the line numbers of elements without a name.
 pub(super) struct Lines(Vec<usize>);
 
 impl Lines {
@@ -86,7 +87,7 @@ impl Lines {
         Lines(std::iter::once(0).chain(ends.map(|e| e.0 + 1)).collect())
     }
 
-    /// How a person finds an element: by its name, else by its line.
+    /// A description of an element for messages: its name, or its line.
     pub(super) fn element(&self, node: Node<'_, '_>) -> String {
         let tag = node.tag_name().name();
         match label(node).or_else(|| node.attribute("id").map(str::to_owned)) {
@@ -122,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn people_name_better_than_programs() {
+    fn names_by_users_take_precedence() {
         let text = "<svg xmlns:inkscape='http://www.inkscape.org/namespaces/inkscape'>\n\
             <path id='path12-3' inkscape:label='keystone'/><path id='path12'/><path id='arch'/>\n<path/></svg>";
         let document = roxmltree::Document::parse(text).expect("XML");
@@ -132,7 +133,10 @@ mod tests {
             .children()
             .filter(Node::is_element)
             .collect();
-        let names: Vec<_> = nodes.iter().map(|n| (given(*n), any(*n))).collect();
+        let names: Vec<_> = nodes
+            .iter()
+            .map(|n| (user_name(*n), any_name(*n)))
+            .collect();
         let some = |s: &str| Some(s.to_owned());
         assert_eq!(names[0], (some("keystone"), some("keystone")));
         assert_eq!(names[1], (None, some("path12")));

@@ -1,57 +1,61 @@
-//! Path data into tracks: every command of SVG, absolute and relative.
+//! Parses SVG path data into subpaths: all commands, absolute and relative.
 
 use core::f64::consts::TAU;
 
 use svgtypes::{PathParser, PathSegment};
 
 use crate::geometry::{Point, Vector, cross};
-use crate::import::track::{Arc, Piece, Track};
+use crate::import::subpath::{Arc, Segment, Subpath};
 
-/// The tracks of a `d` attribute.
+/// The subpaths of a `d` attribute.
 ///
 /// # Errors
-/// The reader's words where the text is no path data.
-pub(super) fn tracks(text: &str) -> Result<Vec<Track>, String> {
-    let mut pen = TrackBuilder {
-        tracks: Vec::new(),
+/// The message of the parser.
+pub(super) fn subpaths(text: &str) -> Result<Vec<Subpath>, String> {
+    let mut builder = SubpathBuilder {
+        subpaths: Vec::new(),
         at: Point::origin(),
         open: None,
         handle: None,
         quadratic: None,
     };
     for segment in PathParser::from(text) {
-        pen.draw(segment.map_err(|error| error.to_string())?);
+        builder.draw(segment.map_err(|error| error.to_string())?);
     }
-    pen.lift();
-    Ok(pen.tracks)
+    builder.finish();
+    Ok(builder.subpaths)
 }
 
-struct TrackBuilder {
-    tracks: Vec<Track>,
+struct SubpathBuilder {
+    subpaths: Vec<Subpath>,
     at: Point,
-    open: Option<Track>,
-    /// The last cubic's second handle, where the last command was a cubic; a smooth one continues it.
+    open: Option<Subpath>,
+    /// The second control point of the last command if it was a cubic curve: a smooth curve mirrors it.
     handle: Option<Point>,
-    /// Likewise the handle of a quadratic.
+    /// The control point of the last command if it was a quadratic curve.
     quadratic: Option<Point>,
 }
 
-impl TrackBuilder {
-    fn lift(&mut self) {
-        self.tracks
-            .extend(self.open.take().filter(|track| !track.pieces.is_empty()));
+impl SubpathBuilder {
+    /// Ends the open subpath.
+    fn finish(&mut self) {
+        self.subpaths.extend(
+            self.open
+                .take()
+                .filter(|subpath| !subpath.segments.is_empty()),
+        );
     }
 
-    /// A track, begun where the pen is if none is: after a `Z` the next may do without an `M`.
-    fn add(&mut self, piece: Piece) {
+    /// Adds a segment. After a `Z`, a new subpath starts at the present point without an `M`.
+    fn add(&mut self, segment: Segment) {
         let start = self.at;
-        let track = self.open.get_or_insert(Track {
+        let subpath = self.open.get_or_insert(Subpath {
             start,
-            pieces: Vec::new(),
+            segments: Vec::new(),
             closed: false,
         });
-        track.pieces.push(piece);
-        self.at = piece.end();
+        subpath.segments.push(segment);
+        self.at = segment.end();
     }
 
     fn draw(&mut self, segment: PathSegment) {
@@ -64,20 +68,20 @@ impl TrackBuilder {
         let (handle, quadratic) = (self.handle.take(), self.quadratic.take());
         match segment {
             PathSegment::MoveTo { x, y, .. } => {
-                self.lift();
+                self.finish();
                 self.at = place(x, y);
-                self.open = Some(Track {
+                self.open = Some(Subpath {
                     start: self.at,
-                    pieces: Vec::new(),
+                    segments: Vec::new(),
                     closed: false,
                 });
             }
-            PathSegment::LineTo { x, y, .. } => self.add(Piece::Line(place(x, y))),
+            PathSegment::LineTo { x, y, .. } => self.add(Segment::Line(place(x, y))),
             PathSegment::HorizontalLineTo { x, .. } => {
-                self.add(Piece::Line(Point::new(x + base.x, self.at.y)));
+                self.add(Segment::Line(Point::new(x + base.x, self.at.y)));
             }
             PathSegment::VerticalLineTo { y, .. } => {
-                self.add(Piece::Line(Point::new(self.at.x, y + base.y)));
+                self.add(Segment::Line(Point::new(self.at.x, y + base.y)));
             }
             PathSegment::CurveTo {
                 x1,
@@ -89,12 +93,12 @@ impl TrackBuilder {
                 ..
             } => {
                 self.handle = Some(place(x2, y2));
-                self.add(Piece::Cubic(place(x1, y1), place(x2, y2), place(x, y)));
+                self.add(Segment::Cubic(place(x1, y1), place(x2, y2), place(x, y)));
             }
             PathSegment::SmoothCurveTo { x2, y2, x, y, .. } => {
                 let first = handle.map_or(self.at, |h| self.at + (self.at - h));
                 self.handle = Some(place(x2, y2));
-                self.add(Piece::Cubic(first, place(x2, y2), place(x, y)));
+                self.add(Segment::Cubic(first, place(x2, y2), place(x, y)));
             }
             PathSegment::Quadratic { x1, y1, x, y, .. } => {
                 self.quadratic(place(x1, y1), place(x, y));
@@ -116,30 +120,35 @@ impl TrackBuilder {
                 let to = place(x, y);
                 let turn = x_axis_rotation.to_radians();
                 self.add(match arc(self.at, to, [rx, ry], turn, large_arc, sweep) {
-                    Some(arc) => Piece::Arc(arc),
-                    None => Piece::Line(to),
+                    Some(arc) => Segment::Arc(arc),
+                    None => Segment::Line(to),
                 });
             }
             PathSegment::ClosePath { .. } => {
-                if let Some(mut track) = self.open.take() {
-                    self.at = track.start;
-                    track.closed = true;
-                    self.open = Some(track);
-                    self.lift();
+                if let Some(mut subpath) = self.open.take() {
+                    self.at = subpath.start;
+                    subpath.closed = true;
+                    self.open = Some(subpath);
+                    self.finish();
                 }
             }
         }
     }
 
-    /// A quadratic is a cubic whose handles lie two thirds of the way to its own.
+    /// Adds a quadratic curve as a cubic one: its control points are at 2/3 of the way to the quadratic control point.
     fn quadratic(&mut self, handle: Point, to: Point) {
         let towards = |from: Point| from + (handle - from) * (2.0 / 3.0);
         self.quadratic = Some(handle);
-        self.add(Piece::Cubic(towards(self.at), towards(to), to));
+        self.add(Segment::Cubic(towards(self.at), towards(to), to));
     }
 }
 
-/// An arc by its ends, as SVG gives it, by its centre; `None` where it is a straight line (SVG 2, appendix B.2).
+/// Converts an arc from its end points to its centre (SVG 2, appendix B.2.4). `None` if it is a straight line.
+///
+/// 1. Map the ellipse to the unit circle; h is half the chord.
+/// 2. If the chord is longer than the diameter, enlarge the radii (B.2.5).
+/// 3. The centre is at distance √(1 − h²) from the middle of the chord; the flags choose the side.
+/// 4. Compute the angles of both ends, and correct the sign of the sweep.
 fn arc(
     from: Point,
     to: Point,
@@ -154,19 +163,21 @@ fn arc(
     }
     let (sin, cos) = libm::sincos(turn);
     let (along, across) = (Vector::new(cos, sin), Vector::new(-sin, cos));
-    // On a unit circle: half the chord, in which the radii are too small where it is longer than 1.
+    // Steps 1 and 2.
     let half = (from - to) / 2.0;
     let h = Vector::new(half.dot(&along) / rx, half.dot(&across) / ry);
     let length = h.norm();
     let scale = length.max(1.0);
     let (rx, ry) = (rx * scale, ry * scale);
     let h = h / scale;
+    // Step 3.
     let off = ((1.0 - h.norm_squared()).max(0.0)).sqrt() / h.norm();
     let side = if large == clockwise { -off } else { off };
     let centre = Vector::new(h.y, -h.x) * side;
     let (u, v) = (along * rx, across * ry);
     let middle = from + (to - from) / 2.0;
     let (start, end) = (h - centre, -h - centre);
+    // Step 4.
     let begin = libm::atan2(start.y, start.x);
     let mut sweep = libm::atan2(cross(start, end), start.dot(&end));
     if clockwise && sweep < 0.0 {
@@ -174,7 +185,7 @@ fn arc(
     } else if !clockwise && sweep > 0.0 {
         sweep -= TAU;
     }
-    // Half a circle may come out on either side of a half turn.
+    // The sweep of a half circle may have either sign, and both are correct up to the corrections above.
     if sweep == 0.0 || !(rx.is_finite() && ry.is_finite()) {
         return None;
     }
@@ -193,9 +204,9 @@ mod tests {
     use super::*;
 
     fn corners(d: &str) -> Vec<(f64, f64)> {
-        let tracks = tracks(d).expect("path data");
-        assert_eq!(tracks.len(), 1, "{d}");
-        let corners = tracks[0].flattened(1e-4, 1e-9).expect("closed");
+        let subpaths = subpaths(d).expect("path data");
+        assert_eq!(subpaths.len(), 1, "{d}");
+        let corners = subpaths[0].flattened(1e-4, 1e-9).expect("closed");
         corners.iter().map(|c| (c.at.x, c.at.y)).collect()
     }
 
@@ -214,10 +225,13 @@ mod tests {
 
     #[test]
     fn what_follows_a_close_begins_where_the_closed_began() {
-        let tracks = tracks("M1 1h2v2z l-5 0 0 -5z M9 9").expect("path data");
-        assert_eq!(tracks.len(), 2);
-        assert_eq!(tracks[1].start, Point::new(1.0, 1.0));
-        assert_eq!(tracks[1].pieces[1], Piece::Line(Point::new(-4.0, -4.0)));
+        let subpaths = subpaths("M1 1h2v2z l-5 0 0 -5z M9 9").expect("path data");
+        assert_eq!(subpaths.len(), 2);
+        assert_eq!(subpaths[1].start, Point::new(1.0, 1.0));
+        assert_eq!(
+            subpaths[1].segments[1],
+            Segment::Line(Point::new(-4.0, -4.0))
+        );
     }
 
     #[test]
@@ -236,7 +250,7 @@ mod tests {
             }
             // A quarter of an ellipse, or three.
             let area = crate::geometry::snap::area(
-                &tracks(&d).expect("data")[0]
+                &subpaths(&d).expect("data")[0]
                     .flattened(1e-4, 1e-9)
                     .expect("closed"),
             );
@@ -264,6 +278,6 @@ mod tests {
         let smooth = corners("M0 0Q2 4 4 0T8 0L8-9Z");
         let plain = corners("M0 0Q2 4 4 0Q6 -4 8 0L8-9Z");
         assert_eq!(smooth, plain);
-        assert!(tracks("M0 0 L x").is_err());
+        assert!(subpaths("M0 0 L x").is_err());
     }
 }

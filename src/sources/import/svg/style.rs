@@ -1,51 +1,54 @@
-//! [`Style`]: what an element looks like, as far as it matters here: from presentation attributes, style sheets and `style`.
+//! [`Style`]: the fill and visibility of an element, from presentation attributes, style sheets and `style`.
+//!
+//! Only the properties that matter for an import are read. The cascade follows CSS: attributes, then style rules by
+//! specificity, then `style`, then `!important`.
 
 use roxmltree::Node;
 use simplecss::{AttributeOperator, DeclarationTokenizer, PseudoClass, StyleSheet};
 use svgtypes::{Color, Paint, PaintFallback};
 
-use crate::import::draft::Rule;
+use crate::import::draft::FillRule;
 
-/// The looks an element has, most of them handed down.
+/// The style of an element. Most properties are inherited.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Style {
     pub(super) fill: Fill,
-    /// `currentColor`.
+    /// The `color` property, for `currentColor`.
     colour: Option<[u8; 3]>,
-    pub(super) rule: Rule,
+    pub(super) rule: FillRule,
     pub(super) visible: bool,
-    /// Whether the element and all in it are taken out by `display: none`; not handed down but final.
+    /// False for `display: none`, which hides the element and all its children.
     pub(super) displayed: bool,
     pub(super) clipped: bool,
     pub(super) masked: bool,
 }
 
-/// What fills an element.
+/// The fill of an element.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Fill {
-    /// Nobody stated, and SVG would take black.
-    Unsaid,
+    /// Not specified; SVG then uses black.
+    Unspecified,
     None,
     Colour([u8; 3]),
     /// A gradient or a pattern.
-    Picture,
-    /// Something that is no paint.
+    Paint,
+    /// A value that is not valid.
     Unknown,
 }
 
 impl Style {
     pub(super) const ROOT: Style = Style {
-        fill: Fill::Unsaid,
+        fill: Fill::Unspecified,
         colour: None,
-        rule: Rule::NonZero,
+        rule: FillRule::NonZero,
         visible: true,
         displayed: true,
         clipped: false,
         masked: false,
     };
 
-    /// The style of an element within one of this style.
-    pub(super) fn of(&self, node: Node<'_, '_>, sheet: &StyleSheet<'_>) -> Style {
+    /// The style of a child element.
+    pub(super) fn of_child(&self, node: Node<'_, '_>, sheet: &StyleSheet<'_>) -> Style {
         let mut style = Style {
             displayed: true,
             clipped: false,
@@ -53,7 +56,7 @@ impl Style {
             ..*self
         };
         let own = declarations(node, sheet);
-        // `currentColor` in a fill means the colour of the same element, wherever it is stated.
+        // Read `color` first: `currentColor` in a fill refers to it, in any order of the declarations.
         for (name, value) in own.iter().filter(|d| d.0 == "color") {
             style.set(name, value, self);
         }
@@ -80,14 +83,14 @@ impl Style {
                     Ok(Paint::FuncIRI(_, Some(PaintFallback::Color(colour)))) => {
                         Fill::Colour(bytes(colour))
                     }
-                    Ok(Paint::FuncIRI(_, _)) => Fill::Picture,
-                    Ok(Paint::ContextFill | Paint::ContextStroke) => Fill::Unsaid,
+                    Ok(Paint::FuncIRI(_, _)) => Fill::Paint,
+                    Ok(Paint::ContextFill | Paint::ContextStroke) => Fill::Unspecified,
                     Err(_) => Fill::Unknown,
                 };
             }
             "fill-rule" => match value {
-                "evenodd" => self.rule = Rule::EvenOdd,
-                "nonzero" => self.rule = Rule::NonZero,
+                "evenodd" => self.rule = FillRule::EvenOdd,
+                "nonzero" => self.rule = FillRule::NonZero,
                 _ => {}
             },
             "visibility" => match value {
@@ -103,7 +106,7 @@ impl Style {
     }
 
     fn current(&self) -> Fill {
-        self.colour.map_or(Fill::Unsaid, Fill::Colour)
+        self.colour.map_or(Fill::Unspecified, Fill::Colour)
     }
 }
 
@@ -111,7 +114,7 @@ fn bytes(colour: Color) -> [u8; 3] {
     [colour.red, colour.green, colour.blue]
 }
 
-/// Everything said of an element, what counts more coming later.
+/// All declarations for an element, in increasing order of precedence.
 fn declarations<'v>(node: Node<'v, '_>, sheet: &'v StyleSheet<'_>) -> Vec<(&'v str, &'v str)> {
     let mut plain: Vec<(&str, &str)> = node
         .attributes()
@@ -172,12 +175,12 @@ mod tests {
         let document = roxmltree::Document::parse(&text).expect("XML");
         let root = document.root_element();
         let sheet = StyleSheet::parse(css);
-        let outer = Style::ROOT.of(root, &sheet);
-        outer.of(root.first_element_child().expect("an element"), &sheet)
+        let outer = Style::ROOT.of_child(root, &sheet);
+        outer.of_child(root.first_element_child().expect("an element"), &sheet)
     }
 
     #[test]
-    fn what_is_said_closer_counts_more() {
+    fn closer_declarations_take_precedence() {
         let cases = [
             ("<g/>", "", [255, 0, 0]),
             ("<g fill='#0f0'/>", "", [0, 255, 0]),
@@ -209,16 +212,19 @@ mod tests {
             assert_eq!(style(element, css).fill, Fill::Colour(fill), "{element}");
         }
         assert_eq!(style("<g fill='none'/>", "").fill, Fill::None);
-        assert_eq!(style("<g fill='url(#a)'/>", "").fill, Fill::Picture);
+        assert_eq!(style("<g fill='url(#a)'/>", "").fill, Fill::Paint);
         assert_eq!(style("<g fill='#zz'/>", "").fill, Fill::Unknown);
     }
 
     #[test]
-    fn what_hides_is_seen() {
+    fn hidden_elements_are_recognised() {
         assert!(!style("<g style='display:none'/>", "").displayed);
         assert!(!style("<g visibility='hidden'/>", "").visible);
         assert!(style("<g clip-path='url(#c)'/>", "").clipped);
         assert!(style("<g mask='url(#m)'/>", "").masked);
-        assert_eq!(style("<g fill-rule='evenodd'/>", "").rule, Rule::EvenOdd);
+        assert_eq!(
+            style("<g fill-rule='evenodd'/>", "").rule,
+            FillRule::EvenOdd
+        );
     }
 }

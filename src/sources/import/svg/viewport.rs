@@ -1,33 +1,33 @@
-//! [`Viewport`]: lengths and view boxes, and how large a drawing says it is.
+//! [`Viewport`]: lengths, view boxes and the physical size of a drawing.
 
 use core::str::FromStr;
 
 use roxmltree::Node;
 use svgtypes::{Align, AspectRatio, Length, LengthUnit, ViewBox};
 
-use super::Around;
+use super::walk::Context;
 use crate::import::affine::Affine;
 
-/// What percentages are of.
+/// The size to which percentages refer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Viewport {
     pub(super) width: f64,
     pub(super) height: f64,
-    /// The size that a copy gives the symbol it copies.
+    /// The size that a `<use>` element gives to its symbol.
     pub(super) copied: (Option<f64>, Option<f64>),
 }
 
-/// The root's page.
+/// The page of the root element.
 pub(super) struct Page {
     pub(super) viewport: Viewport,
-    /// Left and lower edge in user units.
+    /// The left and lower edge in user units.
     pub(super) left: f64,
     pub(super) bottom: f64,
-    /// Metres per user unit and the size that tells it, where there is a physical size.
+    /// Metres per user unit and the size from which it follows, if the drawing has a physical size.
     pub(super) unit: Option<(f64, String)>,
 }
 
-/// What the root element says of its size.
+/// The page from the attributes of the root element.
 pub(super) fn page(root: Node<'_, '_>) -> Page {
     let sizes =
         ["width", "height"].map(|name| root.attribute(name).and_then(|t| Length::from_str(t).ok()));
@@ -41,7 +41,7 @@ pub(super) fn page(root: Node<'_, '_>) -> Page {
     let metres = |i: usize| sizes[i].and_then(physical).filter(|m| *m > 0.0);
     let mut unit = None;
     if let Some(view) = view {
-        // As a viewer shows it: where width and height disagree, the smaller scale holds.
+        // If width and height give different scales, viewers use the smaller one.
         let per_width = metres(0).map(|m| m / view.w);
         let per_height = metres(1).map(|m| m / view.h);
         let scale = match (per_width, per_height) {
@@ -52,7 +52,7 @@ pub(super) fn page(root: Node<'_, '_>) -> Page {
             unit = Some((neat(scale), described(root, per_width.is_some())));
         }
     } else if metres(0).or(metres(1)).is_some() {
-        // Without a view box a unit is a pixel of 1/96 in.
+        // Without a view box, a user unit is a CSS pixel of 1/96 inch.
         unit = Some((0.0254 / 96.0, described(root, metres(0).is_some())));
     }
     let shown = view.unwrap_or(ViewBox::new(0.0, 0.0, 0.0, 0.0));
@@ -68,7 +68,7 @@ pub(super) fn page(root: Node<'_, '_>) -> Page {
     }
 }
 
-/// The size that told the scale, in words.
+/// The size from which the scale follows, in words.
 fn described(root: Node<'_, '_>, by_width: bool) -> String {
     let (name, way) = if by_width {
         ("width", "wide")
@@ -78,8 +78,8 @@ fn described(root: Node<'_, '_>, by_width: bool) -> String {
     format!("{} {way}", root.attribute(name).unwrap_or("").trim())
 }
 
-/// The map and percentages within a nested `<svg>` or a `<symbol>`.
-pub(super) fn enter(node: Node<'_, '_>, inner: &mut Around) {
+/// Sets the transform and the viewport for the content of a nested `<svg>` or a `<symbol>`.
+pub(super) fn enter(node: Node<'_, '_>, inner: &mut Context) {
     let (copied_width, copied_height) = inner.viewport.copied;
     let outer = inner.viewport;
     let (mut x, mut y) = (0.0, 0.0);
@@ -94,7 +94,7 @@ pub(super) fn enter(node: Node<'_, '_>, inner: &mut Around) {
         size.0.unwrap_or(outer.width),
         size.1.unwrap_or(outer.height),
     );
-    inner.map = inner.map.after(&Affine::moving(x, y));
+    inner.map = inner.map.after(&Affine::translation(x, y));
     inner.viewport = Viewport {
         width,
         height,
@@ -115,7 +115,7 @@ pub(super) fn enter(node: Node<'_, '_>, inner: &mut Around) {
     }
 }
 
-/// A length in user units; `None` where it is not given or no length.
+/// A length in user units; `None` if it is missing or not valid.
 pub(super) fn length(node: Node<'_, '_>, name: &str, whole: f64) -> Option<f64> {
     in_pixels(Length::from_str(node.attribute(name)?).ok()?, Some(whole))
 }
@@ -129,11 +129,11 @@ fn view_box(node: Node<'_, '_>) -> Option<ViewBox> {
         .then_some(view)
 }
 
-/// The map of a view box into a viewport of its own.
+/// The map of a view box into its viewport, by `preserveAspectRatio`.
 fn fitted(view: ViewBox, width: f64, height: f64, ratio: AspectRatio) -> Affine {
     let (sx, sy) = (width / view.w, height / view.h);
     if ratio.align == Align::None {
-        return Affine::scaling(sx, sy).after(&Affine::moving(-view.x, -view.y));
+        return Affine::scale(sx, sy).after(&Affine::translation(-view.x, -view.y));
     }
     let scale = if ratio.slice { sx.max(sy) } else { sx.min(sy) };
     let (free_x, free_y) = (width - scale * view.w, height - scale * view.h);
@@ -148,9 +148,9 @@ fn fitted(view: ViewBox, width: f64, height: f64, ratio: AspectRatio) -> Affine 
         Align::XMidYMax => (0.5, 1.0),
         Align::XMaxYMax => (1.0, 1.0),
     };
-    Affine::moving(x * free_x, y * free_y)
-        .after(&Affine::scaling(scale, scale))
-        .after(&Affine::moving(-view.x, -view.y))
+    Affine::translation(x * free_x, y * free_y)
+        .after(&Affine::scale(scale, scale))
+        .after(&Affine::translation(-view.x, -view.y))
 }
 
 fn in_pixels(length: Length, whole: Option<f64>) -> Option<f64> {
@@ -158,7 +158,7 @@ fn in_pixels(length: Length, whole: Option<f64>) -> Option<f64> {
     let pixels = match length.unit {
         LengthUnit::None | LengthUnit::Px => n,
         LengthUnit::Percent => n / 100.0 * whole?,
-        // A browser's letters, where nobody says otherwise.
+        // The default font size of browsers is 16 pixels.
         LengthUnit::Em => 16.0 * n,
         LengthUnit::Ex => 8.0 * n,
         _ => physical(length)? / 0.0254 * 96.0,
@@ -166,7 +166,7 @@ fn in_pixels(length: Length, whole: Option<f64>) -> Option<f64> {
     pixels.is_finite().then_some(pixels)
 }
 
-/// Metres, of a length in a unit that is as long everywhere.
+/// A length in metres, if its unit is absolute.
 fn physical(length: Length) -> Option<f64> {
     let metres = match length.unit {
         LengthUnit::Mm => 1e-3,
@@ -179,7 +179,7 @@ fn physical(length: Length) -> Option<f64> {
     Some(length.number * metres)
 }
 
-/// A scale without the noise of its division: 0.001 for 210 mm over 210 units.
+/// Rounds a scale to 15 digits, which removes the error of a division: 0.21 m / 210 gives 0.001.
 fn neat(scale: f64) -> f64 {
     format!("{scale:.14e}").parse().unwrap_or(scale)
 }

@@ -1,25 +1,27 @@
-//! Drawings of which too much lies in one place: refused before any work on pairs of outlines begins.
+//! Limits for drawings with too many overlapping outlines.
 //!
-//! Whether outlines touch, hold each other or overlap is a question about pairs. Where bodies lie side by side an index finds
-//! the few that matter; a thousand outlines on one spot are half a million pairs, and no structure.
+//! Tests for contact, holes and overlap compare pairs of outlines. For blocks side by side, an index finds the few pairs
+//! that matter. A thousand outlines in one place are half a million pairs, and not a structure. Such drawings are refused
+//! before the comparisons begin.
 
 use super::outline::Outlines;
 use super::{Remark, Role};
 use crate::geometry::Bounds;
 use crate::geometry::snap::Corner;
 
-/// A drawing has at most so many outlines, copies included.
-pub(super) const MOST_BODIES: usize = 20_000;
-/// So many pairs of outlines may lie over each other by their boxes, and for every outline so many more.
-const MOST_PAIRS: usize = 100_000;
-const PAIRS_EACH: usize = 10;
-/// So many comparisons of a corner with a side tell which outlines of one path lie in which.
-const MOST_WORK: usize = 200_000_000;
+/// The largest number of outlines, copies included.
+pub(super) const MAX_BODIES: usize = 20_000;
+/// The largest number of pairs with overlapping bounding boxes: a constant, plus a number for each outline. The
+/// voussoirs of an arch overlap by their boxes with a few neighbours each.
+const MAX_PAIRS: usize = 100_000;
+const MAX_PAIRS_PER_BODY: usize = 10;
+/// The largest number of comparisons of a corner with an edge for the holes of one path.
+const MAX_COMPARISONS: usize = 200_000_000;
 
-/// Why a drawing is refused.
+/// The reason why a drawing is refused, if it exceeds a limit.
 pub(super) fn problem(outlines: &Outlines) -> Option<Remark> {
     let count = outlines.bodies.len();
-    if count > MOST_BODIES {
+    if count > MAX_BODIES {
         return Some(too_many(count));
     }
     let boxes = |kind: Role| -> Vec<Bounds> {
@@ -28,30 +30,30 @@ pub(super) fn problem(outlines: &Outlines) -> Option<Remark> {
             .filter_map(|b| Bounds::from_points(b.rings.iter().flatten().map(|c| c.at)))
             .collect()
     };
-    let most = MOST_PAIRS + PAIRS_EACH * count;
+    let max = MAX_PAIRS + MAX_PAIRS_PER_BODY * count;
     let (blocks, ground) = (boxes(Role::Block), boxes(Role::Ground));
-    (pairs(blocks, most) > most || pairs(ground, most) > most).then(|| Remark {
+    (pairs(blocks, max) > max || pairs(ground, max) > max).then(|| Remark {
         element: String::new(),
         message: format!(
-            "of its {count} outlines more than {most} pairs lie over each other: they cannot be blocks side by side"
+            "more than {max} pairs of its {count} outlines overlap, so they cannot be blocks side by side"
         ),
-        help: "delete copies that lie on one another".into(),
+        help: "delete copies in the same place".into(),
     })
 }
 
-/// What is reported of a drawing of so many outlines.
+/// The remark about a drawing with too many outlines.
 pub(super) fn too_many(count: usize) -> Remark {
     Remark {
         element: String::new(),
         message: format!(
-            "the drawing has {count} outlines or more, copies included; at most {MOST_BODIES} are taken"
+            "the drawing has at least {count} outlines, copies included; the limit is {MAX_BODIES}"
         ),
-        help: "import a part of it, or name the layers that are no blocks ignore".into(),
+        help: "import a part of it, or rename layers without blocks to ignore".into(),
     }
 }
 
-/// Whether the outlines of one path are too many, or too many sided, to tell which of them lies in which.
-pub(super) fn is_tangle(rings: &[Vec<Corner>]) -> bool {
+/// Whether the outlines of one path have too many corners to find the holes among them.
+pub(super) fn has_too_many_pairs(rings: &[Vec<Corner>]) -> bool {
     let mut boxes: Vec<(Bounds, usize)> = rings
         .iter()
         .filter_map(|r| Some((Bounds::from_points(r.iter().map(|c| c.at))?, r.len())))
@@ -67,24 +69,24 @@ pub(super) fn is_tangle(rings: &[Vec<Corner>]) -> bool {
             if a.intersects(*b) {
                 work = work.saturating_add(corners.saturating_mul(*others));
             }
-            if work > MOST_WORK {
+            if work > MAX_COMPARISONS {
                 return true;
             }
         }
     }
-    // Each pair of boxes is looked at once more where outlines are sorted.
-    rings.len().saturating_mul(rings.len()) > MOST_WORK
+    // `regions` compares the boxes of all pairs.
+    rings.len().saturating_mul(rings.len()) > MAX_COMPARISONS
 }
 
-/// How many pairs of boxes have an area in common; one more than `most` where there are more.
-fn pairs(mut boxes: Vec<Bounds>, most: usize) -> usize {
+/// The number of pairs of boxes with a common area. Counting stops at `max` + 1.
+fn pairs(mut boxes: Vec<Bounds>, max: usize) -> usize {
     boxes.sort_by(|a, b| a.min.x.total_cmp(&b.min.x));
     let mut count = 0;
     for (i, a) in boxes.iter().enumerate() {
         for b in boxes[i + 1..].iter().take_while(|b| b.min.x < a.max.x) {
             if a.min.y < b.max.y && b.min.y < a.max.y {
                 count += 1;
-                if count > most {
+                if count > max {
                     return count;
                 }
             }
@@ -106,16 +108,16 @@ mod tests {
     }
 
     #[test]
-    fn boxes_side_by_side_are_no_pairs() {
+    fn boxes_side_by_side_are_not_pairs() {
         let wall = (0..60).flat_map(|x| (0..60).map(move |y| square(f64::from(x), f64::from(y))));
         assert_eq!(pairs(wall.collect(), 9), 0);
         let heap = vec![square(0.0, 0.0); 10];
         assert_eq!(pairs(heap.clone(), 100), 45);
-        assert_eq!(pairs(heap, 9), 10, "counting ends where it is too many");
+        assert_eq!(pairs(heap, 9), 10, "counting stops above the limit");
     }
 
     #[test]
-    fn a_path_of_many_outlines_on_one_spot_is_a_tangle() {
+    fn a_path_with_many_outlines_in_one_place_is_refused() {
         let ring = |x: f64| -> Vec<Corner> {
             [(x, 0.0), (x + 1.0, 0.0), (x, 1.0)]
                 .map(|(x, y)| Corner {
@@ -124,9 +126,9 @@ mod tests {
                 })
                 .to_vec()
         };
-        assert!(is_tangle(&vec![ring(0.0); 7000]));
-        assert!(!is_tangle(&vec![ring(0.0); 1000]));
+        assert!(has_too_many_pairs(&vec![ring(0.0); 7000]));
+        assert!(!has_too_many_pairs(&vec![ring(0.0); 1000]));
         let apart: Vec<Vec<Corner>> = (0..7000).map(|i| ring(f64::from(2 * i))).collect();
-        assert!(!is_tangle(&apart));
+        assert!(!has_too_many_pairs(&apart));
     }
 }

@@ -1,7 +1,8 @@
-//! [`Track`]: one run of a pen, of lines and curves, and how it becomes corners.
+//! [`Subpath`]: a connected sequence of lines and curves, and its flattening into corners.
 //!
-//! A curve is cut into equal steps of its parameter, so that the same curve drawn the other way round, as the neighbour
-//! of a curved block has it, gets the same corners.
+//! A curve is divided into equal steps of its parameter. The number of steps follows from a bound on the distance between
+//! chord and curve. Adaptive subdivision would need fewer steps, but equal steps give the same corners when the curve is
+//! drawn in the other direction, as in the outline of the neighbouring block. So both blocks keep touching everywhere.
 
 use core::f64::consts::{FRAC_PI_2, TAU};
 
@@ -9,28 +10,29 @@ use super::affine::Affine;
 use crate::geometry::snap::Corner;
 use crate::geometry::{Point, Vector, cross};
 
-/// A curve is cut into at most so many pieces.
-const MOST: f64 = 4096.0;
+/// The largest number of chords of one curve.
+const MAX_CHORDS: f64 = 4096.0;
 
-/// A run of a pen.
+/// A connected sequence of segments.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Track {
+pub(super) struct Subpath {
     pub(super) start: Point,
-    pub(super) pieces: Vec<Piece>,
-    /// Whether the pen went back to where it began.
+    pub(super) segments: Vec<Segment>,
+    /// Whether it ends at its start.
     pub(super) closed: bool,
 }
 
-/// A piece of a track, from where the one before it ends.
+/// A segment of a subpath. It starts at the end of the segment before it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Piece {
+pub(super) enum Segment {
     Line(Point),
-    /// Two handles and the end.
+    /// A cubic Bézier curve: two control points and the end.
     Cubic(Point, Point, Point),
     Arc(Arc),
 }
 
-/// `centre + u cos θ + v sin θ` for θ from `from` over `sweep`, and the end as it was given.
+/// An elliptical arc: `centre + u cos θ + v sin θ` for θ from `from` over `sweep`. `to` is the end as it was given, free of
+/// rounding.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Arc {
     pub(super) centre: Point,
@@ -41,18 +43,18 @@ pub(super) struct Arc {
     pub(super) to: Point,
 }
 
-impl Track {
-    pub(super) fn closed(corners: &[Point]) -> Option<Track> {
+impl Subpath {
+    pub(super) fn closed(corners: &[Point]) -> Option<Subpath> {
         let (start, rest) = corners.split_first()?;
-        Some(Track {
+        Some(Subpath {
             start: *start,
-            pieces: rest.iter().map(|p| Piece::Line(*p)).collect(),
+            segments: rest.iter().map(|p| Segment::Line(*p)).collect(),
             closed: true,
         })
     }
 
-    /// An ellipse with its axes along the coordinates', from its rightmost point.
-    pub(super) fn ellipse(centre: Point, rx: f64, ry: f64) -> Track {
+    /// An ellipse parallel to the axes, starting at its rightmost point.
+    pub(super) fn ellipse(centre: Point, rx: f64, ry: f64) -> Subpath {
         let start = centre + Vector::new(rx, 0.0);
         let arc = Arc {
             centre,
@@ -62,18 +64,20 @@ impl Track {
             sweep: TAU,
             to: start,
         };
-        Track {
+        Subpath {
             start,
-            pieces: vec![Piece::Arc(arc)],
+            segments: vec![Segment::Arc(arc)],
             closed: true,
         }
     }
 
-    pub(super) fn mapped(&self, map: &Affine) -> Track {
-        let piece = |piece: &Piece| match piece {
-            Piece::Line(to) => Piece::Line(map.point(*to)),
-            Piece::Cubic(a, b, to) => Piece::Cubic(map.point(*a), map.point(*b), map.point(*to)),
-            Piece::Arc(arc) => Piece::Arc(Arc {
+    pub(super) fn mapped(&self, map: &Affine) -> Subpath {
+        let segment = |segment: &Segment| match segment {
+            Segment::Line(to) => Segment::Line(map.point(*to)),
+            Segment::Cubic(a, b, to) => {
+                Segment::Cubic(map.point(*a), map.point(*b), map.point(*to))
+            }
+            Segment::Arc(arc) => Segment::Arc(Arc {
                 centre: map.point(arc.centre),
                 u: map.vector(arc.u),
                 v: map.vector(arc.v),
@@ -81,27 +85,27 @@ impl Track {
                 ..*arc
             }),
         };
-        Track {
+        Subpath {
             start: map.point(self.start),
-            pieces: self.pieces.iter().map(piece).collect(),
+            segments: self.segments.iter().map(segment).collect(),
             closed: self.closed,
         }
     }
 
-    /// Whether any of it is a curve.
-    pub(super) fn bends(&self) -> bool {
-        let straight = |piece: &Piece| matches!(piece, Piece::Line(_));
-        !self.pieces.iter().all(straight)
+    /// Whether it contains a curve.
+    pub(super) fn has_curves(&self) -> bool {
+        let straight = |segment: &Segment| matches!(segment, Segment::Line(_));
+        !self.segments.iter().all(straight)
     }
 
-    /// Points whose box holds the track.
+    /// Points whose bounding box contains the subpath.
     pub(super) fn hull(&self) -> Vec<Point> {
         let mut points = vec![self.start];
-        for piece in &self.pieces {
-            match piece {
-                Piece::Line(to) => points.push(*to),
-                Piece::Cubic(a, b, to) => points.extend([*a, *b, *to]),
-                Piece::Arc(arc) => {
+        for segment in &self.segments {
+            match segment {
+                Segment::Line(to) => points.push(*to),
+                Segment::Cubic(a, b, to) => points.extend([*a, *b, *to]),
+                Segment::Arc(arc) => {
                     let reach =
                         Vector::new(libm::hypot(arc.u.x, arc.v.x), libm::hypot(arc.u.y, arc.v.y));
                     points.extend([arc.centre - reach, arc.centre + reach]);
@@ -111,21 +115,21 @@ impl Track {
         points
     }
 
-    /// The corners of the track with its curves cut so that no chord is farther than `tolerance` from its curve. A last
-    /// corner no farther than `close` from the first is the first; `None` where the track is open.
+    /// The corners after flattening: no chord is farther than `tolerance` from its curve. A last corner within `close` of the
+    /// first is merged with it. `None` if the subpath is open.
     pub(super) fn flattened(&self, tolerance: f64, close: f64) -> Option<Vec<Corner>> {
         let mut corners = vec![Corner {
             at: self.start,
             curved: false,
         }];
-        for piece in &self.pieces {
+        for segment in &self.segments {
             let from = corners[corners.len() - 1].at;
-            let inner = piece.inner(from, tolerance);
+            let inner = segment.inner(from, tolerance);
             let last = corners.len() - 1;
             corners[last].curved = !inner.is_empty();
             corners.extend(inner.into_iter().map(|at| Corner { at, curved: true }));
             corners.push(Corner {
-                at: piece.end(),
+                at: segment.end(),
                 curved: false,
             });
         }
@@ -139,21 +143,21 @@ impl Track {
     }
 }
 
-impl Piece {
+impl Segment {
     pub(super) fn end(&self) -> Point {
         match self {
-            Piece::Line(to) | Piece::Cubic(_, _, to) => *to,
-            Piece::Arc(arc) => arc.to,
+            Segment::Line(to) | Segment::Cubic(_, _, to) => *to,
+            Segment::Arc(arc) => arc.to,
         }
     }
 
-    /// The corners between the ends.
+    /// The corners between the ends of a segment.
     fn inner(&self, from: Point, tolerance: f64) -> Vec<Point> {
         match self {
-            Piece::Line(_) => Vec::new(),
-            Piece::Cubic(a, b, to) => {
-                // A chord over 1/n of a curve is off by at most |second derivative|/8n², and that of a cubic by its
-                // handles is at most six times the larger second difference.
+            Segment::Line(_) => Vec::new(),
+            Segment::Cubic(a, b, to) => {
+                // The distance of a chord over 1/n of the parameter is at most |second derivative| / 8n². The second
+                // derivative of a cubic is at most 6 times the larger second difference of its control points.
                 let bend = (a.coords * 2.0 - from.coords - b.coords)
                     .norm()
                     .max((b.coords * 2.0 - a.coords - to.coords).norm());
@@ -168,14 +172,14 @@ impl Piece {
                 };
                 inner_steps(n).map(at).collect()
             }
-            Piece::Arc(arc) => {
-                let radius = largest_stretch(arc.u, arc.v);
+            Segment::Arc(arc) => {
+                let radius = largest_radius(arc.u, arc.v);
                 let half = if tolerance < radius {
                     libm::acos(1.0 - tolerance / radius)
                 } else {
                     FRAC_PI_2
                 };
-                // An eighth of a turn at most: a circle stays recognisable at any tolerance.
+                // At most 45° per chord, so that a circle has at least 8 corners at any tolerance.
                 let widest = (2.0 * half).min(TAU / 8.0);
                 let n = steps((arc.sweep.abs() / widest) * (1.0 - 1e-9));
                 let at = |k: f64| {
@@ -189,9 +193,9 @@ impl Piece {
 }
 
 fn steps(wanted: f64) -> f64 {
-    // NaN and what is too small are one step.
+    // The comparison is false for NaN, which gives one step.
     if wanted > 1.0 {
-        wanted.ceil().min(MOST)
+        wanted.ceil().min(MAX_CHORDS)
     } else {
         1.0
     }
@@ -201,7 +205,7 @@ fn inner_steps(n: f64) -> impl Iterator<Item = f64> {
     (1..n as u32).map(f64::from)
 }
 
-/// Sine and cosine, exact at quarter turns.
+/// Sine and cosine, exact at multiples of 90°. The tolerance 1e-12 allows for the rounding of angles from `atan2`.
 fn sin_cos(angle: f64) -> (f64, f64) {
     let quarters = angle / FRAC_PI_2;
     let whole = quarters.round();
@@ -216,8 +220,8 @@ fn sin_cos(angle: f64) -> (f64, f64) {
     }
 }
 
-/// The longest radius of the ellipse `u cos θ + v sin θ`.
-fn largest_stretch(u: Vector, v: Vector) -> f64 {
+/// The largest radius of the ellipse `u cos θ + v sin θ`: the larger singular value of the matrix (u v).
+fn largest_radius(u: Vector, v: Vector) -> f64 {
     let (sum, det) = (u.norm_squared() + v.norm_squared(), cross(u, v));
     let inner = (sum * sum - 4.0 * det * det).max(0.0).sqrt();
     ((sum + inner) / 2.0).sqrt()
@@ -228,10 +232,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_chord_is_no_farther_from_its_curve_than_told() {
-        let track = Track::ellipse(Point::new(2.0, 1.0), 5.0, 3.0);
+    fn a_chord_is_within_the_tolerance_of_its_curve() {
+        let subpath = Subpath::ellipse(Point::new(2.0, 1.0), 5.0, 3.0);
         for tolerance in [1.0, 0.1, 1e-3] {
-            let corners = track.flattened(tolerance, 0.0).expect("closed");
+            let corners = subpath.flattened(tolerance, 0.0).expect("closed");
             let off = |p: Point| {
                 let d = p - Point::new(2.0, 1.0);
                 (1.0 - libm::hypot(d.x / 5.0, d.y / 3.0)) * 5.0
@@ -243,14 +247,14 @@ mod tests {
                 assert!((0.0..=1.01 * tolerance).contains(&off(middle)));
             }
         }
-        assert_eq!(track.flattened(99.0, 0.0).expect("closed").len(), 8);
+        assert_eq!(subpath.flattened(99.0, 0.0).expect("closed").len(), 8);
     }
 
     #[test]
     fn the_same_curve_backwards_has_the_same_corners() {
         let p = [(0.0, 0.0), (1.0, 3.0), (4.0, 3.5), (6.0, -1.0)].map(|p| Point::new(p.0, p.1));
-        let there = Piece::Cubic(p[1], p[2], p[3]).inner(p[0], 0.01);
-        let mut back = Piece::Cubic(p[2], p[1], p[0]).inner(p[3], 0.01);
+        let there = Segment::Cubic(p[1], p[2], p[3]).inner(p[0], 0.01);
+        let mut back = Segment::Cubic(p[2], p[1], p[0]).inner(p[3], 0.01);
         back.reverse();
         assert!(there.len() > 5);
         assert_eq!(there.len(), back.len());
@@ -261,13 +265,13 @@ mod tests {
 
     #[test]
     fn an_open_track_is_none_unless_its_ends_nearly_meet() {
-        let mut track = Track::closed(
+        let mut subpath = Subpath::closed(
             &[(0.0, 0.0), (3.0, 0.0), (0.0, 2.0), (0.0, 0.001)].map(|p| Point::new(p.0, p.1)),
         )
         .expect("corners");
-        assert_eq!(track.flattened(0.1, 1e-6).map(|c| c.len()), Some(4));
-        track.closed = false;
-        assert_eq!(track.flattened(0.1, 1e-6), None);
-        assert_eq!(track.flattened(0.1, 0.01).map(|c| c.len()), Some(3));
+        assert_eq!(subpath.flattened(0.1, 1e-6).map(|c| c.len()), Some(4));
+        subpath.closed = false;
+        assert_eq!(subpath.flattened(0.1, 1e-6), None);
+        assert_eq!(subpath.flattened(0.1, 0.01).map(|c| c.len()), Some(3));
     }
 }

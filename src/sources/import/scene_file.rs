@@ -1,4 +1,4 @@
-//! The scene file of some outlines.
+//! Writes the scene file of an import.
 
 use std::collections::BTreeSet;
 
@@ -10,10 +10,11 @@ use crate::scene::format::{
     BlockEntry, GroundEntry, Map, MaterialEntry, Pair, RobotEntry, SceneFile,
 };
 
-/// Coordinates are written to this part of the drawing's size: a thousand times finer than what counts as touching.
-const DIGITS: f64 = 1e-9;
+/// Coordinates are rounded to this, relative to the size of the drawing. The contact tolerance of a scene is about a thousand
+/// times larger, so rounding opens no contact.
+const COORDINATE_STEP: f64 = 1e-9;
 
-/// The file, with the values that `given` brings for the whole scene.
+/// The scene file. `given` contains the properties of the whole scene.
 pub(super) fn scene(
     outlines: &Outlines,
     names: &Names,
@@ -22,7 +23,7 @@ pub(super) fn scene(
     size: f64,
     given: &SceneFile,
 ) -> SceneFile {
-    let round = Rounding::to(DIGITS * size);
+    let round = Rounding::new(COORDINATE_STEP * size);
     let ground = outlines.ground();
     let fills: BTreeSet<[u8; 3]> = outlines.bodies[ground..]
         .iter()
@@ -77,7 +78,7 @@ pub(super) fn scene(
     }
 }
 
-/// Each robot with the block in which its centre lies.
+/// The robots, each with the block that contains its centre.
 fn robots(
     outlines: &Outlines,
     names: &Names,
@@ -103,14 +104,14 @@ fn robots(
         });
         if held.is_none() {
             let message = format!(
-                "its centre ({}, {}) m lies in no block: the robot holds nothing",
+                "its centre ({}, {}) m is in no block, so the robot holds nothing",
                 short(robot.at.x),
                 short(robot.at.y)
             );
             draft.remark(
                 &robot.element,
                 message,
-                "draw its centre where it grips a block",
+                "move its centre into the block that it grips",
             );
         }
         entries.push(RobotEntry {
@@ -131,13 +132,13 @@ fn material(fill: [u8; 3]) -> String {
     format!("fill-{}", &hex(fill)[1..])
 }
 
-/// A length with three digits.
+/// A length with three significant digits.
 pub(super) fn short(x: f64) -> String {
     rounded(format!("{x:.2e}"))
 }
 
-/// A scale with six digits.
-pub(super) fn digits(x: f64) -> String {
+/// A scale with six significant digits.
+pub(super) fn six_digits(x: f64) -> String {
     rounded(format!("{x:.5e}"))
 }
 
@@ -145,17 +146,17 @@ fn rounded(text: String) -> String {
     text.parse::<f64>().map_or(text, |x| x.to_string())
 }
 
-/// Coordinates without the noise of their making.
+/// Rounds coordinates to a power of ten.
 struct Rounding {
-    /// The power of ten by which they are whole numbers; 0 for no rounding.
+    /// Coordinates times this factor are whole numbers; 0 for no rounding.
     factor: f64,
 }
 
 impl Rounding {
-    /// To a power of ten no larger than `step`.
-    fn to(step: f64) -> Rounding {
+    /// Rounds to the largest power of ten that is at most `step`.
+    fn new(step: f64) -> Rounding {
         let power = -libm::floor(libm::log10(step));
-        // Beyond that, whole numbers run out, or there is nothing to be rounded.
+        // f64 has 16 digits: beyond 10^15 rounding would change nothing, and below 1 whole metres would be lost.
         let factor = if (0.0..=15.0).contains(&power) {
             libm::pow(10.0, power)
         } else {
@@ -166,7 +167,7 @@ impl Rounding {
 
     fn number(&self, x: f64) -> f64 {
         let rounded = (x * self.factor).round() / self.factor;
-        // A −0 reads badly, and adding 0 makes it 0.
+        // Adding 0 turns −0 into 0.
         if self.factor > 0.0 {
             rounded + 0.0
         } else {
@@ -188,13 +189,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_lose_their_noise_and_nothing_else() {
-        let round = Rounding::to(3.7e-9);
+    fn numbers_lose_rounding_errors_only() {
+        let round = Rounding::new(3.7e-9);
         assert_eq!(round.number(0.1 + 0.2), 0.3);
         assert_eq!(round.number(-1e-12).to_bits(), 0);
         assert_eq!(round.number(123.456_789_012), 123.456_789_012);
-        assert_eq!(Rounding::to(0.0).number(1.0 / 3.0), 1.0 / 3.0);
-        assert_eq!(Rounding::to(1e5).number(1.5e9), 1.5e9);
+        assert_eq!(Rounding::new(0.0).number(1.0 / 3.0), 1.0 / 3.0);
+        assert_eq!(Rounding::new(1e5).number(1.5e9), 1.5e9);
         assert_eq!(short(0.001_234_9), "0.00123");
     }
 }

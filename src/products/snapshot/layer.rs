@@ -1,0 +1,32 @@
+//! [`Layer`]: the layers of a comparison.
+
+/// A layer of the comparison.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum Layer {
+    /// Verdict, interfaces and forces, as text.
+    Facts,
+    /// The elements of the drawing.
+    Svg,
+    /// The pixels of the picture.
+    Pixels,
+}
+
+impl Layer {
+    /// All layers, in the order in which they are compared.
+    pub const ALL: [Layer; 3] = [Layer::Facts, Layer::Svg, Layer::Pixels];
+
+    /// The name of the layer in settings and reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Layer::Facts => "facts",
+            Layer::Svg => "svg",
+            Layer::Pixels => "pixels",
+        }
+    }
+
+    /// The layer with this name.
+    pub fn named(name: &str) -> Option<Layer> {
+        Layer::ALL.into_iter().find(|layer| layer.name() == name)
+    }
+}

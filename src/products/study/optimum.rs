@@ -1,0 +1,294 @@
+//! [`optimum`]: the certified optimum of a linear program in extended precision.
+//!
+//! The program is min Σ cost·amount over amounts ≥ 0 (up to a limit) that balance the loads. The method is a crossover from
+//! an interior-point solution with a certificate by weak duality:
+//!
+//! 1. An interior-point solution in f64 suggests the optimal face: the columns that may be used without loss. The guess may
+//!    be wrong; several tolerances and thresholds are tried.
+//! 2. On the face, amounts and velocities solve linear equations, which are refined in [`Double`] precision ([`Guess`]).
+//! 3. The result is accepted only if, in this precision, it is primal feasible, dual feasible, and both objective values
+//!    agree. By weak duality no solution can then be better.
+//!
+//! Reference for steps 1 and 2: Megiddo (1991), On finding primal- and dual-optimal bases. Here the face need not be a
+//! basis: the least-squares refinement works on any optimal face.
+
+use super::double::Double;
+use super::skyline::Skyline;
+use crate::program::{Column, Force};
+use crate::solve::{Choice, Conditioning, Effort, SolverSettings, Status, dual};
+
+/// A certified optimum.
+pub(super) struct Optimum {
+    /// The objective value.
+    pub value: Double,
+    /// The largest possible relative error of the value.
+    pub gap: f64,
+    /// Columns with amounts on the optimal face that are not at their limit.
+    pub face: Vec<usize>,
+    /// Whether a robot is at its limit.
+    pub limited: bool,
+}
+
+/// Relative tolerance of the feasibility checks.
+///
+/// The arithmetic has 32 digits, but the columns are f64. If the exact geometry has several optima, the rounding of the
+/// columns (some 1e-16) favours one of them, and the guessed face is that of the exact geometry. The tolerance must be
+/// above this rounding. The gap is computed separately and counts such violations, so the tolerance hides no error.
+pub(super) const EXACT: f64 = 1e-13;
+
+/// Solver tolerances for the first guess at the face.
+const TOLERANCES: [f64; 4] = [1e-10, 1e-8, 1e-12, 1e-7];
+/// A column belongs to the face if its amount times one of these factors exceeds its reduced cost.
+const MARGINS: [f64; 5] = [1.0, 1e3, 1e-3, 1e6, 1e-6];
+/// Steps of iterative refinement. The factorisation has 32 digits, so one step is enough for most faces. The others help
+/// ill-conditioned ones.
+const REFINEMENTS: usize = 4;
+/// An amount this close to its limit, relatively, is at its limit.
+const AT_LIMIT: f64 = 1e-6;
+/// The smallest weight of a column in the refinement, relative to the largest amount.
+const MIN_WEIGHT: f64 = 1e-12;
+
+/// The certified optimum of a program, if one of the guesses leads to it.
+pub(super) fn optimum(
+    loads: &[f64],
+    columns: &[Column],
+    cost: impl Fn(&Column) -> f64 + Copy,
+) -> Option<Optimum> {
+    let sparse: Vec<Vec<(usize, Double)>> = columns.iter().map(entries).collect();
+    for tolerance in TOLERANCES {
+        let settings = SolverSettings {
+            tolerance,
+            choice: Choice::Any,
+            ..Conditioning::Full.into()
+        };
+        let solved = dual(loads, columns, settings, &mut Effort::default(), cost);
+        if solved.status != Status::Solved {
+            continue;
+        }
+        for margin in MARGINS {
+            let guess = Guess {
+                loads,
+                columns,
+                sparse: &sparse,
+                costs: columns.iter().map(cost).collect(),
+                active: solved.active(margin),
+                amounts: &solved.amounts,
+                y: &solved.y,
+            };
+            if let Some(optimum) = guess.certified() {
+                return Some(optimum);
+            }
+        }
+    }
+    None
+}
+
+/// A guess at the optimal face, with the amounts and velocities of the interior-point solution.
+struct Guess<'a> {
+    loads: &'a [f64],
+    columns: &'a [Column],
+    sparse: &'a [Vec<(usize, Double)>],
+    costs: Vec<f64>,
+    active: Vec<bool>,
+    amounts: &'a [f64],
+    y: &'a [f64],
+}
+
+/// The refined solution on a face.
+struct Refined {
+    /// Columns at their limit, and the other columns of the face.
+    limited: Vec<usize>,
+    face: Vec<usize>,
+    /// Amounts of the face, and velocities.
+    x: Vec<Double>,
+    y: Vec<Double>,
+    /// The unbalanced rest of the loads.
+    rest: Vec<Double>,
+    /// The largest load or amount: the scale of forces.
+    largest: f64,
+}
+
+impl Guess<'_> {
+    fn certified(&self) -> Option<Optimum> {
+        self.checked(self.refined())
+    }
+
+    /// Solves for amounts and velocities on the face.
+    ///
+    /// With the columns A and weights W of the face, both corrections solve the same matrix A W Aᵀ: the amounts change by
+    /// W Aᵀ w with A W Aᵀ w = rest, the velocities by d with A W Aᵀ d = A W · (reduced costs). The weights are the amounts,
+    /// so that a small amount changes little and stays positive.
+    fn refined(&self) -> Refined {
+        let at_limit = |j: usize| {
+            self.columns[j].limit.is_finite()
+                && self.amounts[j] > self.columns[j].limit * (1.0 - AT_LIMIT)
+        };
+        let all = 0..self.columns.len();
+        let limited: Vec<usize> = all.clone().filter(|j| at_limit(*j)).collect();
+        let face: Vec<usize> = all.filter(|j| self.active[*j] && !at_limit(*j)).collect();
+        // Columns at their limit act like loads.
+        let mut loads: Vec<Double> = self.loads.iter().map(|v| Double::from(*v)).collect();
+        for j in &limited {
+            let limit = Double::from(self.columns[*j].limit);
+            for (row, value) in &self.sparse[*j] {
+                loads[*row] = loads[*row] - limit * *value;
+            }
+        }
+        let heaviest = self.loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+        let largest = self.amounts.iter().fold(heaviest, |m, v| m.max(*v));
+        let weights: Vec<Double> = face
+            .iter()
+            .map(|j| Double::from((self.amounts[*j] / largest).max(MIN_WEIGHT)))
+            .collect();
+        let terms = weights
+            .iter()
+            .zip(&face)
+            .map(|(w, j)| (*w, self.sparse[*j].as_slice()));
+        let matrix = Skyline::new(loads.len(), terms);
+        let mut x: Vec<Double> = face
+            .iter()
+            .map(|j| Double::from(self.amounts[*j]))
+            .collect();
+        let mut y: Vec<Double> = self.y.iter().map(|v| Double::from(*v)).collect();
+        let mut rest = loads.clone();
+        for _ in 0..REFINEMENTS {
+            rest = loads.clone();
+            for (j, x) in face.iter().zip(&x) {
+                add(&mut rest, &self.sparse[*j], -*x);
+            }
+            let w = matrix.solve(&rest);
+            for ((j, x), weight) in face.iter().zip(&mut x).zip(&weights) {
+                *x = *x + *weight * product(&self.sparse[*j], &w);
+            }
+            let mut right = vec![Double::ZERO; loads.len()];
+            for (j, weight) in face.iter().zip(&weights) {
+                add(
+                    &mut right,
+                    &self.sparse[*j],
+                    *weight * self.reduced_cost(*j, &y),
+                );
+            }
+            for (y, d) in y.iter_mut().zip(matrix.solve(&right)) {
+                *y = *y + d;
+            }
+        }
+        Refined {
+            limited,
+            face,
+            x,
+            y,
+            rest,
+            largest,
+        }
+    }
+
+    /// Checks feasibility and the duality gap of a refined solution.
+    fn checked(&self, refined: Refined) -> Option<Optimum> {
+        let Refined {
+            limited,
+            face,
+            x,
+            y,
+            rest,
+            largest,
+        } = refined;
+        // Both objective values: Σ cost·amount, and the power of the loads plus the limits times their multipliers.
+        let mut forces = face.iter().zip(&x).fold(Double::ZERO, |sum, (j, x)| {
+            sum + Double::from(self.costs[*j]) * *x
+        });
+        let mut bound = power(self.loads, &y);
+        let speed = y.iter().fold(1.0, |m: f64, v| m.max(v.abs().near()));
+        for j in &limited {
+            let limit = Double::from(self.columns[*j].limit);
+            forces = forces + limit * Double::from(self.costs[*j]);
+            bound = bound + limit * self.reduced_cost(*j, &y);
+            // The multiplier of a limit must not be negative.
+            if self.reduced_cost(*j, &y).near() > EXACT * speed {
+                return None;
+            }
+        }
+        // Primal feasibility: the loads balance, and amounts lie between 0 and their limits.
+        let balanced = rest.iter().all(|r| r.abs().near() <= EXACT * largest);
+        let presses = face.iter().zip(&x).all(|(j, x)| {
+            (x.near() >= -EXACT * largest || self.may_be_negative(*j, &face))
+                && x.near() <= self.columns[*j].limit
+        });
+        // Dual feasibility: no column has a negative reduced cost.
+        let free = || (0..self.columns.len()).filter(|j| !limited.contains(j));
+        let bounded = free().all(|j| self.reduced_cost(j, &y).near() >= -EXACT * speed);
+        let scale = forces
+            .near()
+            .abs()
+            .max(bound.near().abs())
+            .max(EXACT * largest * speed);
+        // Weak duality: the value is wrong by at most the gap, plus the largest dual violation times the sum of all amounts,
+        // plus the unbalanced forces times the velocities.
+        let violation = free()
+            .map(|j| -self.reduced_cost(j, &y).near())
+            .fold(0.0, f64::max);
+        let total: f64 = x.iter().map(|x| x.abs().near()).sum();
+        let unbalanced: f64 = rest
+            .iter()
+            .zip(&y)
+            .map(|(r, y)| (*r * *y).abs().near())
+            .sum();
+        let gap = ((forces - bound).abs().near() + violation * total + unbalanced) / scale;
+        let agree = gap * scale <= 10.0 * EXACT * scale.max(largest);
+        (balanced && presses && bounded && agree).then_some(Optimum {
+            value: forces,
+            gap,
+            face,
+            limited: !limited.is_empty(),
+        })
+    }
+
+    /// The reduced cost of a column: its cost less the work of its force along the velocities.
+    fn reduced_cost(&self, j: usize, y: &[Double]) -> Double {
+        Double::from(self.costs[j]) - product(&self.sparse[j], y)
+    }
+
+    /// Whether a column without cost may have a negative amount: its opposite is on the face too, so only their difference
+    /// matters. This holds for grips without limits.
+    fn may_be_negative(&self, j: usize, face: &[usize]) -> bool {
+        let grip = |j: usize| matches!(self.columns[j].force, Force::Grip { .. });
+        let partner = |k: &usize| {
+            grip(*k)
+                && self.columns[*k].limit.is_infinite()
+                && self.sparse[*k]
+                    .iter()
+                    .zip(&self.sparse[j])
+                    .all(|(a, b)| a.0 == b.0 && a.1 == -b.1)
+        };
+        grip(j) && self.costs[j] == 0.0 && face.iter().any(partner)
+    }
+}
+
+/// The entries of a column in extended precision: row and value.
+pub(super) fn entries(column: &Column) -> Vec<(usize, Double)> {
+    column
+        .entries()
+        .map(|(row, value)| (row, Double::from(value)))
+        .collect()
+}
+
+/// The scalar product of a sparse column and a vector.
+pub(super) fn product(entries: &[(usize, Double)], y: &[Double]) -> Double {
+    entries
+        .iter()
+        .fold(Double::ZERO, |sum, (row, value)| sum + *value * y[*row])
+}
+
+/// Adds a multiple of a sparse column to a vector.
+pub(super) fn add(sum: &mut [Double], entries: &[(usize, Double)], amount: Double) {
+    for (row, value) in entries {
+        sum[*row] = sum[*row] + amount * *value;
+    }
+}
+
+/// The power of the loads along velocities.
+pub(super) fn power(loads: &[f64], y: &[Double]) -> Double {
+    loads
+        .iter()
+        .zip(y)
+        .fold(Double::ZERO, |sum, (n, y)| sum + Double::from(*n) * *y)
+}

@@ -1,0 +1,119 @@
+//! [`Outcome`]: the result of a method for a whole frame.
+
+use crate::analysis::Verdict;
+use crate::program::Scale;
+use crate::solve::{Amounts, Effort};
+
+/// The result of a method for a whole frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outcome {
+    /// The verdict.
+    pub verdict: Verdict,
+    /// The total force if it stands, the total sticking if it falls, in N.
+    pub total: Option<f64>,
+    /// The largest resultant of a contact or grip, in N.
+    pub largest: Option<f64>,
+    /// The number of failures.
+    pub points: usize,
+    /// The largest imbalance if it stands. For levels it is relative to the forces on a block, otherwise to the heaviest load.
+    pub imbalance: Option<f64>,
+    /// The largest violation of the motion relative to its power, if it falls and a motion is proved.
+    pub violation: Option<f64>,
+    /// The number of interior-point iterations.
+    pub iterations: usize,
+    /// The solving time in s, if the method measures it itself.
+    pub(super) seconds: Option<f64>,
+}
+
+impl Outcome {
+    /// The result for a frame without loads: it stands.
+    pub(super) fn empty() -> Outcome {
+        Outcome {
+            verdict: Verdict::Stable,
+            total: Some(0.0),
+            largest: Some(0.0),
+            points: 0,
+            imbalance: Some(0.0),
+            violation: None,
+            iterations: 0,
+            seconds: None,
+        }
+    }
+
+    pub(super) fn undecided(effort: Effort) -> Outcome {
+        Outcome {
+            verdict: Verdict::Undecided,
+            total: None,
+            largest: None,
+            imbalance: None,
+            iterations: effort.iterations,
+            ..Outcome::empty()
+        }
+    }
+
+    pub(super) fn falls(total: Option<f64>, points: usize, effort: Effort) -> Outcome {
+        Outcome {
+            verdict: Verdict::Unstable,
+            total,
+            points,
+            ..Outcome::undecided(effort)
+        }
+    }
+
+    pub(super) fn stands(amounts: &Amounts, imbalance: f64, effort: Effort) -> Outcome {
+        Outcome {
+            verdict: Verdict::Stable,
+            total: Some(amounts.total()),
+            largest: Some(largest(amounts)),
+            imbalance: Some(imbalance / Scale::HEAVIEST),
+            ..Outcome::undecided(effort)
+        }
+    }
+
+    pub(super) fn in_newtons(self, scale: Scale) -> Outcome {
+        Outcome {
+            total: self.total.map(|v| v * scale.force),
+            largest: self.largest.map(|v| v * scale.force),
+            ..self
+        }
+    }
+
+    /// Combines two independent parts of a frame. If their verdicts differ, the totals are those of the worse part.
+    pub(super) fn and(self, other: Outcome) -> Outcome {
+        let both = |a: Option<f64>, b: Option<f64>, join: fn(f64, f64) -> f64| {
+            a.zip(b).map(|(a, b)| join(a, b))
+        };
+        let iterations = self.iterations + other.iterations;
+        if self.verdict == other.verdict {
+            Outcome {
+                total: both(self.total, other.total, |a, b| a + b),
+                largest: both(self.largest, other.largest, f64::max),
+                points: self.points + other.points,
+                imbalance: both(self.imbalance, other.imbalance, f64::max),
+                iterations,
+                ..self
+            }
+        } else {
+            let worse = if self.verdict > other.verdict {
+                self
+            } else {
+                other
+            };
+            Outcome {
+                iterations,
+                ..worse
+            }
+        }
+    }
+}
+
+/// The largest resultant of a contact or grip.
+fn largest(amounts: &Amounts) -> f64 {
+    let contacts = amounts
+        .normal
+        .iter()
+        .zip(&amounts.friction)
+        .map(|(n, t)| libm::hypot(n[0] + n[1], *t));
+    let grips = amounts.grip.iter().map(|g| libm::hypot(g[0], g[1]));
+    contacts.chain(grips).fold(0.0, f64::max)
+}
