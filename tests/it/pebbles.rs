@@ -8,7 +8,7 @@ use drystone::{Analysis, Scene};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
-use crate::oracle::random::Chance;
+use crate::random::Random;
 
 type Outline = Vec<[f64; 2]>;
 
@@ -178,7 +178,7 @@ fn centroid(outline: &Outline) -> [f64; 2] {
 }
 
 /// Corners of an ellipse at random angles, each off by up to `rough` of its radius.
-fn pebble(chance: &mut Chance, radius: f64, corners: usize, rough: f64) -> Outline {
+fn pebble(chance: &mut Random, radius: f64, corners: usize, rough: f64) -> Outline {
     let turn = core::f64::consts::TAU;
     let mut angles: Vec<f64> = (0..corners).map(|_| turn * chance.share()).collect();
     angles.sort_by(f64::total_cmp);
@@ -194,7 +194,7 @@ fn pebble(chance: &mut Chance, radius: f64, corners: usize, rough: f64) -> Outli
 }
 
 /// A stone turned and moved so that an edge of its hull lies on y = 0: below its centre of gravity, or any.
-fn laid_down(chance: &mut Chance, stone: &Outline) -> Outline {
+fn laid_down(chance: &mut Random, stone: &Outline) -> Outline {
     let around = hull(stone.clone());
     let centre = centroid(stone);
     let edge = |i: usize| (around[i], around[(i + 1) % around.len()]);
@@ -224,7 +224,7 @@ fn laid_down(chance: &mut Chance, stone: &Outline) -> Outline {
 }
 
 /// A stone turned by any angle, its lowest corner on y = 0.
-fn dropped(chance: &mut Chance, stone: &Outline) -> Outline {
+fn dropped(chance: &mut Random, stone: &Outline) -> Outline {
     let (sin, cos) = libm::sincos(core::f64::consts::TAU * chance.share());
     let turned = |p: &[f64; 2]| [cos * p[0] - sin * p[1], sin * p[0] + cos * p[1]];
     let turned: Outline = stone.iter().map(turned).collect();
@@ -234,7 +234,7 @@ fn dropped(chance: &mut Chance, stone: &Outline) -> Outline {
 
 /// The pebble of a number: its file, the outline as it is written, and how far corners may lie off the ground by rounding.
 fn random(number: u64) -> (Value, Outline, f64) {
-    let mut chance = Chance::new(number);
+    let mut chance = Random::new(number);
     let radius = chance.one_of(&[0.01, 0.05, 0.1, 0.5, 1.0, 5.0, 100.0]);
     let corners = chance.whole(20, 80) as usize;
     let rough = chance.one_of(&[0.0, 0.0, 0.02, 0.1]);

@@ -9,8 +9,8 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use super::balance::{Balance, Sum};
-use super::random::Chance;
 use super::{number_of, random, touch};
+use crate::random::Random;
 
 /// What is allowed between a sum and the exact one, in parts of the exact one.
 const SUM: f64 = 1e-6;
@@ -28,19 +28,19 @@ fn scene(number: u64) -> (Value, bool) {
     }
     // Every other scene is one of the everyday kinds with other weights.
     let (kind, mut file) = random::scene(number / 2);
-    let mut chance = Chance::new(number ^ 0x00c0_ffee);
+    let mut chance = Random::new(number ^ 0x00c0_ffee);
     for block in file["blocks"].as_array_mut().into_iter().flatten() {
         block["weight"] = json!(weight(chance.whole(-6, 6), &mut chance));
     }
     (file, random::KINDS[kind].1)
 }
 
-fn weight(exponent: i64, chance: &mut Chance) -> f64 {
+fn weight(exponent: i64, chance: &mut Random) -> f64 {
     chance.whole(10, 99) as f64 / 10.0 * libm::exp10(exponent as f64)
 }
 
 fn piles(number: u64) -> Value {
-    let mut chance = Chance::new(number ^ 0x005a_d5e7);
+    let mut chance = Random::new(number ^ 0x005a_d5e7);
     let [c, s] = chance.one_of(&AXES);
     let outline = |x: f64, y: f64, width: f64, height: f64| {
         let place = |x: f64, y: f64| json!([x * c - y * s, x * s + y * c]);
@@ -58,7 +58,7 @@ fn piles(number: u64) -> Value {
         // Some piles are of one size, some of all sizes.
         let own = chance.whole(-6, 6);
         let mixed = chance.percent(70);
-        let mut add = |x: f64, y: f64, width: f64, height: f64, chance: &mut Chance| {
+        let mut add = |x: f64, y: f64, width: f64, height: f64, chance: &mut Random| {
             let exponent = if mixed { chance.whole(-6, 6) } else { own };
             let weight = weight(exponent, chance);
             let id = format!("{}", blocks.len());
