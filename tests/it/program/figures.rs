@@ -205,7 +205,7 @@ fn a_broken_scene_breaks_the_book() {
     let ran = bench.run_with("mdbook", book("# One\n\n```drystone\n{}\n```\n").as_bytes());
     assert_eq!((ran.code, ran.out.as_str()), (2, ""));
     assert!(
-        ran.err.contains("one.md, line 3: the scene is wrong"),
+        ran.err.contains("one.md, line 3: the scene is not valid"),
         "{}",
         ran.err
     );

@@ -135,7 +135,7 @@ fn what_is_wrong_writes_nothing_and_ends_with_2() {
         ("import drawing.svg --friction -1 -o scene.json", "friction"),
         (
             "import drawing.svg --frame 2 -o scene.json",
-            "only a figure that drystone drew has frames",
+            "--frame needs a figure by drystone",
         ),
         (
             "import drawing.svg --gravity down -o scene.json",
