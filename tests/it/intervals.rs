@@ -15,7 +15,7 @@ use serde_json::{Value, json};
 use crate::oracle::balance::Balance;
 use crate::oracle::factor::{ENDLESS, Growing};
 use crate::oracle::number_of;
-use crate::oracle::random::Chance;
+use crate::random::Random;
 use crate::oracle::touch::touches;
 use crate::structure::{block, rectangle};
 
@@ -274,7 +274,7 @@ fn check_kernel(file: &Value, found: &Intervals, problems: &mut Vec<String>) {
     }
 }
 
-fn check_tilt(file: &Value, found: &Intervals, chance: &mut Chance, problems: &mut Vec<String>) {
+fn check_tilt(file: &Value, found: &Intervals, chance: &mut Random, problems: &mut Vec<String>) {
     const OFF: f64 = 1e-4;
     match read(found.tilt.as_ref().expect("requested")) {
         Err(withheld) => problems.push(format!("tilt withheld: {withheld}")),
@@ -379,7 +379,7 @@ fn check_robots(file: &Value, found: &Intervals, problems: &mut Vec<String>) {
 
 /// A scene of one to three parts, each on ground of its own.
 fn random_scene(number: u64) -> Value {
-    let mut chance = Chance::new(0x1a7e_0000 + number);
+    let mut chance = Random::new(0x1a7e_0000 + number);
     let mut file = json!({ "drystone": 1, "ground": [], "blocks": [], "robots": [], "loads": [] });
     file["friction"] = json!(chance.one_of(&[0.0, 0.125, 0.25, 0.5, 0.5, 0.7, 0.7, 1.0, 2.0]));
     file["kernel"] = json!(chance.one_of(&[0.0, 0.0, 0.0, 0.25]));
@@ -392,7 +392,7 @@ fn random_scene(number: u64) -> Value {
                 let id = &ids[chance.whole(0, ids.len() as i64 - 1) as usize];
                 // A corner's place is exact, a centroid is rounded.
                 let mut load = json!({ "block": id, "at": corner(&file, id) });
-                let quarter = |chance: &mut Chance| chance.whole(-24, 24) as f64 / 4.0;
+                let quarter = |chance: &mut Random| chance.whole(-24, 24) as f64 / 4.0;
                 load["force"] = json!([quarter(&mut chance), quarter(&mut chance)]);
                 if chance.percent(25) {
                     load["torque"] = json!(quarter(&mut chance));
@@ -433,9 +433,9 @@ fn push(file: &mut Value, list: &str, entry: Value) {
 }
 
 /// Adds the ground and the blocks of one part at a place of its own; the names of its blocks.
-fn add_part(file: &mut Value, chance: &mut Chance, x: f64, part: i64) -> Vec<String> {
+fn add_part(file: &mut Value, chance: &mut Random, x: f64, part: i64) -> Vec<String> {
     let eighth =
-        |chance: &mut Chance, least: i64, most: i64| chance.whole(least, most) as f64 / 8.0;
+        |chance: &mut Random, least: i64, most: i64| chance.whole(least, most) as f64 / 8.0;
     let mut ground = vec![rectangle(x - 2.0, -1.0, 12.0, 1.0)];
     let mut bodies = Vec::new();
     match chance.whole(0, 5) {
@@ -532,7 +532,7 @@ fn problems(number: u64) -> Vec<String> {
     );
     check_friction(&file, found, &mut problems);
     check_kernel(&file, found, &mut problems);
-    check_tilt(&file, found, &mut Chance::new(number), &mut problems);
+    check_tilt(&file, found, &mut Random::new(number), &mut problems);
     check_robots(&file, found, &mut problems);
     if !problems.is_empty() {
         problems.push(file.to_string());

@@ -326,7 +326,7 @@ fn a_stone_turned_mirrored_or_scaled_keeps_its_verdict() {
         .map(|corners| (format!("circle of {corners}"), circle(0.1, corners)))
         .collect();
     stones.extend((0..60).map(|number| {
-        let mut chance = Chance::new(number);
+        let mut chance = Random::new(number);
         let corners = chance.whole(20, 80) as usize;
         let stone = pebble(&mut chance, 0.1, corners, 0.0);
         (format!("pebble {number}"), laid_down(&mut chance, &stone))
