@@ -15,8 +15,8 @@ use serde_json::{Value, json};
 use crate::oracle::balance::Balance;
 use crate::oracle::factor::{ENDLESS, Growing};
 use crate::oracle::number_of;
-use crate::random::Random;
 use crate::oracle::touch::touches;
+use crate::random::Random;
 use crate::structure::{block, rectangle};
 
 fn analysed(scene: &Scene) -> Margins {
