@@ -9,9 +9,9 @@
 
 use super::level::{WIDE, lightest, refined_optimum, with_least_squares};
 use super::{
-    Amounts, Choice, Conditioning, Dual, Effort, Face, SolverSettings, Status, largest,
-    least_squares_amounts, of_velocities, once_within, refined, remainder, settled,
-    solved_with_retry,
+    Amounts, Choice, Conditioning, Dual, Effort, Face, SolverSettings, Status,
+    balance_by_least_change, largest, least_squares_amounts, of_velocities, once_within,
+    refine_balance, remainder, solved_with_retry,
 };
 use crate::program::{Program, QuadraticProgram, columns, kinematic_dual};
 
@@ -133,12 +133,13 @@ fn balance_within(program: &Program, settings: SolverSettings, max_iterations: u
                 // One system of equations is cheaper than repairs block by block.
                 (None, Choice::Any) => {
                     let (loads, amounts) = (&whole.loads, solved.amounts);
-                    let amounts = settled(loads, &whole.columns, amounts, settings, effort);
+                    let amounts =
+                        balance_by_least_change(loads, &whole.columns, amounts, settings, effort);
                     whole.with(amounts)
                 }
             };
             if settings.conditioning == Conditioning::Full {
-                face.amounts = refined(&face.loads, &face.columns, face.amounts, effort);
+                face.amounts = refine_balance(&face.loads, &face.columns, face.amounts, effort);
             }
             found.forces = Some(face.gathered(program).0);
         }
@@ -247,7 +248,13 @@ fn least_squares_balance(
         };
         if difference <= ROUGH_COST_TOL && !is_balanced(&amounts) {
             // The right columns, but in long arches rounding adds up to more than a proof allows.
-            amounts = settled(&face.loads, &face.columns, amounts, repair_settings, effort);
+            amounts = balance_by_least_change(
+                &face.loads,
+                &face.columns,
+                amounts,
+                repair_settings,
+                effort,
+            );
         }
         if difference > ROUGH_COST_TOL || !is_balanced(&amounts) {
             continue;

@@ -16,7 +16,7 @@
 
 use super::{
     Conditioning, Dual, Effort, Face, SolverSettings, Status, largest, least_squares_amounts,
-    refined, solved_with_retry,
+    refine_balance, solved_with_retry,
 };
 use crate::geometry::CompensatedSum;
 use crate::program::{Column, QuadraticProgram};
@@ -128,7 +128,7 @@ pub(super) fn with_least_squares(
     let found = least_squares_amounts(loads, columns, settings, effort);
     let found = found.map(|amounts| match balances(&amounts) {
         true => amounts,
-        false => refined(loads, columns, amounts, effort),
+        false => refine_balance(loads, columns, amounts, effort),
     });
     match found.filter(balances) {
         Some(amounts) => face.with(amounts),

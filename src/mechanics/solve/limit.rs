@@ -8,7 +8,8 @@
 use super::dual::amounts_of_rows;
 use super::slanted::Slanted;
 use super::{
-    Amounts, Conditioning, Effort, Face, Status, TOLERANCE, dual, largest, settled, solve,
+    Amounts, Conditioning, Effort, Face, Status, TOLERANCE, balance_by_least_change, dual, largest,
+    solve,
 };
 use crate::program::{Column, Force, Program, columns, load_factor_dual, nearest_factor_dual};
 
@@ -163,7 +164,7 @@ fn attempts(program: &Program) -> impl Iterator<Item = (f64, Conditioning)> {
 /// The amounts with the least change that removes what a solver left unbalanced.
 pub(super) fn rebalanced(loads: &[f64], columns: &[Column], amounts: Vec<f64>) -> Vec<f64> {
     let settings = Conditioning::Plain.into();
-    settled(loads, columns, amounts, settings, &mut Effort::default())
+    balance_by_least_change(loads, columns, amounts, settings, &mut Effort::default())
 }
 
 /// The columns of a program, with limits in parts of `unit`.

@@ -7,8 +7,8 @@ use crate::program::{
     Column, Program, Scale, columns, force_primal, sticking_columns, vallat_program,
 };
 use crate::solve::{
-    Amounts, Choice, Conditioning, Effort, SolverSettings, Status, balance_in, dual, solve,
-    stick_in,
+    Amounts, Choice, Conditioning, Effort, SolverSettings, Status, balance_in, dual,
+    least_adhesion_in, solve,
 };
 
 /// Sticking below this share of the largest is solver noise and no failure.
@@ -274,7 +274,7 @@ fn unique(program: &Program, tolerance: f64) -> Outcome {
         let off = amounts.unbalanced(program);
         return Outcome::stands(&amounts, off, hard.effort);
     }
-    let soft = stick_in(program, settings);
+    let soft = least_adhesion_in(program, settings);
     let effort = hard.effort.and(soft.effort);
     let certain = hard.motion.is_some();
     if soft.balanced == Some(true) {

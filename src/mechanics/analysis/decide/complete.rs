@@ -7,7 +7,7 @@ use super::rebalance::Outcome;
 use super::strategy::LARGE_PROGRAM_BLOCKS;
 use crate::analysis::Verdict;
 use crate::program::Program;
-use crate::solve::{Choice, balance_in, is_late, stick_in};
+use crate::solve::{Choice, balance_in, is_late, least_adhesion_in};
 
 impl Component<'_> {
     /// Adds least forces or failures to a decision, unless only the verdict is wanted.
@@ -75,7 +75,7 @@ impl Component<'_> {
             if is_late() {
                 break;
             }
-            let adhesion = stick_in(program, *settings);
+            let adhesion = least_adhesion_in(program, *settings);
             decision.effort = decision.effort.and(adhesion.effort);
             if adhesion.balanced == Some(true)
                 && self
@@ -95,7 +95,7 @@ impl Component<'_> {
         let mut ready = decision.adhesion.take().filter(|s| s.balanced.is_some());
         for settings in &self.settings {
             let adhesion = ready.take().unwrap_or_else(|| {
-                let adhesion = stick_in(program, *settings);
+                let adhesion = least_adhesion_in(program, *settings);
                 decision.effort = decision.effort.and(adhesion.effort);
                 adhesion
             });

@@ -6,7 +6,7 @@ use crate::assembly::{Assembly, LoadVector};
 use crate::geometry::Vector;
 use crate::program::Program;
 use crate::proof::{self, Motion, Proof, fastest};
-use crate::solve::{Effort, polished};
+use crate::solve::{Effort, repair_motion};
 
 /// A motion must exclude balancing forces up to this many times the sum of all loads. A flat arch presses with several times its
 /// weight, so at a tenth of it a thrust could contradict the motion. Ten times as much would leave flat wedges undecided.
@@ -36,7 +36,7 @@ impl Component<'_> {
                 return Some(found);
             }
             let unit: Vec<f64> = y.iter().map(|v| v / speed).collect();
-            (_, motion) = self.moved(&polished(program, &unit, effort)?);
+            (_, motion) = self.moved(&repair_motion(program, &unit, effort)?);
             proof = self.mechanism(&motion);
         }
         self.convinces(&motion, &proof).then_some((motion, proof))

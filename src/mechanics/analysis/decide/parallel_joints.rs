@@ -4,7 +4,7 @@ use super::Component;
 use super::strategy::Strategy;
 use crate::program::Program;
 use crate::proof::Proof;
-use crate::solve::{Amounts, Choice, Effort, SolverSettings, corrected};
+use crate::solve::{Amounts, Choice, Effort, SolverSettings, rebalance_absolute};
 
 /// Forces that balance, and what is known about their sum.
 pub(super) struct LeastForce {
@@ -40,7 +40,7 @@ impl Component<'_> {
         let straight = program.with_parallel_joints()?;
         let attempt = Strategy::Force(*settings).attempt(&straight);
         *effort = effort.and(attempt.effort);
-        let amounts = corrected(program, attempt.forces.as_ref()?, effort)?;
+        let amounts = rebalance_absolute(program, attempt.forces.as_ref()?, effort)?;
         let proof = self.prove_forces(&amounts).proof;
         if !self.believes(&proof) {
             return None;

@@ -10,7 +10,7 @@ use crate::assembly::{Assembly, DisjointSets};
 use crate::geometry::{Vector, quarter_turn};
 use crate::program::Program;
 use crate::proof::{Motion, Proof};
-use crate::solve::{Effort, polished};
+use crate::solve::{Effort, repair_motion};
 
 /// Bodies whose velocities differ by at most this much move as one; the fastest point has speed 1. The same difference is solver
 /// error in one structure and motion in another, so the coarser value, which gives fewer pieces, is tried first.
@@ -37,7 +37,7 @@ impl Component<'_> {
             }
             let program = Program::new(&joined, self.scale);
             let mean = mean_velocities(&piece, motion, joined.bodies.len(), self.scale.length);
-            let y = polished(&program, &mean, effort)?;
+            let y = repair_motion(&program, &mean, effort)?;
             let parted = self.parted(&joined, &piece, &y);
             let proof = self.mechanism(&parted);
             self.convinces(&parted, &proof).then_some((parted, proof))

@@ -19,7 +19,7 @@ use crate::assembly::Substructure;
 use crate::geometry::Vector;
 use crate::program::{Program, Scale};
 use crate::proof::{self, Motion, Proof};
-use crate::solve::{Amounts, Effort, corrected, is_late, relative};
+use crate::solve::{Amounts, Effort, is_late, rebalance_absolute, rebalance_relative};
 
 /// Rounds of correction. Each gains the digits of one solution, and eight cover weights from 1e-30 to 1e30.
 const MAX_ROUNDS: usize = 8;
@@ -79,14 +79,14 @@ impl Component<'_> {
                 break;
             }
             let fails = failing(&carried);
-            if let Some(better) = relative(program, &amounts, effort)
+            if let Some(better) = rebalance_relative(program, &amounts, effort)
                 && count(&failing(&self.prove_forces(&better))) < count(&fails)
             {
                 amounts = better;
                 continue;
             }
             if all_at_once {
-                match corrected(program, &amounts, effort) {
+                match rebalance_absolute(program, &amounts, effort) {
                     Some(better)
                         if count(&failing(&self.prove_forces(&better))) < count(&fails) =>
                     {
@@ -144,7 +144,7 @@ impl Component<'_> {
             let off = proof::imbalances(&part.assembly, &component.prove_forces(amounts).forces);
             off.into_iter().fold(0.0, f64::max)
         };
-        if let Some(better) = corrected(&program, &given, effort)
+        if let Some(better) = rebalance_absolute(&program, &given, effort)
             && off(&better) < 0.5 * off(&given)
         {
             return PartOutcome::Changed(in_units(&better, component.scale, self.scale));

@@ -12,8 +12,8 @@ mod joint;
 #[cfg(test)]
 mod tests;
 
+use super::adhesion_result::LeastAdhesion;
 use super::amounts::{Amounts, Effort};
-use super::least_adhesion::LeastAdhesion;
 use crate::geometry::{Vector, cross};
 use crate::program::Program;
 use joint::{ContactForces, Joint, JointSpeeds, Wrench, joints};
@@ -55,13 +55,13 @@ fn needed_forces(program: &Program, joints: &[Joint]) -> Vec<ContactForces> {
     forces.collect()
 }
 
-/// The least sticking, and the motion that proves it; `None` if the forces are not unique.
-pub(super) fn least_sticking(program: &Program) -> Option<LeastAdhesion> {
+/// The least adhesion, and the motion that proves it; `None` if the forces are not unique.
+pub(super) fn least_adhesion(program: &Program) -> Option<LeastAdhesion> {
     let joints = joints(program)?;
     Split::new(program, &joints)?.stuck(program, &joints)
 }
 
-/// A collapse mechanism with few moving joints, and the least sticking. On each way from the ground only the first failing
+/// A collapse mechanism with few moving joints, and the least adhesion. On each way from the ground only the first failing
 /// contact gives way; what lies beyond moves with it as one body. `None` if the forces are not unique, or if nothing sticks.
 pub fn collapse(program: &Program) -> Option<(Vec<f64>, LeastAdhesion)> {
     let joints = joints(program)?;
@@ -135,7 +135,7 @@ impl Split {
         Some(Split { forces, sticking })
     }
 
-    /// The optimum of the program of least sticking, with the motion of all joints that give way; `None` if a friction above 1
+    /// The optimum of the program of least adhesion, with the motion of all joints that give way; `None` if a friction above 1
     /// might need less sticking.
     fn stuck(self, program: &Program, joints: &[Joint]) -> Option<LeastAdhesion> {
         if program

@@ -6,8 +6,8 @@ use crate::interface::ContactKind;
 use crate::program::ContactTerm;
 use crate::program::{Scale, columns, sticking_columns};
 use crate::solve::Conditioning;
+use crate::solve::least_adhesion::by_programs;
 use crate::solve::numbers::Numbers;
-use crate::solve::stick::by_programs;
 
 /// Blocks that each touch one earlier one or the ground, in any direction and with any load.
 fn branches(blocks: usize, numbers: &mut Numbers) -> Program {
@@ -57,7 +57,7 @@ fn what_sticks_is_what_the_programs_find_and_its_motion_shows_that_no_less_does(
     let mut stuck_somewhere = 0;
     for blocks in [1, 2, 3, 5, 8].repeat(8) {
         let program = branches(blocks, &mut numbers);
-        let found = least_sticking(&program).unwrap();
+        let found = least_adhesion(&program).unwrap();
         let other = by_programs(&program, Conditioning::Full.into());
         let total = found.sticking.total();
         assert!((total - other.sticking.total()).abs() < 1e-6 * (1.0 + total));
@@ -112,14 +112,14 @@ fn its_forces_are_those_that_stick_nowhere() {
         }
         let forces = determinate(&program).unwrap();
         assert!(forces.unbalanced(&program) < 1e-10);
-        let stuck = least_sticking(&program).unwrap();
+        let stuck = least_adhesion(&program).unwrap();
         assert!(stuck.sticking.total() < 1e-10);
         assert_eq!(stuck.forces, forces);
         // One contact that has to pull is enough.
         let pulled = sticking_columns(&program);
         pulled[0].add_to(&mut program.loads, 20.0);
         assert!(determinate(&program).is_none());
-        assert!(least_sticking(&program).unwrap().sticking.total() > 1.0);
+        assert!(least_adhesion(&program).unwrap().sticking.total() > 1.0);
     }
 }
 
@@ -127,17 +127,17 @@ fn its_forces_are_those_that_stick_nowhere() {
 fn where_forces_have_a_choice_it_says_nothing() {
     let mut numbers = Numbers(5);
     let tree = branches(4, &mut numbers);
-    assert!(least_sticking(&tree).is_some());
+    assert!(least_adhesion(&tree).is_some());
     let mut ring = tree.clone();
     ring.contacts.push(ring.contacts[3].clone());
-    assert!(least_sticking(&ring).is_none());
+    assert!(least_adhesion(&ring).is_none());
     // As many contacts as blocks, but one block has two and another none.
     ring.contacts.remove(0);
-    assert!(least_sticking(&ring).is_none());
+    assert!(least_adhesion(&ring).is_none());
     let mut rough = tree.clone();
     rough.contacts[1].friction = 1.1;
-    assert!(least_sticking(&rough).is_none());
+    assert!(least_adhesion(&rough).is_none());
     let mut corner = tree;
     corner.contacts[1].points = 1;
-    assert!(least_sticking(&corner).is_none() && determinate(&corner).is_none());
+    assert!(least_adhesion(&corner).is_none() && determinate(&corner).is_none());
 }

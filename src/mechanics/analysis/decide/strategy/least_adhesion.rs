@@ -3,10 +3,10 @@
 
 use super::Attempt;
 use crate::program::Program;
-use crate::solve::{SolverSettings, stick_in};
+use crate::solve::{SolverSettings, least_adhesion_in};
 
 pub(super) fn attempt(program: &Program, settings: SolverSettings) -> Attempt {
-    let adhesion = stick_in(program, settings);
+    let adhesion = least_adhesion_in(program, settings);
     Attempt {
         forces: (adhesion.balanced == Some(true)).then(|| adhesion.forces.clone()),
         motion: adhesion.motion.clone(),

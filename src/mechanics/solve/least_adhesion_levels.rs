@@ -1,4 +1,4 @@
-//! The later stages of the least sticking, where its sizes span more digits than a solver has.
+//! The later stages of the least adhesion, where its sizes span more digits than a solver has.
 //!
 //! As [`super::stick`], with every stage solved level by level ([`super::level`]), so that a stone of a gram on a block of a
 //! hundred tons sticks by its own digits. Columns leave the face of optima by an amount of exactly 0, and no threshold in
@@ -17,7 +17,7 @@ const NONE: f64 = 1e-10;
 /// Rounds of concentrating.
 const ROUNDS: usize = 4;
 
-/// The size of force whose digits are wanted, where an optimum of the least sticking does not have them.
+/// The size of force whose digits are wanted, where an optimum of the least adhesion does not have them.
 pub(super) fn wanted(loads: &[f64], least: f64) -> Option<f64> {
     let most = largest(loads);
     let light = lightest(loads);
@@ -26,7 +26,7 @@ pub(super) fn wanted(loads: &[f64], least: f64) -> Option<f64> {
     (wanted < WIDE * most && wanted > 0.0).then_some(wanted)
 }
 
-/// Among all balances of least sticking the one that is shown: of least force, then with fewest points that stick.
+/// Among all balances of least adhesion the one that is shown: of least force, then with fewest points that stick.
 ///
 /// `first` is the optimum of the first stage, refined. A stage that the solver does not get through is left out.
 pub(super) fn chosen(

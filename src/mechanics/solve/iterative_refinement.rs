@@ -1,11 +1,19 @@
-//! Corrections of amounts: what they leave unbalanced is scaled up and solved for once more.
+//! Iterative refinement of amounts: the residual is scaled to size 1, solved for as a correction, and added.
 
 use super::{Conditioning, Effort, SolverSettings, Status, largest, remainder, solved_with_retry};
 use crate::program::{Column, Correction, least_norm, least_squares};
 
-/// Amounts with the smallest change that undoes what they leave unbalanced: one system of equations, no inequality. One
-/// that would fall below 0 is cut there, so that what it cost shows in the balance.
-pub(super) fn settled(
+/// Rounds of [`refine_balance`]: twice nine digits are more than f64 has.
+const MAX_ROUNDS: usize = 2;
+
+/// A residual below this fraction of the largest load is rounding.
+const ROUNDING: f64 = 1e-14;
+
+/// The amounts with the least change that removes their residual: one linear system, no inequalities.
+///
+/// An amount that would become negative is set to 0; what that costs shows in the balance. If the system is not solved, the
+/// amounts are returned as they are.
+pub(super) fn balance_by_least_change(
     loads: &[f64],
     columns: &[Column],
     amounts: Vec<f64>,
@@ -26,20 +34,20 @@ pub(super) fn settled(
     better.map(|(a, d)| (a + size * d).max(0.0)).collect()
 }
 
-/// Amounts whose balance is exact to rounding, if they can be had near the given ones.
+/// Amounts near the given ones whose balance is exact to rounding, as far as they are found.
 ///
-/// What is left unbalanced is scaled up to size 1 and solved for as a correction, which keeps every amount ≥ 0; each round
-/// gains the solver's nine digits. Without it a feather under a mountain drowns in the mountain's rounding.
-pub(super) fn refined(
+/// Each round solves a quadratic program for a correction that keeps every amount ≥ 0, and gains the solver's nine digits.
+/// Without it the balance of a feather under a mountain is lost in the mountain's rounding.
+pub(super) fn refine_balance(
     loads: &[f64],
     columns: &[Column],
     mut amounts: Vec<f64>,
     effort: &mut Effort,
 ) -> Vec<f64> {
-    for _ in 0..2 {
+    for _ in 0..MAX_ROUNDS {
         let rest = remainder(loads, columns, &amounts);
         let size = largest(&rest);
-        if size <= 1e-14 * largest(loads) {
+        if size <= ROUNDING * largest(loads) {
             break;
         }
         let scaled: Vec<f64> = rest.iter().map(|v| v / size).collect();

@@ -1,15 +1,16 @@
-//! Forces made good for every block for itself: small changes of forces that balance on the whole already.
+//! Balances every block relative to its own forces, by small changes of forces that balance the whole already.
 //!
 //! A solver balances every block to a billionth of the heaviest load, which is nothing to a wall and everything to a
-//! pebble in it. Two programs change its forces:
+//! pebble in it. Two programs change its forces, by iterative refinement:
 //!
-//! - [`relative`]: each ray of a friction cone may change in parts of its own amount, each block's balance counts in
-//!   parts of that block's own forces; the least such change is a system of linear equations.
-//! - [`corrected`]: the least change in absolute terms that keeps every amount admissible. For a part of a structure in
-//!   its own scale, where what presses it from outside stays as it is.
+//! - [`rebalance_relative`]: each ray of a friction cone changes relative to its own amount, and each block's balance counts
+//!   relative to that block's own forces. The least such change is a linear system.
+//! - [`rebalance_absolute`]: the least change that keeps every amount admissible, a quadratic program. For a part of a structure in
+//!   its own scale; the forces that press it from outside stay as they are.
 //!
-//! What is left unbalanced is summed with twice the digits, since it is a small difference of large forces.
+//! Residuals are small differences of large forces, so they are summed with twice the digits.
 
+use super::solver::all_finite;
 use super::{Amounts, Conditioning, Effort, Status, solved_with_retry};
 use crate::geometry::{CompensatedSum, Vector, quarter_turn};
 use crate::program::{
@@ -17,17 +18,19 @@ use crate::program::{
 };
 
 /// Rounds of changes; each gains the solver's digits.
-const ROUNDS: usize = 4;
+const MAX_ROUNDS: usize = 4;
 
-/// What a block's balance may be off by costs so much, so that there is an answer where a balance there is not.
-const FIRMNESS: f64 = 1e8;
+/// The weight of a block's remaining imbalance against the relative changes of forces (quadratic penalty). Ten times smaller, some
+/// imbalance would be kept; ten times larger, the system loses digits.
+const IMBALANCE_WEIGHT: f64 = 1e8;
 
-/// Amounts beyond so many sizes of the change cannot become negative by it. On a support of a millionth of a block it takes
-/// a million times what is off across it to make up for its moment; then the second value serves.
-const AMPLE: [f64; 2] = [1e4, 1e8];
+/// Amounts larger than this multiple of the residual cannot become negative by the change: for them no bound is stated. On a
+/// support of a millionth of a block, forces must change by a million times the residual to make up for its moment; then the
+/// second value serves.
+const UNBOUNDED_RATIOS: [f64; 2] = [1e4, 1e8];
 
-/// What the forces leave unbalanced of a program's loads, and Σ |force| on each block.
-fn rest(program: &Program, amounts: &Amounts) -> (Vec<f64>, Vec<f64>) {
+/// The residual loads − Σ force of a program, and Σ |force| on each block.
+fn residual(program: &Program, amounts: &Amounts) -> (Vec<f64>, Vec<f64>) {
     let mut sums: Vec<CompensatedSum> = vec![CompensatedSum::default(); program.loads.len()];
     for (sum, load) in sums.iter_mut().zip(&program.loads) {
         sum.add(*load);
@@ -67,11 +70,11 @@ fn rest(program: &Program, amounts: &Amounts) -> (Vec<f64>, Vec<f64>) {
     (sums.into_iter().map(CompensatedSum::value).collect(), total)
 }
 
-/// The amounts of a program's columns that make up given forces, inside the friction cones as far as may be.
+/// The amounts of a program's columns that add up to given forces, as far inside the friction cones as possible.
 ///
-/// A contact force N, T with s = |T|/μN is (1 − s)/2 of N straight, (1 + 3s)/4 of it along the ray on the side of T and
+/// A contact force N, T with s = |T|/μN is (1 − s)/2 of N along the normal, (1 + 3s)/4 of it along the ray on the side of T and
 /// (1 − s)/4 of it along the other.
-fn rays(program: &Program, list: &[Column], amounts: &Amounts) -> Vec<f64> {
+fn ray_amounts(program: &Program, list: &[Column], amounts: &Amounts) -> Vec<f64> {
     let amount = |column: &Column| match column.force {
         Force::Ray {
             contact,
@@ -108,8 +111,8 @@ fn rays(program: &Program, list: &[Column], amounts: &Amounts) -> Vec<f64> {
     list.iter().map(amount).collect()
 }
 
-/// Forces changed by `changes` of the columns, no pull among them.
-fn changed(amounts: &Amounts, list: &[Column], changes: &[f64]) -> Amounts {
+/// The forces after `changes` of the columns' amounts; pulls are set to 0.
+fn apply(amounts: &Amounts, list: &[Column], changes: &[f64]) -> Amounts {
     let mut changed = amounts.clone();
     for (column, change) in list.iter().zip(changes) {
         changed.add(column.force, *change);
@@ -120,7 +123,8 @@ fn changed(amounts: &Amounts, list: &[Column], changes: &[f64]) -> Amounts {
     changed
 }
 
-/// Each block's rows in parts of its own forces: 1/Σ|force|, of the moment also over the longest arm.
+/// The scale of each row, which makes a block's balance relative to its own forces: 1/Σ|force|, for moments also by the longest
+/// arm.
 fn row_scales(program: &Program, total: &[f64]) -> Vec<f64> {
     let mut reach = vec![0.0; program.blocks];
     let mut reaches = |block: usize, arm: Vector| reach[block] = f64::max(reach[block], arm.norm());
@@ -139,33 +143,30 @@ fn row_scales(program: &Program, total: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-fn largest(rest: &[f64], scales: &[f64]) -> f64 {
-    let off = rest.iter().zip(scales).map(|(v, d)| (v * d).abs());
+fn largest_scaled(residual: &[f64], scales: &[f64]) -> f64 {
+    let off = residual.iter().zip(scales).map(|(v, d)| (v * d).abs());
     off.fold(0.0, f64::max)
 }
 
-/// Whether every number of a program is finite: of loads near the smallest numbers there are, no shares can be taken.
-fn is_finite(conic: &QuadraticProgram) -> bool {
-    let entries = conic.matrix.iter().chain(&conic.quadratic).map(|e| e.2);
-    let lists = conic.bound.iter().chain(&conic.linear).copied();
-    entries.chain(lists).all(f64::is_finite)
-}
-
-/// Forces near given ones that balance every block better in parts of its own forces, if there are such nearby.
+/// Forces near given ones that balance every block better, relative to its own forces; `None` if none are found.
 ///
-/// With r what is left, w the amounts of the rays and D the rows' scales, each round is the program
-/// min ½ |ε|² + ½ firmness |v|²  s.t.  D A W ε + v = D r. A block that no forces balance keeps its v.
-pub fn relative(program: &Program, amounts: &Amounts, effort: &mut Effort) -> Option<Amounts> {
+/// With r the residual, w the amounts of the rays (W on a diagonal) and D the rows' scales, each round is the program
+/// min ½ |ε|² + ½ weight |v|²  s.t.  D A W ε + v = D r. A block that no forces balance keeps its v.
+pub fn rebalance_relative(
+    program: &Program,
+    amounts: &Amounts,
+    effort: &mut Effort,
+) -> Option<Amounts> {
     let list = columns(program);
     let (mut best, mut better) = (amounts.clone(), false);
-    for _ in 0..ROUNDS {
-        let (left, total) = rest(program, &best);
+    for _ in 0..MAX_ROUNDS {
+        let (left, total) = residual(program, &best);
         let scales = row_scales(program, &total);
-        let size = largest(&left, &scales);
+        let size = largest_scaled(&left, &scales);
         if size <= 1e-14 {
             break;
         }
-        let weights = rays(program, &list, &best);
+        let weights = ray_amounts(program, &list, &best);
         let used: Vec<usize> = (0..list.len()).filter(|k| weights[*k] > 0.0).collect();
         let rows = left.len();
         let mut conic = QuadraticProgram {
@@ -189,10 +190,11 @@ pub fn relative(program: &Program, amounts: &Amounts, effort: &mut Effort) -> Op
         }
         for row in 0..rows {
             let unknown = used.len() + row;
-            conic.quadratic.push((unknown, unknown, FIRMNESS));
+            conic.quadratic.push((unknown, unknown, IMBALANCE_WEIGHT));
             conic.matrix.push((row, unknown, 1.0));
         }
-        if !is_finite(&conic) {
+        // Relative to loads near the smallest number of f64, scales are infinite.
+        if !all_finite(&conic) {
             break;
         }
         let answer = solved_with_retry(&conic, Conditioning::Full, effort);
@@ -201,11 +203,11 @@ pub fn relative(program: &Program, amounts: &Amounts, effort: &mut Effort) -> Op
         }
         let mut changes = vec![0.0; list.len()];
         for (unknown, k) in used.iter().enumerate() {
-            // Small changes are meant; what would vanish by one stays where a later round can find it.
+            // Changes are to be small. An amount that would vanish is halved, so that a later round can restore it.
             changes[*k] = (answer.x[unknown] * size).max(-0.5) * weights[*k];
         }
-        let next = changed(&best, &list, &changes);
-        let (after, total) = rest(program, &next);
+        let next = apply(&best, &list, &changes);
+        let (after, total) = residual(program, &next);
         // Some blocks may have no balance; the others have gained digits all the same.
         if digits(&after, &row_scales(program, &total)) < digits(&left, &scales) + 0.3 {
             break;
@@ -215,21 +217,25 @@ pub fn relative(program: &Program, amounts: &Amounts, effort: &mut Effort) -> Op
     better.then_some(best)
 }
 
-/// Decimal digits to which the blocks balance, all together.
+/// The sum over the blocks of the decimal digits to which each balances.
 fn digits(left: &[f64], scales: &[f64]) -> f64 {
     left.chunks_exact(3)
         .zip(scales.chunks_exact(3))
-        .map(|(left, scales)| -libm::log10(largest(left, scales).max(1e-16)))
+        .map(|(left, scales)| -libm::log10(largest_scaled(left, scales).max(1e-16)))
         .sum()
 }
 
-/// Forces that balance a program to rounding and differ least from given ones, if there are such nearby.
-pub fn corrected(program: &Program, amounts: &Amounts, effort: &mut Effort) -> Option<Amounts> {
+/// Forces that balance a program to rounding and differ least from given ones; `None` if none are found.
+pub fn rebalance_absolute(
+    program: &Program,
+    amounts: &Amounts,
+    effort: &mut Effort,
+) -> Option<Amounts> {
     let list = columns(program);
     let (mut best, mut better) = (amounts.clone(), false);
-    for _ in 0..ROUNDS {
-        let Some(next) =
-            (AMPLE.into_iter()).find_map(|ample| nearer(program, &list, &best, ample, effort))
+    for _ in 0..MAX_ROUNDS {
+        let Some(next) = (UNBOUNDED_RATIOS.into_iter())
+            .find_map(|ratio| correct_once(program, &list, &best, ratio, effort))
         else {
             break;
         };
@@ -238,29 +244,29 @@ pub fn corrected(program: &Program, amounts: &Amounts, effort: &mut Effort) -> O
     better.then_some(best)
 }
 
-/// Forces that leave at most half as much, none of which falls by more than `ample` times what is left.
-fn nearer(
+/// One round: forces with at most half the residual, none of which falls by more than `ratio` times the residual.
+fn correct_once(
     program: &Program,
     list: &[Column],
     best: &Amounts,
-    ample: f64,
+    ratio: f64,
     effort: &mut Effort,
 ) -> Option<Amounts> {
-    let (left, _) = rest(program, best);
+    let (left, _) = residual(program, best);
     let size = left.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-    let weights = rays(program, list, best);
+    let weights = ray_amounts(program, list, best);
     let most = weights.iter().fold(0.0, |m: f64, v| m.max(*v));
     if size <= f64::EPSILON * most || size == 0.0 {
         return None;
     }
     let scaled: Vec<f64> = left.iter().map(|v| v / size).collect();
-    let ample: Vec<f64> = weights.iter().map(|w| w.min(ample * size)).collect();
+    let bounded: Vec<f64> = weights.iter().map(|w| w.min(ratio * size)).collect();
     let correction = Correction {
-        amounts: &ample,
+        amounts: &bounded,
         size,
     };
     let conic = least_squares(&scaled, list, Some(correction));
-    if !is_finite(&conic) {
+    if !all_finite(&conic) {
         return None;
     }
     let answer = solved_with_retry(&conic, Conditioning::Full, effort);
@@ -268,8 +274,8 @@ fn nearer(
         return None;
     }
     let changes: Vec<f64> = answer.x.iter().map(|d| d * size).collect();
-    let next = changed(best, list, &changes);
-    let (left, _) = rest(program, &next);
+    let next = apply(best, list, &changes);
+    let (left, _) = residual(program, &next);
     left.iter().all(|v| v.abs() <= 0.5 * size).then_some(next)
 }
 
@@ -323,9 +329,9 @@ mod tests {
         let program = tower(&weights, 0.5);
         let start = rough(&weights);
         let mut effort = Effort::default();
-        let found = relative(&program, &start, &mut effort).expect("it stands");
-        let (left, total) = rest(&program, &found);
-        assert!(largest(&left, &row_scales(&program, &total)) < 1e-11);
+        let found = rebalance_relative(&program, &start, &mut effort).expect("it stands");
+        let (left, total) = residual(&program, &found);
+        assert!(largest_scaled(&left, &row_scales(&program, &total)) < 1e-11);
         assert!(found.normal.iter().flatten().all(|n| *n >= 0.0));
     }
 
@@ -338,13 +344,13 @@ mod tests {
             grip: Vec::new(),
         };
         let mut effort = Effort::default();
-        let found = corrected(&program, &start, &mut effort).expect("it stands");
+        let found = rebalance_absolute(&program, &start, &mut effort).expect("it stands");
         for normal in found.normal[0] {
             assert!((normal - 0.5).abs() < 1e-12, "{normal}");
         }
         // Pushed up, it has no balance.
         let mut lifted = program.clone();
         lifted.loads[1] = -1.0;
-        assert!(corrected(&lifted, &start, &mut effort).is_none());
+        assert!(rebalance_absolute(&lifted, &start, &mut effort).is_none());
     }
 }
