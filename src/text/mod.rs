@@ -1,14 +1,14 @@
-//! Text from files in what we write: one function per kind of output, through which every string goes that is not ours.
+//! Escapes untrusted text: one function per output format, for every string that does not come from this program.
 //!
-//! A title, an id, a file's name or a piece of a file may hold anything: line breaks that would begin a row of a table,
-//! escape sequences of terminals, marks that turn the order of reading round, markup, formulas of spreadsheets. After these
-//! functions it is words on one line and nothing else. What cannot be seen becomes [`HIDDEN`], so that it is seen.
+//! A title, an id or a file name may contain anything: line breaks that begin a table row, escape sequences of terminals,
+//! characters that reverse the reading direction, markup, or spreadsheet formulas. These functions return harmless text on
+//! one line. Invisible characters become [`HIDDEN`], so that the reader sees that they were there.
 
 mod spelling;
 
 pub use spelling::nearest;
 
-/// Stands for a character that cannot be seen and would do something.
+/// Replaces an invisible character that would have an effect.
 pub const HIDDEN: char = '\u{fffd}';
 
 /// A 64-bit hash of some bytes (FNV-1a), the same on every machine and in every version of Rust. It finds accidental
@@ -24,8 +24,8 @@ pub fn hash(bytes: &[u8]) -> u64 {
     })
 }
 
-/// Words on one line: line breaks and tabs become spaces; other controls and what turns the order of reading round become
-/// [`HIDDEN`]. As many characters as before.
+/// The text on one line. Line breaks and tabs become spaces; other control characters, and characters that change the
+/// reading direction, become [`HIDDEN`]. The number of characters stays the same.
 ///
 /// ```
 /// use drystone::internals::text::line;
@@ -33,26 +33,27 @@ pub fn hash(bytes: &[u8]) -> u64 {
 /// assert_eq!(line("\u{1b}[31mred"), "\u{fffd}[31mred");
 /// ```
 pub fn line(text: &str) -> String {
-    text.chars().map(shown).collect()
+    text.chars().map(visible).collect()
 }
 
-/// As [`line()`], with white space narrowed to single spaces and at most `most` characters: for a heading, which a terminal
-/// may break where it ends.
-pub fn heading(text: &str, most: usize) -> String {
+/// Like [`line()`], with runs of white space reduced to single spaces, and shortened to `max_chars` characters with an
+/// ellipsis. For headings.
+pub fn heading(text: &str, max_chars: usize) -> String {
     let line = line(text);
     let words: Vec<&str> = line.split(' ').filter(|word| !word.is_empty()).collect();
     let words = words.join(" ");
-    if words.chars().count() <= most {
+    if words.chars().count() <= max_chars {
         return words;
     }
     words
         .chars()
-        .take(most.saturating_sub(1))
+        .take(max_chars.saturating_sub(1))
         .chain(['…'])
         .collect()
 }
 
-fn shown(c: char) -> char {
+/// The visible replacement of a character.
+fn visible(c: char) -> char {
     match c {
         '\t' | '\n' | '\u{b}' | '\u{c}' | '\r' | '\u{85}' | '\u{2028}' | '\u{2029}' => ' ',
         c if is_hidden(c) => HIDDEN,
@@ -60,18 +61,17 @@ fn shown(c: char) -> char {
     }
 }
 
-/// Controls, and marks that overrule or embed a direction of writing ([UAX9] 2.1 to 2.4).
+/// Whether a character is a control character, or overrides or embeds a writing direction ([UAX9] 2.1 to 2.4).
 ///
 /// [UAX9]: https://www.unicode.org/reports/tr9/
 fn is_hidden(c: char) -> bool {
     c.is_control() || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// Text for SVG and any other XML, as content or between quotes: one line, its marks replaced, without the code points that
-/// XML forbids.
+/// Text for XML, as content or in quotes: one line, markup characters replaced by entities, forbidden code points removed.
 pub fn xml(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
-    for c in text.chars().map(shown) {
+    for c in text.chars().map(visible) {
         match c {
             '&' => out.push_str("&amp;"),
             '<' => out.push_str("&lt;"),
@@ -79,7 +79,7 @@ pub fn xml(text: &str) -> String {
             '"' => out.push_str("&quot;"),
             '\'' => out.push_str("&#39;"),
             ' '..='\u{7e}' | '\u{a0}'..='\u{fdcf}' | '\u{fdf0}'..='\u{fffd}' => out.push(c),
-            // Above the first plane the last two code points of each plane are no characters.
+            // The last two code points of each plane are not characters.
             '\u{10000}'.. if u32::from(c) & 0xfffe != 0xfffe => out.push(c),
             _ => {}
         }
@@ -87,36 +87,36 @@ pub fn xml(text: &str) -> String {
     out
 }
 
-/// Text for Markdown within a line: no emphasis, heading, list, link, code or HTML begins in it, and no address is made a
-/// link of.
+/// Text for Markdown, escaped so that it starts no emphasis, heading, list, link, code or HTML and no automatic link.
 pub fn markdown(text: &str) -> String {
     let line = line(text);
     let text = line.trim();
     let number = text.len() - text.trim_start_matches(|c: char| c.is_ascii_digit()).len();
-    // A list or a heading begins at the beginning of a line only.
-    let begins = |place: usize, c: char| match c {
+    // Lists and underlined headings start only at the beginning of a line.
+    let starts_block = |place: usize, c: char| match c {
         '-' | '+' | '=' => place == 0,
         _ => matches!(c, '.' | ')') && place == number && number > 0,
     };
-    escaped(text, begins)
+    backslash_escaped(text, starts_block)
 }
 
-/// Text as a cell of a table of Markdown, where no line begins: as [`markdown`], but `64.7 kN` and `-3` stay as they are.
+/// Text for a cell of a Markdown table. Like [`markdown`], but `64.7 kN` and `-3` need no escapes, since no line starts
+/// there.
 pub fn markdown_cell(text: &str) -> String {
-    escaped(line(text).trim(), |_, _| false)
+    backslash_escaped(line(text).trim(), |_, _| false)
 }
 
-/// Text with a backslash before what Markdown would act on, and before what `more` says of a character at its place.
-fn escaped(text: &str, more: impl Fn(usize, char) -> bool) -> String {
+/// Text with a backslash before each character that Markdown interprets, or for which `is_special(position, character)`.
+fn backslash_escaped(text: &str, is_special: impl Fn(usize, char) -> bool) -> String {
     let mut out = String::with_capacity(text.len());
     for (place, c) in text.char_indices() {
         let rest = &text[place..];
-        let begins = match c {
+        let is_markup = match c {
             '.' if text[..place].ends_with("www") => true,
             ':' => rest.starts_with(":/"),
             _ => "\\`*_[]<>#|~@&$^".contains(c),
         };
-        if begins || more(place, c) {
+        if is_markup || is_special(place, c) {
             out.push('\\');
         }
         out.push(c);
@@ -124,18 +124,17 @@ fn escaped(text: &str, more: impl Fn(usize, char) -> bool) -> String {
     out
 }
 
-/// Text as a cell of a table of comma separated values: in quotes, and with an apostrophe before what a spreadsheet would
-/// take for a formula.
+/// Text for a cell of a CSV file, in quotes. An apostrophe is added if a spreadsheet would read the text as a formula.
 pub fn csv(text: &str) -> String {
     let line = line(text);
-    let formula = line
+    let is_formula = line
         .trim_start()
         .starts_with(['=', '+', '-', '@', '＝', '＋', '－', '＠']);
-    let mark = if formula { "'" } else { "" };
+    let mark = if is_formula { "'" } else { "" };
     format!("\"{mark}{}\"", line.replace('"', "\"\""))
 }
 
-/// A word of a command line as a shell of POSIX takes it: quoted where it must be, on one line.
+/// A word for the command line of a POSIX shell, on one line and quoted if necessary.
 ///
 /// ```
 /// use drystone::internals::text::shell;
@@ -146,7 +145,7 @@ pub fn csv(text: &str) -> String {
 pub fn shell(word: &str) -> String {
     let word = line(word);
     let word = if word.len() > 1 && word.starts_with('-') {
-        // A file's name is no option.
+        // A file name that starts with a dash would be read as an option.
         format!("./{word}")
     } else {
         word
@@ -158,10 +157,11 @@ pub fn shell(word: &str) -> String {
     format!("'{}'", word.replace('\'', r"'\''"))
 }
 
-/// JSON whose strings hold nothing that a terminal would act on: the same values, written with escapes. Outside of strings
-/// there are no such characters.
+/// JSON text with the same values, in which characters that a terminal would interpret are written as escapes.
+///
+/// Valid JSON has such characters only inside strings, where escapes are allowed.
 pub fn json(text: &str) -> String {
-    // Most text has no such character, and is looked through byte by byte at a fraction of the cost.
+    // Most text has no such character. Testing bytes is much cheaper than decoding characters.
     let is_plain = |b: &u8| matches!(b, b' '..=b'~' | b'\n' | b'\t' | b'\r');
     if text.as_bytes().iter().all(is_plain) {
         return text.to_string();
@@ -178,18 +178,18 @@ pub fn json(text: &str) -> String {
     out
 }
 
-/// Text of an annotation of GitHub, which ends at a line break and knows its own escapes; lines stay lines.
+/// Text for a GitHub annotation, which has its own escapes; line breaks are kept as escapes.
 pub fn github(text: &str) -> String {
     let lines: Vec<String> = text.split('\n').map(line).collect();
     lines.join("\n").replace('%', "%25").replace('\n', "%0A")
 }
 
-/// Text of a property of such an annotation, its file or title.
+/// Text for a property of a GitHub annotation, such as its file or title.
 pub fn github_property(text: &str) -> String {
     github(&line(text)).replace(':', "%3A").replace(',', "%2C")
 }
 
-/// Whether a line is a mark that a version control system leaves between two versions of a place.
+/// Whether a line is a conflict marker of a version control system: it starts with seven `<`, `=` or `>`.
 pub fn is_conflict_mark(line: &str) -> bool {
     let marks = |c: char| line.chars().take(7).filter(|found| *found == c).count() == 7;
     marks('<') || marks('=') || marks('>')

@@ -1,26 +1,29 @@
-//! [`nearest`]: the known name that was probably meant by an unknown one.
+//! [`nearest`]: the known name that an unknown name was probably meant to be.
+//!
+//! Names are compared by the optimal string alignment distance: the number of letters to change, insert, delete, or swap
+//! with a neighbour. References: Damerau 1964; Levenshtein 1966; Ukkonen 1985 for stopping early at a largest distance.
 
-/// So many letters of a name are compared.
-const LETTERS: usize = 80;
+/// Only this many letters of a name are compared: the distance takes quadratic time.
+const MAX_LETTERS: usize = 80;
 
-/// The known name that looks most like another one, if any is near.
+/// The known name with the smallest distance to `name`, at most a third of its letters plus one; the first of several.
 pub fn nearest<'n>(name: &str, known: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
-    // Comparing a long list of unknown names with a long list of known ones must not take minutes.
-    const MOST: usize = 2000;
+    // A file with many unknown names and many known ones must not take minutes.
+    const MAX_COMPARED_NAMES: usize = 2000;
     let mut wanted = Vec::new();
     letters(name, &mut wanted);
-    let mut reach = 1 + wanted.len() / 3;
+    let mut max_distance = 1 + wanted.len() / 3;
     let (mut best, mut rows, mut found) = (None, Rows::default(), Vec::new());
-    for other in known.into_iter().take(MOST) {
+    for other in known.into_iter().take(MAX_COMPARED_NAMES) {
         letters(other, &mut found);
-        let Some(distance) = rows.distance(&wanted, &found, reach) else {
+        let Some(distance) = rows.distance(&wanted, &found, max_distance) else {
             continue;
         };
         if distance < wanted.len() || other.starts_with(name) {
             best = Some(other);
-            // Of names that are equally near the first is told: from here on only a nearer one counts.
+            // Of equally near names the first is returned: from here on only a nearer one counts.
             match distance.checked_sub(1) {
-                Some(nearer) => reach = nearer,
+                Some(nearer) => max_distance = nearer,
                 None => break,
             }
         }
@@ -28,32 +31,34 @@ pub fn nearest<'n>(name: &str, known: impl IntoIterator<Item = &'n str>) -> Opti
     best
 }
 
-/// The first letters of a name, all small.
+/// Writes the first letters of a name, in lower case, to `into`.
 fn letters(name: &str, into: &mut Vec<char>) {
     into.clear();
     if name.is_ascii() {
         let small = |b: u8| char::from(b.to_ascii_lowercase());
-        into.extend(name.bytes().take(LETTERS).map(small));
+        into.extend(name.bytes().take(MAX_LETTERS).map(small));
     } else {
-        into.extend(name.to_lowercase().chars().take(LETTERS));
+        into.extend(name.to_lowercase().chars().take(MAX_LETTERS));
     }
 }
 
-/// Two rows of the table of distances and the one to be filled, kept from one pair of names to the next.
+/// Three rows of the table of distances between prefixes; the memory is reused for each pair of names.
 #[derive(Default)]
 struct Rows {
+    /// The row before `last`, needed for swaps.
     before: Vec<usize>,
     last: Vec<usize>,
+    /// The row that is being filled.
     row: Vec<usize>,
 }
 
 impl Rows {
-    /// How many letters have to be changed, added, left out or swapped; `None` where that is more than `reach`.
-    fn distance(&mut self, a: &[char], b: &[char], reach: usize) -> Option<usize> {
-        if a.len().abs_diff(b.len()) > reach {
+    /// The distance of two names; `None` if it exceeds `max_distance`.
+    fn distance(&mut self, a: &[char], b: &[char], max_distance: usize) -> Option<usize> {
+        if a.len().abs_diff(b.len()) > max_distance {
             return None;
         }
-        // What both begin and end with costs nothing.
+        // A common beginning and a common end do not change the distance.
         let same = a.iter().zip(b).take_while(|(x, y)| x == y).count();
         let (a, b) = (&a[same..], &b[same..]);
         let backwards = a.iter().rev().zip(b.iter().rev());
@@ -79,15 +84,15 @@ impl Rows {
                 left = here;
                 least = least.min(here);
             }
-            // Each row goes on from the one before it, or by a swap from the one before that.
-            if least > reach && least_before + 1 > reach {
+            // Each row depends on the row before it and, for swaps, on the one before that: neither can lead below its least.
+            if least > max_distance && least_before + 1 > max_distance {
                 return None;
             }
             least_before = least;
             std::mem::swap(&mut self.before, &mut self.last);
             std::mem::swap(&mut self.last, &mut self.row);
         }
-        Some(self.last[b.len()]).filter(|distance| *distance <= reach)
+        Some(self.last[b.len()]).filter(|distance| *distance <= max_distance)
     }
 }
 

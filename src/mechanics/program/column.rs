@@ -1,20 +1,19 @@
-//! [`Column`]: one force of amount ≥ 0 and the balance rows it enters. Where a force enters the
-//! balance rows is worked out here.
+//! [`Column`]: a force with an amount ≥ 0, and its entries in the balance rows.
 //!
-//! Admissible contact forces are the generators of the friction cone of each application point: the normal alone and the
-//! normal with full friction either way, (n̂ ± μ t̂)/(1 + μ), each at cost 1 a unit. Every admissible contact force is a
-//! sum of these with amounts ≥ 0, so no inequality rows remain ([Vallat23](crate::doc::references) §2.0.3 in other
-//! unknowns, the same optimum).
+//! The forces of a contact are the generators of the friction cone at each application point: the normal n̂ alone, and the
+//! normal with full friction in either direction, (n̂ ± μ t̂)/(1 + μ). Each costs 1 per unit. Every admissible contact force
+//! is a sum of generators with amounts ≥ 0, so that the program needs no inequality for friction. The optimum is that of
+//! [Vallat23](crate::doc::references) §2.0.3, which has other unknowns.
 
 use super::{ContactTerm, GripTerm, Program};
 use crate::effect::EffectName;
 use crate::geometry::{Vector, cross, quarter_turn};
 use crate::interface::ContactKind;
 
-/// Which force a column stands for.
+/// The force that a column represents.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Force {
-    /// A pressing force at an application point of a contact, with friction of 0 or ±μ times the normal force.
+    /// A generator of the friction cone at an application point: friction is 0 or ±μ times the normal force.
     Ray {
         /// The contact.
         contact: usize,
@@ -34,21 +33,21 @@ pub enum Force {
         /// +1 or −1.
         sign: f64,
     },
-    /// A pull at an application point.
+    /// A tensile force at an application point.
     StickNormal {
         /// The contact.
         contact: usize,
         /// The application point.
         point: usize,
     },
-    /// Friction that needs no pressure, along `sign` times the tangent.
+    /// Friction that needs no normal force, along `sign` times the tangent.
     StickFriction {
         /// The contact.
         contact: usize,
         /// +1 or −1.
         sign: f64,
     },
-    /// A robot's component beyond its limits.
+    /// A component of a robot's force or torque, regardless of its limit.
     StickGrip {
         /// The grip.
         grip: usize,
@@ -60,7 +59,7 @@ pub enum Force {
 }
 
 impl Force {
-    /// Whether the force is sticking, not admissible.
+    /// Whether the force is sticking: not admissible, and only used to show what is missing.
     pub fn is_sticking(&self) -> bool {
         matches!(
             self,
@@ -87,17 +86,17 @@ impl Force {
     }
 }
 
-/// One force and its place in the balance.
+/// A force and its entries in the balance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Column {
-    /// Rows and values, of which the first `count` stand for something.
+    /// Rows and values; the first `count` are used.
     places: [(usize, f64); 6],
     count: usize,
-    /// What it costs per unit: the source's weight of 1 per normal, friction or robot unknown.
+    /// The cost per unit of amount: 1 for every normal, friction or robot force, as in the source.
     pub cost: f64,
-    /// Largest amount, infinite without limit.
+    /// The largest amount; infinite if there is no limit.
     pub limit: f64,
-    /// What it stands for.
+    /// The force that it represents.
     pub force: Force,
 }
 
@@ -111,7 +110,7 @@ impl Column {
         &self.places[..self.count]
     }
 
-    /// Whether another column has the same values, in whichever rows, and the same limit.
+    /// Whether another column has the same values and limit, regardless of the rows.
     pub(crate) fn has_values_of(&self, other: &Column) -> bool {
         let mut pairs = self.filled().iter().zip(other.filled());
         self.count == other.count
@@ -119,7 +118,7 @@ impl Column {
             && self.limit == other.limit
     }
 
-    /// The column's product with virtual velocities `y`: the velocity against which the force works.
+    /// The inner product with virtual velocities `y`: the velocity of the point of application along the force.
     pub fn dot(&self, y: &[f64]) -> f64 {
         let mut sum = 0.0;
         for (row, value) in self.filled() {
@@ -128,8 +127,8 @@ impl Column {
         sum
     }
 
-    /// The product of two columns.
-    pub fn times(&self, other: &Column) -> f64 {
+    /// The inner product of two columns.
+    pub fn dot_column(&self, other: &Column) -> f64 {
         if !self.shares_block(other) {
             return 0.0;
         }
@@ -144,7 +143,7 @@ impl Column {
         sum
     }
 
-    /// Whether both act on one block. The entries of a block stand together.
+    /// Whether both columns have entries of the same body. The entries of each body are consecutive.
     fn shares_block(&self, other: &Column) -> bool {
         let blocks = |column: &Column| {
             let last = column.count.saturating_sub(1);
@@ -154,15 +153,15 @@ impl Column {
         blocks(other).iter().any(|block| own.contains(block))
     }
 
-    /// Adds `amount` of the column to `sum`.
+    /// Adds `amount` times the column to the vector `sum`.
     pub fn add_to(&self, sum: &mut [f64], amount: f64) {
         for (row, value) in self.filled() {
             sum[*row] += amount * value;
         }
     }
 
-    /// The difference of two columns that enter the same blocks.
-    pub(super) fn less(&self, other: &Column) -> Column {
+    /// The difference of two columns that act on the same bodies.
+    pub(super) fn minus(&self, other: &Column) -> Column {
         let mut difference = Column { count: 0, ..*self };
         let mut put = |row: usize, value: f64| match (0..difference.count)
             .find(|i| difference.places[*i].0 == row)
@@ -188,7 +187,7 @@ impl Column {
         }
     }
 
-    /// Enters a force with an arm about the block's centroid, and a torque.
+    /// Adds the entries of a force on a body and of its moment about the body's centroid.
     fn enter(&mut self, block: usize, force: Vector, moment: f64) {
         for (offset, value) in [force.x, force.y, moment].into_iter().enumerate() {
             if value != 0.0 {
@@ -241,7 +240,7 @@ impl UnknownCounts {
     }
 }
 
-/// Every admissible force of a program.
+/// The columns of all admissible forces of a program: contacts first, then grips.
 pub fn columns(program: &Program) -> Vec<Column> {
     let mut columns = Vec::with_capacity(6 * program.contacts.len() + 4 * program.grips.len());
     for (number, contact) in program.contacts.iter().enumerate() {
@@ -252,7 +251,7 @@ pub fn columns(program: &Program) -> Vec<Column> {
             } else {
                 &[0.0][..]
             } {
-                // A unit of any generator costs 1, so that rough and smooth contacts look alike to the solver.
+                // Scaled to |N| + |T| = 1 per unit, so that the columns of rough and smooth contacts have similar sizes.
                 let (normal, friction) = if *side == 0.0 {
                     (1.0, 0.0)
                 } else {
@@ -290,10 +289,10 @@ pub fn columns(program: &Program) -> Vec<Column> {
     columns
 }
 
-/// Every sticking force of a program: the opposite partner of each of the source's columns
-/// ([Vallat23](crate::doc::references) §2.0.8), unbounded.
+/// The columns of all sticking forces of a program, without limits.
 ///
-/// Sticking friction is one force per interface, because both corners' act along the same line.
+/// They are the opposite partners of the source's columns ([Vallat23](crate::doc::references) §2.0.8). Sticking friction is
+/// one force per interface, because the friction forces at both ends act along the same line.
 pub fn sticking_columns(program: &Program) -> Vec<Column> {
     let mut columns = Vec::with_capacity(4 * program.contacts.len() + 6 * program.grips.len());
     for (number, contact) in program.contacts.iter().enumerate() {
@@ -333,6 +332,7 @@ pub fn sticking_columns(program: &Program) -> Vec<Column> {
     columns
 }
 
+/// The column of a force at an application point of a contact; the other body receives the opposite force.
 fn contact_column(
     contact: &ContactTerm,
     point: usize,
@@ -349,6 +349,7 @@ fn contact_column(
     column
 }
 
+/// The column of a force or torque of a robot, along `sign` times the component.
 fn grip_column(grip: &GripTerm, component: usize, sign: f64, force: Force, limit: f64) -> Column {
     let mut column = Column::new(force, 1.0, limit);
     let direction = match component {

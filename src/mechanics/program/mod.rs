@@ -1,14 +1,21 @@
-//! [`Program`]: the balance of one component of an assembly, in pure numbers.
+//! [`Program`]: the equilibrium of one component of an assembly, in numbers without units.
 //!
-//! For every block three rows (force x, force y, moment about its own centroid over L), for every force a column
-//! ([`Column`]). Invariant: lengths are in parts of the median interface length L, forces such that the heaviest load is
-//! [`Scale::HEAVIEST`], moments about the block's own centroid, so that neither place nor units reach the solver.
-//! `column` says which rows a force enters, `scale` turns metres and newtons into pure numbers and back, `pose` makes the
-//! forms handed to the solver.
+//! Each block has three rows: force x, force y, and moment about its own centroid over L. Each force has a column
+//! ([`Column`]). Invariant: lengths are in parts of the median interface length L, and forces are scaled so that the
+//! heaviest load is [`Scale::HEAVIEST`]. Neither position nor units therefore reach the solver.
+//!
+//! | file | content |
+//! |---|---|
+//! | `column` | the balance rows that each force enters |
+//! | `scale` | metres and newtons to numbers without units, and back |
+//! | `pose` | the optimisation problems for the solvers |
+//! | `parallel_joints` | a program with nearly parallel joints made parallel |
+//! | `vallat` | the program of the source, for comparison |
 
 mod column;
 mod pose;
 mod scale;
+mod vallat;
 mod parallel_joints;
 #[cfg(test)]
 mod tests;
@@ -17,37 +24,38 @@ pub use column::{Column, Force, UnknownCounts, columns, sticking_columns};
 pub(crate) use pose::product;
 pub use pose::{
     Correction, CostCap, QuadraticProgram, force_primal, kinematic_dual, least_change, least_norm,
-    least_residual_dual, least_squares, load_factor_dual, nearest_factor_dual, vallat_program,
+    least_residual_dual, least_squares, load_factor_dual, nearest_factor_dual,
 };
 pub use scale::Scale;
+pub use vallat::vallat_program;
 
 use crate::assembly::Assembly;
 use crate::geometry::{Point, Vector};
 use crate::interface::ContactKind;
 
-/// The balance of one component of an assembly, in pure numbers.
+/// The equilibrium of one component of an assembly, in numbers without units.
 #[derive(Clone, Debug)]
 pub struct Program {
-    /// How many bodies; body k owns rows 3k, 3k+1, 3k+2.
+    /// Number of bodies; body k has the rows 3k, 3k+1 and 3k+2.
     pub blocks: usize,
-    /// What contacts and robots must give each body: minus its load vector, as (x, y, moment).
+    /// The right-hand side: minus the load vector of each body, as (x, y, moment).
     pub loads: Vec<f64>,
     /// The contacts.
     pub contacts: Vec<ContactTerm>,
     /// The grips.
     pub grips: Vec<GripTerm>,
-    /// The units.
+    /// The metres and newtons per unit.
     pub scale: Scale,
 }
 
-/// One contact as the program sees it.
+/// A contact in scaled numbers.
 #[derive(Clone, Debug)]
 pub struct ContactTerm {
     /// Edge or corner.
     pub kind: ContactKind,
-    /// The pushed block and the arms of the application points about its centroid.
+    /// The first body, and the arms of the application points about its centroid.
     pub on: (usize, [Vector; 2]),
-    /// The partner, unless it is the ground.
+    /// The other body likewise, `None` for the ground.
     pub from: Option<(usize, [Vector; 2])>,
     /// Unit normal into `on`.
     pub normal: Vector,
@@ -57,7 +65,7 @@ pub struct ContactTerm {
     pub points: usize,
 }
 
-/// One grip as the program sees it.
+/// A grip in scaled numbers.
 #[derive(Clone, Debug)]
 pub struct GripTerm {
     /// The held block.
@@ -69,7 +77,7 @@ pub struct GripTerm {
 }
 
 impl Program {
-    /// Poses the balance of an assembly in the units of a scale; contacts and grips stay in their order.
+    /// The program of an assembly in the units of a scale. Contacts and grips keep their order.
     pub fn new(assembly: &Assembly, scale: Scale) -> Program {
         let arms = |body: usize, points: [Point; 2]| {
             let centroid = assembly.bodies[body].centroid;
@@ -109,13 +117,13 @@ impl Program {
         }
     }
 
-    /// A limit beyond so many times the sum of all loads does not bind.
+    /// A robot's limit above this many times the sum of all loads is taken to be non-binding.
     const NON_BINDING: f64 = 10.0;
 
-    /// The program without the limits that can hardly matter, if there are such.
+    /// The program without the limits that hardly ever bind; `None` if there are no such limits.
     ///
-    /// A limit costs three rows and an unknown, and one of 10⁹ loads enters the objective as a number that drowns all
-    /// others. An answer that breaks a limit left out here fails its proof and is sought again with all limits.
+    /// A limit costs a row and an unknown, and a limit of 10⁹ loads dominates the objective numerically. If an answer
+    /// violates a limit that was left out, its proof fails and the program is solved again with all limits.
     pub fn without_non_binding_limits(&self) -> Option<Program> {
         let sum: f64 = self.loads.iter().map(|v| v.abs()).sum();
         let non_binding = |limit: f64| limit.is_finite() && limit > Self::NON_BINDING * sum;
@@ -134,7 +142,7 @@ impl Program {
         })
     }
 
-    /// Whether some amounts keep every grip within this program's limits, up to rounding.
+    /// Whether the given grip forces are within this program's limits, up to rounding.
     pub fn allows(&self, grips: &[[f64; 3]]) -> bool {
         self.grips.iter().zip(grips).all(|(term, given)| {
             term.limits

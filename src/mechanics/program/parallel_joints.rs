@@ -1,20 +1,23 @@
-//! A program whose joints are parallel, or square to each other, where they are so but for the rounding of coordinates.
+//! [`Program::with_parallel_joints`]: makes joints exactly parallel or perpendicular that are so up to rounding.
 
 use core::f64::consts::FRAC_PI_2;
 
 use super::Program;
 use crate::geometry::{Vector, cross};
 
-/// Joints whose directions, or the squares to them, differ by less than this, in radians, are meant to be the same.
-const SAME: f64 = 1e-5;
-/// Turns below this, in radians, are the rounding of angles.
+/// Joints whose angles differ by less than this (radians, modulo 90°) are meant to be parallel or perpendicular.
+///
+/// Coordinates with six digits turn a joint by 10⁻⁶. Ten times as much would straighten wedges that were drawn on purpose; a
+/// tenth would miss joints of drawings with six digits.
+const SAME_DIRECTION: f64 = 1e-5;
+/// Rotations below this, in radians, are the rounding of the angles themselves.
 const ROUNDING: f64 = 1e-12;
 
 impl Program {
-    /// The program with nearly parallel joints made parallel; `None` where there are none.
+    /// The program with nearly parallel joints made parallel; `None` if this changes nothing.
     ///
-    /// Between faces that are parallel but for 10⁻⁶ a block is a wedge so slender that velocities of 10⁶ open it; then the
-    /// least force ends without a status, which it does not where the faces are parallel, or less nearly so.
+    /// A block between faces that are parallel up to 10⁻⁶ is a very slender wedge, which opens with velocities of 10⁶. The
+    /// solver then ends without a status. It does not if the faces are exactly parallel, or less nearly so.
     pub fn with_parallel_joints(&self) -> Option<Program> {
         let normals: Vec<Vector> = self.contacts.iter().map(|c| c.normal).collect();
         let turns = turns(&normals);
@@ -29,20 +32,24 @@ impl Program {
     }
 }
 
-/// By how much each of some directions is to be turned, radians, so that those which are nearly parallel or square are so.
+/// The rotation of each direction, in radians, that makes nearly parallel or perpendicular directions exactly so.
+///
+/// Angles modulo 90° are sorted and cut into clusters at gaps; each cluster is turned to its mean angle.
 fn turns(directions: &[Vector]) -> Vec<f64> {
     let angles = directions.iter().map(|d| beyond_axis(*d));
     let mut angles: Vec<(f64, usize)> = angles.zip(0..).collect();
     angles.sort_by(|a, b| a.0.total_cmp(&b.0));
-    // Directions halfway between the axes lie at both ends of the list: it begins again behind the first gap.
-    let gap = angles.windows(2).position(|w| w[1].0 - w[0].0 > SAME);
+    // Angles are periodic: a cluster at 45° lies at both ends of the list. Start the list after its first gap instead.
+    let gap = angles
+        .windows(2)
+        .position(|w| w[1].0 - w[0].0 > SAME_DIRECTION);
     let first = gap.map_or(0, |gap| gap + 1);
     for (angle, _) in &mut angles[..first] {
         *angle += FRAC_PI_2;
     }
     angles.rotate_left(first);
     let mut turns = vec![0.0; directions.len()];
-    for same in angles.chunk_by(|a, b| b.0 - a.0 <= SAME) {
+    for same in angles.chunk_by(|a, b| b.0 - a.0 <= SAME_DIRECTION) {
         let mean = same.iter().map(|a| a.0).sum::<f64>() / same.len() as f64;
         for (angle, number) in same {
             turns[*number] = mean - angle;
@@ -51,6 +58,7 @@ fn turns(directions: &[Vector]) -> Vec<f64> {
     turns
 }
 
+/// A direction rotated anticlockwise by an angle in radians.
 fn turned(direction: Vector, angle: f64) -> Vector {
     let (sin, cos) = libm::sincos(angle);
     Vector::new(
@@ -59,7 +67,7 @@ fn turned(direction: Vector, angle: f64) -> Vector {
     )
 }
 
-/// The angle of a direction beyond the nearest axis, radians, from −π/4 to π/4.
+/// The angle from the nearest axis to a direction, in radians, from −π/4 to π/4.
 fn beyond_axis(direction: Vector) -> f64 {
     let axis = if direction.x.abs() >= direction.y.abs() {
         Vector::new(direction.x.signum(), 0.0)

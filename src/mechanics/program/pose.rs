@@ -1,38 +1,55 @@
-//! The forms in which a program is handed to the conic solver.
+//! The optimisation problems that are posed about a program, in the form that the solvers accept.
 //!
-//! [`QuadraticProgram`]: min ½ xᵀPx + qᵀx  s.t.  the first `equalities` rows Ax = b, the others Ax ≤ b. Poses never mention metres.
+//! [`QuadraticProgram`]: minimise ½ xᵀPx + qᵀx subject to Ax = b in the first `equalities` rows and Ax ≤ b in the others.
+//!
+//! Most problems are posed in their dual, the kinematic form: the unknowns are the velocities of the bodies, and the forces
+//! are the multipliers of the rows. It has three unknowns per body where the static form has six per contact. Reference:
+//! Livesley, Limit analysis of structures formed from rigid blocks, 1978, for the pair of linear programs.
 
-use super::{Column, Force, Program, columns};
+use super::{Column, Force};
 
-/// A problem for the conic solver, matrices as (row, column, value) lists.
+/// A convex quadratic program with equalities and inequalities; matrices are lists of (row, column, value).
 #[derive(Clone, Debug)]
 pub struct QuadraticProgram {
-    /// Unknowns.
+    /// Number of unknowns x.
     pub unknowns: usize,
-    /// Upper triangle of P.
+    /// Upper triangle of the symmetric matrix P; empty for a linear program.
     pub quadratic: Vec<(usize, usize, f64)>,
-    /// q.
+    /// The linear objective q.
     pub linear: Vec<f64>,
-    /// A.
+    /// The constraint matrix A.
     pub matrix: Vec<(usize, usize, f64)>,
-    /// b.
+    /// The right-hand sides b.
     pub bound: Vec<f64>,
-    /// How many of the first rows are equalities.
+    /// The first rows, this many, are equalities.
     pub equalities: usize,
 }
 
-/// The kinematic dual: max loadsᵀy  s.t.  columnᵀy ≤ cost for every column; its multipliers are the forces.
+impl QuadraticProgram {
+    /// Appends the row columnᵀx (= or ≤) `bound`.
+    fn push_column_row(&mut self, column: &Column, bound: f64) {
+        let row = self.bound.len();
+        self.matrix
+            .extend(column.entries().map(|(i, v)| (row, i, v)));
+        self.bound.push(bound);
+    }
+}
+
+/// The kinematic dual of "minimise the cost of forces that balance `loads`": max loadsᵀy  s.t.  columnᵀy ≤ cost.
 ///
-/// Three unknowns per block and one row per column. A limited column gets one more unknown w ≥ 0: columnᵀy − w ≤ cost, at
-/// −limit·w in the objective. A pair of columns ± with cost 0 and no limit is one equality. Rows stand in the columns'
-/// order, so that the dual of row k is the amount of column k; a pair's equality carries the amount of the first less the
-/// second.
+/// There are three unknowns y per body and one row per column. A column with a limit gets one more unknown w ≥ 0, with
+/// columnᵀy − w ≤ cost and −limit·w in the objective. The two directions of a grip component with cost 0 and without limit
+/// become one equality, because a pair of opposite inequalities has no interior.
+///
+/// Returns the problem and, for each column, its row: the multiplier of that row is the amount of the force. The
+/// multiplier of an equality is the amount of the first direction minus that of the second, which has no row of its own
+/// (`usize::MAX`).
 pub fn kinematic_dual(
     loads: &[f64],
     columns: &[Column],
     cost: impl Fn(&Column) -> f64,
 ) -> (QuadraticProgram, Vec<usize>) {
-    let mut conic = QuadraticProgram {
+    let mut dual = QuadraticProgram {
         unknowns: loads.len(),
         quadratic: Vec::new(),
         linear: loads.iter().map(|v| -v).collect(),
@@ -41,83 +58,79 @@ pub fn kinematic_dual(
         equalities: 0,
     };
     let mut row_of = vec![usize::MAX; columns.len()];
-    let free = |k: usize| match (columns[k].force, columns.get(k + 1).map(|c| c.force)) {
-        // A grip's two signs stand side by side, + first.
-        (
-            Force::Grip {
-                grip,
-                component,
-                sign,
-            },
-            Some(next),
-        ) => {
-            let partner = Force::Grip {
-                grip,
-                component,
-                sign: -1.0,
-            };
-            sign > 0.0
-                && next == partner
-                && columns[k].limit.is_infinite()
-                && cost(&columns[k]) == 0.0
-        }
-        _ => false,
+    let is_free_pair = |k: usize| {
+        is_first_of_grip_pair(columns, k)
+            && columns[k].limit.is_infinite()
+            && cost(&columns[k]) == 0.0
     };
+    // Equalities come first.
     let mut k = 0;
     while k < columns.len() {
-        if free(k) {
-            let row = conic.bound.len();
-            conic
-                .matrix
-                .extend(columns[k].entries().map(|(i, v)| (row, i, v)));
-            conic.bound.push(0.0);
-            row_of[k] = row;
+        if is_free_pair(k) {
+            row_of[k] = dual.bound.len();
+            dual.push_column_row(&columns[k], 0.0);
             k += 1;
         }
         k += 1;
     }
-    conic.equalities = conic.bound.len();
+    dual.equalities = dual.bound.len();
     let mut k = 0;
     while k < columns.len() {
         if row_of[k] != usize::MAX {
             k += 2;
             continue;
         }
-        let row = conic.bound.len();
-        conic
-            .matrix
-            .extend(columns[k].entries().map(|(i, v)| (row, i, v)));
-        conic.bound.push(cost(&columns[k]));
-        row_of[k] = row;
+        row_of[k] = dual.bound.len();
+        dual.push_column_row(&columns[k], cost(&columns[k]));
         k += 1;
     }
     for (k, column) in columns.iter().enumerate() {
         if column.limit.is_finite() {
-            let w = conic.unknowns;
-            conic.unknowns += 1;
-            conic.linear.push(column.limit);
-            conic.matrix.push((row_of[k], w, -1.0));
-            conic.matrix.push((conic.bound.len(), w, -1.0));
-            conic.bound.push(0.0);
+            let w = dual.unknowns;
+            dual.unknowns += 1;
+            dual.linear.push(column.limit);
+            dual.matrix.push((row_of[k], w, -1.0));
+            dual.matrix.push((dual.bound.len(), w, -1.0));
+            dual.bound.push(0.0);
         }
     }
-    (conic, row_of)
+    (dual, row_of)
 }
 
-/// The dual of  max λ  s.t.  Σ amount·column = loads + λ·toward:  max loadsᵀy  s.t.  columnᵀy ≤ 0, towardᵀy ≥ 1.
+/// Whether columns k and k + 1 are the positive and the negative direction of one grip component.
+fn is_first_of_grip_pair(columns: &[Column], k: usize) -> bool {
+    let next = columns.get(k + 1).map(|column| column.force);
+    match columns[k].force {
+        Force::Grip {
+            grip,
+            component,
+            sign,
+        } if sign > 0.0 => {
+            next == Some(Force::Grip {
+                grip,
+                component,
+                sign: -1.0,
+            })
+        }
+        _ => false,
+    }
+}
+
+/// The dual of the load factor problem  max λ  s.t.  Σ amount·column = loads + λ·toward:
+/// max loadsᵀy  s.t.  columnᵀy ≤ 0, towardᵀy ≥ 1.
 ///
-/// The last row is the one of λ: its dual is the largest λ ≥ 0.
+/// The multiplier of the last row is the largest λ ≥ 0. The returned rows are those of [`kinematic_dual`].
 pub fn load_factor_dual(
     loads: &[f64],
     toward: &[f64],
     columns: &[Column],
 ) -> (QuadraticProgram, Vec<usize>) {
-    let (mut conic, row_of) = kinematic_dual(loads, columns, |_| 0.0);
-    let row = conic.bound.len();
+    let (mut problem, row_of) = kinematic_dual(loads, columns, |_| 0.0);
+    let row = problem.bound.len();
     let entries = toward.iter().enumerate().filter(|(_, v)| **v != 0.0);
-    conic.matrix.extend(entries.map(|(i, v)| (row, i, -v)));
-    conic.bound.push(-1.0);
-    (conic, row_of)
+    problem.matrix.extend(entries.map(|(i, v)| (row, i, -v)));
+    problem.bound.push(-1.0);
+    (problem, row_of)
 }
 
 /// The dual of  min |λ|  s.t.  Σ amount·column = loads + λ·toward:  max loadsᵀy  s.t.  columnᵀy ≤ 0, −1 ≤ towardᵀy ≤ 1.
@@ -128,41 +141,41 @@ pub fn nearest_factor_dual(
     toward: &[f64],
     columns: &[Column],
 ) -> (QuadraticProgram, Vec<usize>) {
-    let (mut conic, row_of) = kinematic_dual(loads, columns, |_| 0.0);
+    let (mut problem, row_of) = kinematic_dual(loads, columns, |_| 0.0);
     for sign in [-1.0, 1.0] {
-        let row = conic.bound.len();
+        let row = problem.bound.len();
         let entries = toward.iter().enumerate().filter(|(_, v)| **v != 0.0);
-        conic
+        problem
             .matrix
             .extend(entries.map(|(i, v)| (row, i, sign * v)));
-        conic.bound.push(1.0);
+        problem.bound.push(1.0);
     }
-    (conic, row_of)
+    (problem, row_of)
 }
 
-/// The dual of  min Σ |what is left unbalanced|:  max loadsᵀy  s.t.  columnᵀy ≤ 0, −1 ≤ y ≤ 1.
+/// The dual of  min Σ |residual of the balance|:  max loadsᵀy  s.t.  columnᵀy ≤ 0, −1 ≤ y ≤ 1.
 ///
-/// It has an optimum whether the program stands or falls, and both stories in it: forces that leave least, and the motion
-/// of largest power.
+/// It always has an optimum. Its multipliers are the forces with the least residual; its solution y is the motion along
+/// which the loads have the largest power.
 pub fn least_residual_dual(loads: &[f64], columns: &[Column]) -> (QuadraticProgram, Vec<usize>) {
-    let (mut conic, row_of) = kinematic_dual(loads, columns, |_| 0.0);
+    let (mut problem, row_of) = kinematic_dual(loads, columns, |_| 0.0);
     for row in 0..loads.len() {
         for sign in [1.0, -1.0] {
-            conic.matrix.push((conic.bound.len(), row, sign));
-            conic.bound.push(1.0);
+            problem.matrix.push((problem.bound.len(), row, sign));
+            problem.bound.push(1.0);
         }
     }
-    (conic, row_of)
+    (problem, row_of)
 }
 
-/// The shortest change d of velocities:  min ½ |d|²  s.t.  columnᵀd = value for the first `equalities` of the columns, and
+/// The least change d of velocities:  min ½ |d|²  s.t.  columnᵀd = value for the first `equalities` columns, and
 /// columnᵀd ≥ value for the others.
 pub fn least_change(
     unknowns: usize,
     columns: &[(&Column, f64)],
     equalities: usize,
 ) -> QuadraticProgram {
-    let mut conic = QuadraticProgram {
+    let mut problem = QuadraticProgram {
         unknowns,
         quadratic: (0..unknowns).map(|i| (i, i, 1.0)).collect(),
         linear: vec![0.0; unknowns],
@@ -171,18 +184,18 @@ pub fn least_change(
         equalities,
     };
     for (row, (column, value)) in columns.iter().enumerate() {
-        // The solver's inequalities are of the other kind, Ax ≤ b.
+        // The solver's inequalities are Ax ≤ b, so that the sign of columnᵀd ≥ value is reversed.
         let sign = if row < equalities { 1.0 } else { -1.0 };
         let entries = column.entries();
-        conic
+        problem
             .matrix
             .extend(entries.map(|(i, v)| (row, i, sign * v)));
-        conic.bound.push(sign * value);
+        problem.bound.push(sign * value);
     }
-    conic
+    problem
 }
 
-/// The amounts of least Σ amount², of either sign, that give `loads`.
+/// The amounts, of either sign, with the least Σ amount² that balance `loads`.
 pub fn least_norm(loads: &[f64], columns: &[Column]) -> QuadraticProgram {
     let entries = columns.iter().enumerate();
     QuadraticProgram {
@@ -197,22 +210,23 @@ pub fn least_norm(loads: &[f64], columns: &[Column]) -> QuadraticProgram {
     }
 }
 
-/// Amounts to be corrected by `size` times the unknowns.
+/// Given amounts to which the unknowns, times `size`, are added.
 #[derive(Clone, Copy, Debug)]
 pub struct Correction<'a> {
-    /// The amounts so far.
+    /// The given amounts.
     pub amounts: &'a [f64],
-    /// What one unit of an unknown stands for.
+    /// The change of an amount per unit of its unknown.
     pub size: f64,
 }
 
-/// The forces of least Σ force² among the amounts ≥ 0 of the given columns that give `loads`.
+/// The amounts ≥ 0 with the least sum of squared forces that balance `loads`.
 ///
-/// With a `correction` the unknowns are changes to given amounts, and the squares are those of the changes of each column:
-/// the squares of forces leave columns that undo each other, such as a robot's push and pull, without bound, and where both
-/// may be changed the solver ends without a status.
-/// Else the squares are those of N1, N2, T of each contact and of each component of a grip, not of the generators, so the
-/// answer does not depend on how a cone is written.
+/// Without a `correction` the squares are those of N1, N2 and T of each contact and of each component of a grip. The answer
+/// therefore does not depend on how the friction cone is written as columns.
+///
+/// With a `correction` the unknowns are changes of given amounts, and the squares are those of the changes of each column.
+/// The squares of forces would leave opposite columns, such as the push and pull of a robot, without bound, and the solver
+/// would end without a status.
 pub fn least_squares(
     loads: &[f64],
     columns: &[Column],
@@ -222,7 +236,7 @@ pub fn least_squares(
     if correction.is_some() {
         quadratic.extend((0..columns.len()).map(|j| (j, j, 1.0)));
     }
-    // Columns of one contact stand side by side; products reach back only to the contact's first column.
+    // The columns of one contact are neighbours: products are nonzero only back to the first column of the contact.
     let squared = if correction.is_some() { &[] } else { columns };
     for (j, column) in squared.iter().enumerate() {
         for (i, other) in columns[..=j].iter().enumerate().rev() {
@@ -256,32 +270,34 @@ pub fn least_squares(
     }
 }
 
-/// A second sum and the most it may come to.
+/// A second cost per column, and the largest value of its sum.
 pub type CostCap<'a> = (&'a dyn Fn(&Column) -> f64, f64);
 
-/// The forces themselves as unknowns: min Σ cost·amount  s.t.  they balance `loads`, 0 ≤ amount ≤ limit.
+/// The primal form with the forces as unknowns: min Σ cost·amount  s.t.  they balance `loads`, 0 ≤ amount ≤ limit.
 ///
-/// With a [`CostCap`] = (cost, most) a second sum is bounded, Σ cost·amount ≤ most: the second stage of a lexicographic program.
-/// Kept, like [`source`], to show what the kinematic dual saves.
+/// A [`CostCap`] (cost, max) adds the constraint Σ cost·amount ≤ max: the second stage of a lexicographic program.
+/// Used, like [`vallat_program`], only to measure what the kinematic dual saves.
 pub fn force_primal(
     loads: &[f64],
     columns: &[Column],
     cost: impl Fn(&Column) -> f64,
     cap: Option<CostCap>,
 ) -> QuadraticProgram {
-    let mut conic = least_squares(loads, columns, None);
-    conic.quadratic.clear();
-    conic.linear = columns.iter().map(cost).collect();
+    let mut problem = least_squares(loads, columns, None);
+    problem.quadratic.clear();
+    problem.linear = columns.iter().map(cost).collect();
     if let Some((cost, most)) = cap {
-        let row = conic.bound.len();
+        let row = problem.bound.len();
         let entries = columns.iter().enumerate().map(|(j, c)| (row, j, cost(c)));
-        conic.matrix.extend(entries.filter(|e| e.2 != 0.0));
-        conic.bound.push(most);
+        problem.matrix.extend(entries.filter(|e| e.2 != 0.0));
+        problem.bound.push(most);
     }
-    conic
+    problem
 }
 
-/// Inner product of two columns in (N1, N2, T) of one contact or in one grip component; `None` for different places.
+/// The inner product of two unit forces in the coordinates (N1, N2, T) of one contact, or in the components of one grip.
+///
+/// `None` if they belong to different contacts or grips, or to different kinds of columns.
 pub(crate) fn product(a: &Force, b: &Force) -> Option<f64> {
     match (*a, *b) {
         (
@@ -348,96 +364,5 @@ pub(crate) fn product(a: &Force, b: &Force) -> Option<f64> {
             Some(0.0)
         }
         _ => None,
-    }
-}
-
-/// The source's soft program exactly as posed ([Vallat23](crate::doc::references) §2.0.7–8): six unknowns per
-/// interface and per grip, each with an
-/// opposite partner at cost β, all ≥ 0; rows A_eq x = b_eq, f⁺ + f⁻ ≤ μN per corner, robot unknowns ≤ limit.
-///
-/// It is kept to show what β costs in time and digits; nothing else rests on it. The unknowns stand interface by
-/// interface as N1, f1⁺, f1⁻, N2, f2⁺, f2⁻, then grip by grip as Fx±, Fy±, M±, then all partners.
-pub fn vallat_program(program: &Program, beta: f64) -> QuadraticProgram {
-    let mut posed: Vec<Column> = Vec::new();
-    let mut cones: Vec<(usize, f64)> = Vec::new();
-    let mut limits: Vec<(usize, f64)> = Vec::new();
-    let smooth = Program {
-        grips: Vec::new(),
-        ..program.clone()
-    };
-    let rough = Program {
-        contacts: smooth
-            .contacts
-            .iter()
-            .map(|c| super::ContactTerm {
-                friction: 1.0,
-                ..*c
-            })
-            .collect(),
-        ..smooth
-    };
-    // With μ = 1 the generators n̂, (n̂ + t̂)/2, (n̂ − t̂)/2 of a point give t̂ and −t̂ back as differences.
-    for chunk in columns(&rough).chunks(3) {
-        if let Force::Ray { contact, .. } = chunk[0].force {
-            cones.push((posed.len(), program.contacts[contact].friction));
-        }
-        posed.extend([chunk[0], chunk[1].less(&chunk[2]), chunk[2].less(&chunk[1])]);
-    }
-    let full = super::Program {
-        contacts: Vec::new(),
-        grips: program
-            .grips
-            .iter()
-            .map(|g| super::GripTerm {
-                limits: [f64::INFINITY; 3],
-                ..*g
-            })
-            .collect(),
-        ..program.clone()
-    };
-    for column in columns(&full) {
-        if let Force::Grip {
-            grip, component, ..
-        } = column.force
-        {
-            limits.push((posed.len(), program.grips[grip].limits[component]));
-        }
-        posed.push(column);
-    }
-    let n = posed.len();
-    let mut matrix = Vec::with_capacity(14 * n);
-    for (j, column) in posed.iter().enumerate() {
-        for (row, value) in column.entries() {
-            matrix.push((row, j, value));
-            matrix.push((row, n + j, -value));
-        }
-    }
-    let mut bound = program.loads.clone();
-    let equalities = bound.len();
-    for (first, friction) in cones {
-        let row = bound.len();
-        matrix.extend([
-            (row, first, -friction),
-            (row, first + 1, 1.0),
-            (row, first + 2, 1.0),
-        ]);
-        bound.push(0.0);
-    }
-    for (j, limit) in limits.into_iter().filter(|l| l.1.is_finite()) {
-        matrix.push((bound.len(), j, 1.0));
-        bound.push(limit);
-    }
-    for j in 0..2 * n {
-        matrix.push((bound.len(), j, -1.0));
-        bound.push(0.0);
-    }
-    let linear = (0..2 * n).map(|j| if j < n { 1.0 } else { beta }).collect();
-    QuadraticProgram {
-        unknowns: 2 * n,
-        quadratic: Vec::new(),
-        linear,
-        matrix,
-        bound,
-        equalities,
     }
 }

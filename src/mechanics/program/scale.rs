@@ -1,12 +1,13 @@
-//! [`Scale`]: how many metres and newtons a pure number stands for.
+//! [`Scale`]: the metres and newtons per unit of a program.
 //!
-//! A conic solver's tolerances are absolute in parts of its data. On 3 000 towers with lengths about 1, heaviest loads
-//! of 0.1 to 10⁴ gave every verdict right; SI numbers of a large thing in small units called half of them infeasible.
-//! So lengths are counted in median interface lengths and forces such that the heaviest load is 300.
+//! The tolerances of an interior-point solver are absolute numbers, so that data must have a suitable size. On 3 000 towers
+//! with lengths of about 1, heaviest loads from 0.1 to 10⁴ gave every verdict right. With SI units of large structures, half
+//! of the towers were called infeasible. Lengths are therefore measured in median interface lengths, and forces are scaled
+//! so that the heaviest load is 300.
 
 use crate::assembly::Assembly;
 
-/// Metres and newtons per pure unit.
+/// Metres and newtons per unit of a program.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scale {
     /// Metres per unit of length: L, the median interface length.
@@ -16,15 +17,15 @@ pub struct Scale {
 }
 
 impl Scale {
-    /// The scale of an assembly: its L, and its heaviest load.
+    /// The scale of an assembly, from its length L and its heaviest load.
     pub fn from_assembly(assembly: &Assembly) -> Scale {
         Scale::new(assembly.length, assembly.heaviest_load())
     }
 
-    /// The heaviest load of a frame in pure units.
+    /// The heaviest load of a frame in scaled units. Ten times and a tenth of it are within the range that was tested.
     pub const HEAVIEST: f64 = 300.0;
 
-    /// The scale for a median interface length and a heaviest load (N). A frame without loads is scaled by 1 N.
+    /// The scale for a median interface length (m) and a heaviest load (N). A frame without loads is scaled by 1 N.
     pub fn new(length: f64, heaviest: f64) -> Scale {
         let heaviest = if heaviest > 0.0 { heaviest } else { 1.0 };
         Scale {

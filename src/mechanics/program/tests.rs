@@ -187,8 +187,8 @@ fn columns_multiply_as_rows_of_numbers_do() {
         assert!((a.dot(&y) - product(&of_a, &y)).abs() < 1e-14);
         for b in &all {
             let of_b = dense(b, 3);
-            assert!((a.times(b) - product(&of_a, &of_b)).abs() < 1e-14);
-            let difference = dense(&a.less(b), 3);
+            assert!((a.dot_column(b) - product(&of_a, &of_b)).abs() < 1e-14);
+            let difference = dense(&a.minus(b), 3);
             let expected: Vec<f64> = of_a.iter().zip(&of_b).map(|(a, b)| a - b).collect();
             assert_eq!(difference, expected);
             let same: Vec<f64> = b.entries().map(|e| e.1).collect();

@@ -270,9 +270,9 @@ impl BoundedNnls {
         let products = self
             .passive
             .iter()
-            .map(|u| columns[*u].times(new))
+            .map(|u| columns[*u].dot_column(new))
             .collect();
-        let square = new.times(new);
+        let square = new.dot_column(new);
         if !self
             .factor
             .append(products, square, DEPENDENCE_TOL * square)
@@ -407,7 +407,7 @@ enum Progress {
 }
 
 fn norm(column: &Column) -> f64 {
-    column.times(column).sqrt()
+    column.dot_column(column).sqrt()
 }
 
 #[cfg(test)]

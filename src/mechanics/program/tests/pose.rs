@@ -67,7 +67,7 @@ fn columns_of_several_blocks_multiply_as_rows_of_numbers_do() {
             let expected: f64 = (dense(a, 6).iter().zip(dense(b, 6)))
                 .map(|(a, b)| a * b)
                 .sum();
-            assert!((a.times(b) - expected).abs() < 1e-14, "{a:?} {b:?}");
+            assert!((a.dot_column(b) - expected).abs() < 1e-14, "{a:?} {b:?}");
         }
     }
 }

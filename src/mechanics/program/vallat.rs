@@ -1,0 +1,115 @@
+//! [`vallat_program`]: the soft program of the source, exactly as it is posed there.
+
+use super::pose::QuadraticProgram;
+use super::{Column, ContactTerm, Force, GripTerm, Program, columns};
+
+/// The soft program of [Vallat23](crate::doc::references) §2.0.7–8.
+///
+/// Every interface and every grip has six unknowns, and each of these has an opposite partner at cost β; all are ≥ 0. The
+/// constraints are A_eq x = b_eq, f⁺ + f⁻ ≤ μN per application point, and robot unknowns ≤ limit. It serves only to measure
+/// what β costs in time and digits.
+///
+/// The unknowns are, interface by interface, N1, f1⁺, f1⁻, N2, f2⁺, f2⁻, then grip by grip Fx±, Fy±, M±, and then all
+/// partners in the same order.
+pub fn vallat_program(program: &Program, beta: f64) -> QuadraticProgram {
+    let unknowns = source_unknowns(program);
+    let n = unknowns.columns.len();
+    let mut matrix = Vec::with_capacity(14 * n);
+    for (j, column) in unknowns.columns.iter().enumerate() {
+        for (row, value) in column.entries() {
+            matrix.push((row, j, value));
+            matrix.push((row, n + j, -value));
+        }
+    }
+    let mut bound = program.loads.clone();
+    let equalities = bound.len();
+    // Friction: f⁺ + f⁻ − μN ≤ 0.
+    for (first, friction) in unknowns.cones {
+        let row = bound.len();
+        matrix.extend([
+            (row, first, -friction),
+            (row, first + 1, 1.0),
+            (row, first + 2, 1.0),
+        ]);
+        bound.push(0.0);
+    }
+    for (j, limit) in unknowns.limits.into_iter().filter(|l| l.1.is_finite()) {
+        matrix.push((bound.len(), j, 1.0));
+        bound.push(limit);
+    }
+    // All unknowns are at least 0.
+    for j in 0..2 * n {
+        matrix.push((bound.len(), j, -1.0));
+        bound.push(0.0);
+    }
+    let linear = (0..2 * n).map(|j| if j < n { 1.0 } else { beta }).collect();
+    QuadraticProgram {
+        unknowns: 2 * n,
+        quadratic: Vec::new(),
+        linear,
+        matrix,
+        bound,
+        equalities,
+    }
+}
+
+/// The unknowns of the source's program without their partners.
+struct SourceUnknowns {
+    columns: Vec<Column>,
+    /// For each application point the index of its normal force, which two friction unknowns follow, and μ.
+    cones: Vec<(usize, f64)>,
+    /// For each robot unknown its index and its limit.
+    limits: Vec<(usize, f64)>,
+}
+
+/// The source's unknowns, from the columns of programs with μ = 1 and without limits.
+fn source_unknowns(program: &Program) -> SourceUnknowns {
+    let mut unknowns = SourceUnknowns {
+        columns: Vec::new(),
+        cones: Vec::new(),
+        limits: Vec::new(),
+    };
+    let rough = Program {
+        contacts: (program.contacts.iter())
+            .map(|contact| ContactTerm {
+                friction: 1.0,
+                ..*contact
+            })
+            .collect(),
+        grips: Vec::new(),
+        ..program.clone()
+    };
+    // With μ = 1 the generators of a point are n̂, (n̂ + t̂)/2 and (n̂ − t̂)/2; their differences are t̂ and −t̂.
+    for generators in columns(&rough).chunks(3) {
+        if let Force::Ray { contact, .. } = generators[0].force {
+            let friction = program.contacts[contact].friction;
+            unknowns.cones.push((unknowns.columns.len(), friction));
+        }
+        unknowns.columns.extend([
+            generators[0],
+            generators[1].minus(&generators[2]),
+            generators[2].minus(&generators[1]),
+        ]);
+    }
+    let unlimited = Program {
+        contacts: Vec::new(),
+        grips: (program.grips.iter())
+            .map(|grip| GripTerm {
+                limits: [f64::INFINITY; 3],
+                ..*grip
+            })
+            .collect(),
+        ..program.clone()
+    };
+    for column in columns(&unlimited) {
+        if let Force::Grip {
+            grip, component, ..
+        } = column.force
+        {
+            let limit = program.grips[grip].limits[component];
+            unknowns.limits.push((unknowns.columns.len(), limit));
+        }
+        unknowns.columns.push(column);
+    }
+    unknowns
+}
