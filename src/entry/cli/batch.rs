@@ -62,7 +62,7 @@ pub(crate) struct Batch {
     /// Threads that work [default: all cores, and half as many more with --render, whose pictures wait for the disk]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     jobs: Option<u16>,
-    /// Tell every so many seconds on standard error how many scenes are done, how fast, and what time is left
+    /// Report on standard error every N seconds how many scenes are done, how fast, and how much time is left
     #[arg(long, value_name = "SECONDS", value_parser = pace::seconds)]
     progress: Option<f64>,
     #[command(flatten)]
@@ -291,7 +291,7 @@ impl Work {
 }
 
 impl Drawn {
-    /// Draws a scene into its file. The file is there, whole, before the line that tells of it.
+    /// Draws a scene into its file. The file is complete before the line that names it.
     fn draw(&self, analysis: &Analysis, name: &str) -> Result<PictureOutcome, CliError> {
         let name = format!("{name}.{}", self.format.ending());
         let legible = match self.picture.draws_words(self.format) {

@@ -32,7 +32,7 @@ pub(crate) struct Check {
     no_timing: bool,
     #[command(flatten)]
     margins: MarginArgs,
-    /// Tell the verdict with its proof and leave out the rest: what fails, and which of several balances is the one to draw
+    /// Compute the verdict with its proof only; leave out what fails and the choice among several sets of balancing forces
     #[arg(long)]
     verdict_only: bool,
     /// Leave out notes of what is allowed and seldom meant; a scene silences single ones by "silence": ["code"]

@@ -47,7 +47,7 @@ pub(crate) enum CliError {
         /// The system's reason.
         why: String,
     },
-    /// A scene lacks the frame that is asked for.
+    /// A scene does not have the selected frame.
     NoSuchFrame(String),
     /// A drawing does not become a scene, in a person's words.
     Drawing(Page),
@@ -118,7 +118,7 @@ impl CliError {
         }
     }
 
-    /// What a person reads, in colour, on a terminal of so many columns if it is one.
+    /// The message for a person; `width` is the terminal's number of columns, if it is a terminal.
     pub(crate) fn page(&self, width: Option<usize>) -> Page {
         let mut page = Page::default();
         match self {

@@ -14,7 +14,7 @@ pub(crate) enum Destination {
     Stdout,
     /// A file of its own.
     File(PathBuf),
-    /// A file in a folder, named after the scene. The folder is made where there is none.
+    /// A file in a folder, named after the scene. The folder is created if it does not exist.
     Folder(PathBuf),
 }
 
@@ -31,7 +31,7 @@ impl Destination {
         }
     }
 
-    /// The format the picture has there: that of the file's ending, which must agree with the one asked for.
+    /// The format of the picture: that of the file's ending, which must agree with `--format`.
     pub(crate) fn format(&self, asked: Option<Format>) -> Result<Format, CliError> {
         let Destination::File(path) = self else {
             return Ok(asked.unwrap_or(Format::Svg));
@@ -107,7 +107,7 @@ pub(crate) fn write(files: &[(PathBuf, Vec<u8>)], existing: Existing) -> Result<
     })
 }
 
-/// Makes a folder, and those above it, where there is none.
+/// Creates a folder and its parents, if they do not exist.
 pub(crate) fn make_folder(folder: &Path) -> Result<(), CliError> {
     fs::create_dir_all(folder).map_err(|error| CliError::NotWritten {
         what: folder.display().to_string(),

@@ -7,7 +7,7 @@ use crate::analysis::{Analysis, Verdict};
 /// How a command ended. The greater is the one that is reported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum ExitStatus {
-    /// Done, and everything that was asked about is stable.
+    /// Done, and every frame is stable.
     Done,
     /// Done; nothing is unstable, and some frame is undecided.
     Undecided,

@@ -21,7 +21,7 @@ use crate::output::svg::Words;
 /// Draw the gallery: figures 1 to 9 of the work this is built on, each as SVG, PNG and PDF, with captions
 #[derive(Debug, Args)]
 pub(crate) struct Figures {
-    /// Folder for the figures; made where there is none
+    /// Folder for the figures; created if it does not exist
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
     /// One format only

@@ -34,7 +34,7 @@ pub(crate) struct Import {
     /// The scene file to write; - or nothing prints the scene
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// What the drawing is written in, where its name does not tell
+    /// Format of the drawing, if its file name does not show it
     #[arg(long, value_enum, value_name = "FORMAT")]
     format: Option<WrittenIn>,
     /// Metres per unit of the drawing [default: its real size where it has one in mm, cm, in or pt, else 1]

@@ -1,4 +1,4 @@
-//! [`AnalysisArgs`]: what an analysis is asked, the part that `check` and `render` share.
+//! [`AnalysisArgs`]: options of an analysis that `check` and `render` share.
 
 use std::time::{Duration, Instant};
 
@@ -13,14 +13,14 @@ pub(crate) struct AnalysisArgs {
     /// standard: the unique forces. proved: the same, and no verdict without a proof that is a hundred times better
     #[arg(long, value_name = "LEVEL", default_value = "standard", value_parser = accuracy_parser())]
     accuracy: Accuracy,
-    /// Tell whether each standing frame stands only by a self-stress that its loads do not build up from rest
+    /// Find out whether each standing frame stands only by a self-stress that its loads do not build up from rest
     #[arg(long)]
     wedging: bool,
-    /// Edges within so many metres touch, and bodies may overlap by as much; in place of the scene's `contact_tolerance`, or
+    /// Edges within this many metres touch, and bodies may overlap by as much; replaces the scene's `contact_tolerance`, or
     /// of what is estimated from how its coordinates are written
     #[arg(long, value_name = "METRES", value_parser = length)]
     pub(crate) contact_tolerance: Option<f64>,
-    /// Stop solving after so many seconds: what is not decided by then is undecided
+    /// Stop solving after this many seconds: what is not decided by then is undecided
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     time_limit: Option<Duration>,
 }
@@ -50,7 +50,7 @@ impl AnalysisArgs {
         ]
     }
 
-    /// What an analysis is asked; a limit of time counts from here.
+    /// The options of the analysis; a time limit counts from this call.
     pub(crate) fn options(self) -> Options {
         Options {
             accuracy: self.accuracy,

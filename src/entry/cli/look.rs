@@ -27,17 +27,17 @@ impl StyleArgs {
         self.style.as_deref()
     }
 
-    /// The name of the theme asked for, where it alone says how figures look.
+    /// The name of the theme, if no style file changes it.
     pub(crate) fn name(&self) -> Option<&str> {
         self.theme.as_deref().filter(|_| self.style.is_none())
     }
 
-    /// Whether a theme or a style was asked for.
+    /// Whether a theme or a style file was given.
     pub(crate) fn is_chosen(&self) -> bool {
         self.theme.is_some() || self.style.is_some()
     }
 
-    /// The theme asked for.
+    /// The theme, with the changes of the style file.
     pub(crate) fn theme(&self) -> Result<Theme, CliError> {
         let base = self.theme.as_deref().and_then(Theme::named);
         match &self.style {

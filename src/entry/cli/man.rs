@@ -17,7 +17,7 @@ use crate::output::file::Existing;
 /// Where man finds them without further ado: drystone man ~/.local/share/man/man1
 #[derive(Debug, Args)]
 pub(crate) struct Manual {
-    /// The folder, made where there is none
+    /// The folder; created if it does not exist
     #[arg(value_name = "FOLDER")]
     folder: PathBuf,
 }

@@ -13,7 +13,7 @@
 //! | 4 | the output could not be written |
 //!
 //! Where several apply, the first of 2, 4, 1, 3 that does is the code: wrong input stops everything, and a frame that is
-//! known to fall tells more than one that nobody can decide.
+//! known to fall says more than an undecided one.
 
 mod accuracy;
 mod batch;
@@ -94,7 +94,7 @@ enum Command {
     Manual(man::Manual),
 }
 
-/// Runs the command line of this process and tells how it ended.
+/// Runs the command line of this process and returns its exit code.
 pub fn run() -> ExitCode {
     let line = match CommandLine::try_parse_from(margins::join_list(std::env::args_os())) {
         Ok(line) => line,
@@ -134,7 +134,7 @@ fn refused(error: &clap::Error, printed: io::Result<()>) -> ExitStatus {
     match terminal::written(printed) {
         Ok(()) => ExitStatus::Done,
         Err(complaint) => {
-            // Standard error may be as full as standard output; then the exit code alone tells.
+            // Standard error may be as full as standard output; then only the exit code is left.
             let page = complaint.page(terminal::error_width());
             let _ = write!(io::stderr(), "{}", page.text());
             complaint.ending()

@@ -74,7 +74,7 @@ impl Page {
         self.text.push_str(&page.text);
     }
 
-    /// The page with no line wider than a terminal of so many columns: a wider one goes on below, further in than a row of a
+    /// The page with no line wider than this number of columns: a longer one continues below, further in than a row of a
     /// table begins, so that what stands behind the break cannot be taken for one.
     pub(crate) fn fitted(&self, width: usize) -> Page {
         let mut page = Page::default();

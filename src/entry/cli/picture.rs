@@ -18,7 +18,7 @@ use crate::output::svg::{self, Words};
 /// Format, size, page and words of a picture.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct Picture {
-    /// Format where the output's name does not tell: in a folder, or on standard output [default: svg]
+    /// Format, if the output is a folder or standard output [default: svg]
     #[arg(long, value_enum, value_name = "FORMAT")]
     format: Option<Format>,
     /// Width of a PNG in pixels
@@ -64,7 +64,7 @@ impl ValueEnum for Format {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum TextForm {
-    /// Small, and set by whoever opens the file in what fonts are there
+    /// Small; the reader's program sets the text in the fonts it has
     Names,
     /// For browsers: words that look alike everywhere and can be searched
     Embed,
@@ -79,12 +79,12 @@ enum Background {
 }
 
 impl Picture {
-    /// The format asked for.
+    /// The format that `--format` selects.
     pub(crate) fn asked(&self) -> Option<Format> {
         self.format
     }
 
-    /// With a width in pixels where a PNG is asked for no size.
+    /// The same, with a default width in pixels for a PNG.
     pub(crate) fn or_width(mut self, pixels: u32, format: Format) -> Picture {
         let sized = self.width.is_some() || self.scale.is_some() || self.width_mm.is_some();
         if format.has_pixels() && !sized {
@@ -93,7 +93,7 @@ impl Picture {
         self
     }
 
-    /// One of so many that time matters more than the size of a file.
+    /// The same, for many pictures: fast to write, with larger files.
     pub(crate) fn of_many(self) -> Picture {
         Picture {
             compression: Compression::Quick,
@@ -124,7 +124,7 @@ impl Picture {
         }
     }
 
-    /// A drawing on the page asked for.
+    /// A drawing with the selected background.
     fn on_page(&self, drawing: Drawing) -> Drawing {
         Drawing {
             background: match self.background {
@@ -189,7 +189,7 @@ impl Picture {
         png::check(width, height, self.size()).map_err(png_error)
     }
 
-    /// Our fonts and those asked for.
+    /// The built-in fonts and those of `--font`.
     pub(crate) fn fonts(&self) -> Result<Fonts, CliError> {
         let mut files = Vec::new();
         for path in &self.fonts {
@@ -206,7 +206,7 @@ impl Picture {
         })
     }
 
-    /// Whether the words of a picture of this format are drawn here, and not by whoever opens it.
+    /// Whether this program sets the text of a picture of this format, and not the reader's program.
     pub(crate) fn draws_words(&self, format: Format) -> bool {
         format.lays_out_words(self.words())
     }

@@ -1,6 +1,6 @@
 //! [`Progress`]: a bar on standard error for work that takes longer than half a second.
 //!
-//! The only file that names indicatif. The bar counts steps of work, and beside them the changed frames judged for margins,
+//! The only file that names indicatif. The bar counts steps of work and, next to it, the changed frames that were decided for margins,
 //! of which one step may take hundreds; it is wiped off when the work is done.
 
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
@@ -22,7 +22,7 @@ pub(crate) struct Progress {
 }
 
 impl Progress {
-    /// Work of so many steps. Where `shown` is false nothing is ever drawn.
+    /// A bar for this number of steps. If `shown` is false nothing is drawn.
     pub(crate) fn begin(steps: usize, shown: Shown) -> Progress {
         match shown {
             Shown::Never => Progress {
@@ -42,7 +42,7 @@ impl Progress {
             let counted = move |_: &ProgressState, to: &mut dyn std::fmt::Write| {
                 let since = trials().saturating_sub(before);
                 if since > 0 {
-                    // A bar that cannot be drawn has nobody to tell.
+                    // If the bar cannot be drawn, the work goes on without it.
                     let _ = write!(to, ", {since} changed frames judged,");
                 }
             };

@@ -64,13 +64,13 @@ pub(crate) struct Render {
     /// In a free-body diagram name every force that may act at every end of its interfaces, also those that are zero
     #[arg(long)]
     corners: bool,
-    /// Show the frames one after the other in an animated PNG, each for so many seconds; of a mechanism its way in steps
+    /// Show the frames one after the other in an animated PNG, each for this many seconds; a mechanism moves in steps
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     animate: Option<f64>,
-    /// Write its amount beside every arrow
+    /// Write its amount next to every arrow
     #[arg(long)]
     amounts: bool,
-    /// What the colours of blocks tell
+    /// What the colours of blocks show
     #[arg(long, value_enum, default_value = "amplitude")]
     fill: Fill,
     /// Leave out the figure's title
@@ -124,7 +124,7 @@ pub(crate) struct Render {
 
 /// A strip of more frames than this may be too large for a PNG.
 const MANY: usize = 50;
-/// A strip so many times as high as a page is too high for it.
+/// A strip higher than this many page heights does not fit on a page.
 const TALL: f64 = 1.02;
 
 /// A figure and what it shows.

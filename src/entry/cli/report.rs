@@ -24,28 +24,28 @@ use crate::result::Timing;
 use crate::study::{TOLERANCES, study};
 use crate::wording::number::counted;
 
-/// Tell of many scenes on one page: verdicts with their reasons, figures, forces, margins, proofs
+/// Report on scenes, on one page: verdicts with their reasons, figures, forces, margins, proofs
 #[derive(Debug, Args)]
 pub(crate) struct Report {
     /// Scene files, and folders, of which every .json below is taken; - reads standard input
     #[arg(required = true, value_name = "SCENE")]
     scenes: Vec<PathBuf>,
-    /// Where to: a file that ends in .html, .md (its figures beside it), .pdf or .json; with --split a folder
+    /// Output: a file that ends in .html, .md (with its figures next to it), .pdf or .json; with --split a folder
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
     /// Write an index and a page for each scene into the folder OUT
     #[arg(long)]
     split: bool,
-    /// Tell what changed from the first SCENE to the second: two files, or two folders with files of the same names
+    /// Report what changed from the first SCENE to the second: two files, or two folders with files of the same names
     #[arg(long, conflicts_with = "accuracy_study")]
     compare: bool,
-    /// Tell how far each step is from the edge of standing
+    /// Add the margins of each step
     #[arg(long)]
     margins: bool,
     /// Measure on each scene what accuracy costs in time; the times differ from run to run
     #[arg(long)]
     accuracy_study: bool,
-    /// Tell how long solving took; without it the same scenes give the same bytes
+    /// Add how long solving took; without it the same scenes give the same bytes
     #[arg(long)]
     timing: bool,
     /// What stands above the report
@@ -63,7 +63,7 @@ pub(crate) struct Report {
 /// What became of a file or of two: its piece and how it ended, or the files that are no scenes.
 type Made = Result<(Piece, ExitStatus), Vec<(Refused, CliError)>>;
 
-/// A scene of which a report tells, or two that it compares.
+/// A scene in a report, or two that it compares.
 enum Task {
     One(PathBuf),
     Two([PathBuf; 2]),
@@ -113,7 +113,7 @@ impl Report {
             made.unwrap_or_else(|fault| Ok(Err(vec![(refused(first, &fault), fault)])))
         };
         let made: Vec<Result<Made, CliError>> = if self.accuracy_study {
-            // Scenes beside each other would take each other's time.
+            // Scenes analysed at the same time would disturb each other's timing.
             numbered.iter().map(one).collect()
         } else {
             numbered.par_iter().map(one).collect()
@@ -211,7 +211,7 @@ impl Report {
         }
     }
 
-    /// The scenes to tell of, and what is to be reported of files that have no counterpart.
+    /// The scenes of the report, and notes on files that have no counterpart.
     fn tasks(&self) -> Result<(Vec<Task>, Vec<String>), Vec<CliError>> {
         if self.compare {
             return self.pairs();
@@ -336,7 +336,7 @@ impl Report {
             return Ok(Err(Vec::new()));
         };
         if form == Form::Markdown {
-            // Of Markdown only the figures are drawn here, in our fonts; its words are set by whoever shows it.
+            // In Markdown only the figures use our fonts; the reader's program sets the text.
             let fonts = Fonts::default();
             let lacks = |analysis: &Analysis| script::lacks(&analysis.scene, &fonts);
             if analyses.iter().any(lacks) {

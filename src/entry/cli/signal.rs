@@ -35,7 +35,7 @@ pub(crate) fn listen() {
     });
 }
 
-/// The signals that whoever started us wants ignored, `nohup` for one, a bit each, the first the lowest. Linux tells; elsewhere
+/// The signals that the parent process wants ignored (as `nohup` does), one bit each, the first the lowest. Linux reports them; elsewhere
 /// none are known.
 #[cfg(unix)]
 fn ignored() -> u64 {

@@ -1,4 +1,4 @@
-//! `drystone snapshot`: scenes and their pictures against the references beside them.
+//! `drystone snapshot`: compares scenes and their pictures with the references next to them.
 
 mod answer;
 
@@ -17,10 +17,10 @@ use crate::snapshot::check::{Acceptance, folders};
 use crate::snapshot::store::{self, Access};
 use crate::snapshot::{CheckOutcome, DiscoveryError, check, ci, discover, review};
 
-/// Check scenes and their pictures against the references beside them, in words
+/// Compare scenes and their pictures with stored references, and explain what changed
 ///
-/// Every scene under the folders has its references beside it: name.txt (facts), name.svg and name.png. What changed, and
-/// what is new, lies beside them as .new.* and .diff.png until it is accepted. What is checked, how wide and how precisely,
+/// Every scene under the folders has its references next to it: name.txt (facts), name.svg and name.png. What changed, and
+/// what is new, is written next to them as .new.* and .diff.png until it is accepted. What is checked, how wide and how precisely,
 /// stands in drystone-snapshots.toml.
 ///
 /// Exit codes: 0 everything is as its references say, 1 something is not, 2 a scene or the command line is wrong, 4 a file
@@ -39,13 +39,13 @@ pub(crate) struct Snapshot {
     /// Only scenes whose path contains this, or fits it where it has a *; the one scene whose path it is, without .json
     #[arg(long, value_name = "FILTER")]
     only: Option<String>,
-    /// Write a page to look at: expected, difference and found beside each other. Without a file: ask here, one by one
+    /// Write a page to look at: expected, difference and found side by side. Without a file: ask here, one by one
     #[arg(long, value_name = "FILE.html", num_args = 0..=1)]
     review: Option<Option<PathBuf>>,
     /// Write the result as JUnit XML
     #[arg(long, value_name = "FILE")]
     junit: Option<PathBuf>,
-    /// Print the result as annotations that GitHub shows beside the code
+    /// Print the result as annotations that GitHub shows next to the code
     #[arg(long)]
     github: bool,
 }
@@ -76,7 +76,7 @@ impl Snapshot {
 
         let failing: Vec<String> = report.failing().map(|s| s.name.clone()).collect();
         let described = report.lines();
-        // With what is accepted now, for whoever looks afterwards.
+        // The page also shows what was accepted in this run.
         let page = match &self.review {
             Some(Some(_)) => review::page(&report, &self.folders),
             _ => String::new(),
@@ -97,7 +97,7 @@ impl Snapshot {
         drop(turn);
         self.tell(terminal, &report, &described, accepts, &failing)?;
         match unwritten {
-            // What lies beside is for looking at; the answer stands without it.
+            // Files for looking at are optional; the answer does not depend on them.
             Err(failed) if !accepts => {
                 for WriteError { path, why } in failed {
                     terminal.note(&format!("could not write {}: {why}", path.display()));

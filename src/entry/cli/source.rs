@@ -54,7 +54,7 @@ impl Source {
     }
 }
 
-/// A frame asked for.
+/// The frame that `--frame` selects.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum FrameChoice {
     /// By its number, from 0.

@@ -35,7 +35,7 @@ const LIMITS: [[&str; 2]; 7] = [
 /// Before the meanings, and in how many columns these are broken into lines on wide terminals.
 const MEANING: [usize; 2] = [10, 68];
 
-/// The words of the table with their meanings, for a terminal of so many columns.
+/// The words of the table with their meanings, for a terminal of `width` columns.
 pub(crate) fn explained(width: Option<usize>) -> Page {
     let [indent, most] = MEANING;
     let most = width.map_or(most, |width| most.min(width.saturating_sub(indent)));
@@ -60,7 +60,7 @@ const HEADING: usize = 60;
 /// A narrow terminal cuts titles of frames to no less.
 const SHORTEST: usize = 8;
 
-/// The table of one scene, for a terminal of so many columns.
+/// The table of one scene, for a terminal of `width` columns.
 ///
 /// Where the rows would be wider, proofs stand below them, and titles are cut as far as it takes; where that is not enough,
 /// every value has a line of its own. What is said below the rows may be wider than the terminal: [`Page::fitted`] breaks it.

@@ -59,7 +59,7 @@ impl Terminal {
         !self.quiet && io::stderr().is_terminal()
     }
 
-    /// Whether somebody looks at standard output, who would rather not look at the bytes of a PNG.
+    /// Whether standard output is a terminal, where the bytes of a PNG would be unreadable.
     pub(crate) fn is_watched(&self) -> bool {
         io::stdout().is_terminal()
     }
@@ -86,7 +86,7 @@ impl Terminal {
         written(stream.write_all(bytes).and_then(|()| stream.flush()))
     }
 
-    /// Says something useful in a line that is no result, unless asked to be quiet.
+    /// Prints a line of information to standard error, unless `--quiet` is given.
     pub(crate) fn note(&self, words: &str) {
         self.notes(&Page::new(words));
     }
@@ -107,7 +107,7 @@ impl Terminal {
     pub(crate) fn complain(&self, page: &Page) {
         let page = fitted(page, error_width());
         let mut stream = anstream::stderr().lock();
-        // With standard error gone, only the exit code is left to tell.
+        // If standard error is closed, only the exit code is left.
         let _ = writeln!(stream, "{}", page.text().trim_end()).and_then(|()| stream.flush());
     }
 }

@@ -108,7 +108,7 @@ pub struct Robot {
     pub holds: Option<Grip>,
 }
 
-/// A load on a block, beside its weight.
+/// A load on a block, in addition to its weight.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Load {

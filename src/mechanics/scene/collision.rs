@@ -44,7 +44,7 @@ pub(super) struct Comparison<'s> {
     pub(super) frames: &'s [Frame],
     /// The lattice, where all bodies are cells of it.
     pub(super) lattice: Option<Lattice>,
-    /// Whether somebody stated how close is close: then deeper is refused.
+    /// Whether the scene gives a contact tolerance: then deeper overlaps are refused.
     pub(super) given: bool,
 }
 
@@ -62,7 +62,7 @@ pub struct Penetration {
 }
 
 /// Notes every pair of bodies that lie in each other while both stand; those that may have been meant to touch are given
-/// back, unless somebody stated how close is close.
+/// back, unless the scene gives a contact tolerance.
 pub(super) fn check(findings: &mut Findings, scene: &Comparison<'_>) -> Vec<Penetration> {
     let presence = Presence::new(scene.names.len(), scene.frames);
     let bodies: Vec<Numbered<'_>> = scene

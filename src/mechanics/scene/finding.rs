@@ -1,4 +1,4 @@
-//! [`Findings`]: what was found wrong so far, and which parts of the file nobody can speak about any more.
+//! [`Findings`]: the problems found so far, and the parts of the file that could not be read.
 //!
 //! A block whose polygon could not be read is not also reported to have no polygon, or to overlap its neighbour.
 
@@ -8,7 +8,7 @@ use super::source::Mark;
 
 /// So many findings of a file are kept; a file with more has one cause, and it is among the first.
 const MOST: usize = 2000;
-/// For so many of them the nearest known name is looked for, which takes a walk through all names.
+/// For at most this many unknown names the nearest known name is suggested, which compares with all names.
 const HINTED: usize = 50;
 
 /// One thing that is wrong, and where.
@@ -132,7 +132,7 @@ impl UnreadParts {
         first
     }
 
-    /// Whether the names given in a list or map may be incomplete, so that an unknown name is nobody's fault.
+    /// Set if a list or map of names could not be read completely; unknown names are then not reported.
     ///
     /// `known` is how many there are. A misspelt top-level key may have been meant to hold them all.
     pub(super) fn hides_names(&self, list: &str, known: usize) -> bool {

@@ -79,7 +79,7 @@ pub struct SceneFile {
     /// Robots that can hold a block each.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub robots: Vec<RobotEntry>,
-    /// Loads on blocks, beside their weights.
+    /// Loads on blocks, in addition to their weights.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub loads: Vec<LoadEntry>,
     /// Edges within this many metres of each other touch, and bodies may overlap by as much; at least 0. Default: estimated
@@ -377,7 +377,7 @@ pub struct LimitsEntry {
     pub force: Option<f64>,
 }
 
-/// A load on a block, beside its weight.
+/// A load on a block, in addition to its weight.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]

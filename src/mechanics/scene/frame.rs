@@ -29,7 +29,7 @@ pub struct Plan {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Frame {
-    /// The step's title, empty where there is none.
+    /// The step's title; empty if it has none.
     pub title: String,
     /// The placed blocks, in placing order: the k-th wears colour k of the sequence.
     pub placed: Vec<BlockId>,

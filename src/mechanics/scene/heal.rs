@@ -16,7 +16,7 @@ use crate::geometry::{Point, Polygon, Tolerance};
 pub(super) const FINE: f64 = 1.0 / 200.0;
 /// A body counts for touching within this part of its size at most, where its coordinates are given in full.
 const SLIGHT: f64 = 1e-3;
-/// A body comes to another within this part of its size at most, whatever tolerance is asked for.
+/// A gap is closed only if it is smaller than this part of the body's size, whatever tolerance is given.
 const MOST: f64 = 1.0 / 20.0;
 /// Within a given tolerance a corner moves by at most this part of its shorter edge.
 ///
@@ -24,12 +24,12 @@ const MOST: f64 = 1.0 / 20.0;
 /// outline of a round stone stays round. The two ends of an edge together change its length by half at most and turn it by
 /// 30° at most. A tenth of this would leave joints next to short edges open; at twice this an edge can lose its whole length.
 const OF_EDGE: f64 = 0.25;
-/// An overlap that healing makes deeper by less than this part of the gap is none.
+/// Healing may deepen an overlap by less than this part of the gap; it does not count as an overlap.
 const NOISE: f64 = 0.25;
 /// Where this part of all corners, and at least so many, lie within a millionth of the scene's reach of what they touch and
 /// not on it, the coordinates are noisy however many digits they have.
 const NOISY: (f64, usize) = (0.2, 8);
-/// Coordinates are off by so many units in the last place of the largest, whatever else is said of them.
+/// Coordinates are assumed to be off by this many units in the last place of the largest one.
 const LAST: f64 = 16.0;
 
 /// Where the contact tolerance of a scene comes from.
@@ -40,9 +40,9 @@ pub enum ToleranceSource {
     Lattice,
     /// The scene or the command line gives it.
     Given,
-    /// The coordinates are written with so many decimals.
+    /// The coordinates are written with this number of decimals.
     Decimals(usize),
-    /// The coordinates are written with so many significant digits.
+    /// The coordinates are written with this number of significant digits.
     Digits(usize),
     /// The coordinates are 32-bit floats.
     Float32,

@@ -23,7 +23,7 @@ pub(super) struct Names<'f> {
     sort: &'static str,
     list: Vec<&'f str>,
     numbers: BTreeMap<&'f str, usize>,
-    /// Whether there may be more names than could be read, so that an unknown one is nobody's fault.
+    /// Set if some names could not be read; unknown names are then not reported.
     incomplete: bool,
 }
 

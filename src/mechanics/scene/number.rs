@@ -8,7 +8,7 @@ use super::problem;
 pub(super) const LARGEST: f64 = 1e12;
 
 /// Smallest amount but 0, in whatever unit: a weight is a product of several, and its square is still to be a number.
-/// Coordinates may be smaller: beside others they are the noise of somebody's arithmetic.
+/// Coordinates may be smaller: next to others they are rounding noise.
 pub(super) const SMALLEST: f64 = 1e-30;
 
 /// Smallest extent of a body or a cell, in metres: its area and moments are products of several.

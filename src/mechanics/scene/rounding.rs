@@ -51,7 +51,7 @@ pub(super) fn of(file: &SceneFile) -> Option<Rounding> {
         turns.take(angle.unwrap_or(0.0));
     }
     let mut found = digits.rounding()?;
-    // Whoever rounds places to three decimals may turn by whole degrees; a turn with more decimals is rounded itself.
+    // Coordinates with three decimals may come with angles in whole degrees; an angle with more decimals was rounded itself.
     if let Some(k) = (turns.decimals.last(SHARE, turns.count)).filter(|k| *k >= 3) {
         found.error += (0.5 * power(k)).to_radians() * reach;
     }
@@ -64,7 +64,7 @@ struct Digits {
     count: usize,
     /// Largest amount.
     largest: f64,
-    /// How many have so many decimals, and so many significant digits.
+    /// Histograms: how many coordinates have k decimals, and how many have k significant digits.
     decimals: Table,
     significant: Table,
     /// Whether some are no 32-bit floats, neither written out in full nor as shortly as such floats can be.
@@ -98,7 +98,7 @@ fn few_digits(x: f64) -> Option<(usize, i64)> {
     None
 }
 
-/// Writes a number with as few digits as tell it from all others.
+/// Writes a number with the fewest digits that identify it.
 fn write_shortly(text: &mut String, x: impl LowerExp) {
     text.clear();
     // A string takes everything.

@@ -12,7 +12,7 @@ use crate::geometry::{Bounds, Point, Vector};
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Sketch {
-    /// Its title; empty where there is none.
+    /// Its title; empty if it has none.
     pub title: String,
     /// Every body whose corners can be drawn, the ground first.
     pub bodies: Vec<SketchedBody>,

@@ -147,7 +147,7 @@ pub(super) fn parse(text: &str) -> Result<Tree<'_>, SyntaxError> {
     }
 }
 
-/// A list of points has a value for every so many bytes, or for more.
+/// Bytes per value in a list of points, at least; used to reserve memory.
 const BYTES_AN_ITEM: usize = 8;
 
 struct Parser<'t> {

@@ -81,7 +81,7 @@ const fn key(
 }
 
 const ASKED: &str = "with `--margins`";
-/// Of one margin: all are asked for where none is named.
+/// Present only if this margin was requested; without names all are.
 const NAMED: &str = "where asked for";
 
 /// Every key of a result, in the order in which a result has them.

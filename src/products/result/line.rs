@@ -1,4 +1,4 @@
-//! A result as one line among many: which scene it is about, and of the result no more than was asked for.
+//! A result as one line of a batch: the scene's origin, and the selected fields of the result.
 
 mod name;
 
@@ -47,7 +47,7 @@ impl fmt::Display for Origin {
 }
 
 /// What of a result is written: names of the result of [`to_json`], parts of parts behind a dot, as `frames.proof.power`;
-/// of a list the part of each of its entries. Beside them there are `verdict`, the worst of all frames, `picture`, and
+/// of a list the part of each of its entries. There are also `verdict`, the worst of all frames, `picture`, and
 /// `all`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fields {
@@ -77,7 +77,7 @@ impl Fields {
     /// Reads a list such as `verdict,frames.total_force`.
     ///
     /// # Errors
-    /// Every name that is none.
+    /// Every name that is not a field.
     ///
     /// # Example
     /// ```
@@ -103,7 +103,7 @@ impl Fields {
         }
     }
 
-    /// Whether a field is asked for by its name, or by that of one of its parts or of the part it is in. `all` and `frames`
+    /// Whether a field is selected by its name, by a part of it, or by the part that contains it. `all` and `frames`
     /// ask for nothing that results have on request only.
     pub fn ask(&self, path: &[&str]) -> bool {
         let within = |chosen: &Vec<&str>| {
@@ -158,7 +158,7 @@ pub enum PictureOutcome {
     NotAsked,
     /// The name of its file in its folder.
     Drawn(String),
-    /// Why there is none.
+    /// Why there is no picture.
     Refused(String),
 }
 

@@ -1,7 +1,7 @@
 //! Margins as JSON: a number, `null` where a frame falls at any value, `"unbounded"` where it stands at any.
 //!
 //! A tilt of `null` says that the frame falls unturned; it may stand turned. A margin that no verdict confirms is `null` as
-//! well, and a notice of the frame says between which values it lies. What was not asked for is absent.
+//! well, and a notice of the frame says between which values it lies. What was not requested is absent.
 //!
 //! `intervals` has both ends of each parameter. There `null` is an end that is not there, `"withheld"` one that no verdict
 //! confirms, and `null` in place of an interval says that the frame stands at no value.

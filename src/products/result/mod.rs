@@ -3,10 +3,10 @@
 //! Invariant: the same analysis gives the same bytes, apart from seconds, which [`Timing::LeftOut`] leaves out. Every
 //! number is plain: no −0, and the shortest decimal that reads back as the same f64. A number that could not be computed,
 //! which happens in frames that are `undecided` only, is `null`. Lists that say nothing are absent where the contract
-//! does not name them: `unsupported`, `notices`, `doubt`. What was not asked for is absent: `margins`,
+//! does not name them: `unsupported`, `notices`, `doubt`. What was not requested is absent: `margins`,
 //! `only_by_wedging`.
 //!
-//! This file is serde's second door, beside `scene::format`: that one reads a person's file, this one writes for programs,
+//! serde is used here and in `scene::format`: that module reads a person's file, this one writes for programs,
 //! and the two change for different reasons.
 
 #[cfg(feature = "report")]
@@ -50,7 +50,7 @@ use crate::scene::{BlockId, BodyId, RobotId, Scene, ToleranceSource};
 use crate::text;
 pub use crate::wording::verdict::word;
 
-/// Whether a result tells how long it took.
+/// Whether a result contains solving times.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Timing {
     /// `solve.seconds` is there, and differs from run to run.
@@ -164,7 +164,7 @@ struct Frame<'a> {
     mechanism: Vec<Motion<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     margins: Option<Margins<'a>>,
-    /// `null` where it was asked for and stays open.
+    /// `null` if it was requested and could not be decided.
     #[serde(skip_serializing_if = "Option::is_none")]
     only_by_wedging: Option<Option<bool>>,
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -65,7 +65,7 @@ pub fn problem_line(origin: &Origin, problems: &[Problem]) -> String {
     )
 }
 
-/// Problems of a text before which there are so many lines.
+/// Problems of a text that has this number of lines before it.
 fn entries(problems: &[Problem], before: usize) -> Vec<Entry<'_>> {
     let place = |number: usize| (number > 0).then_some(number);
     problems

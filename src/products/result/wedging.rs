@@ -13,7 +13,7 @@ use crate::scene::Scene;
 pub(super) struct Wedging<'a> {
     /// The faces that have to press.
     must_press: Vec<Face<'a>>,
-    /// With so many newtons in all.
+    /// The least sum of normal forces, N.
     #[serde(skip_serializing_if = "Option::is_none")]
     normal_force_at_least: Option<Number>,
     #[serde(skip_serializing_if = "Vec::is_empty")]

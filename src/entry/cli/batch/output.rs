@@ -92,7 +92,7 @@ impl Output {
         self.done
     }
 
-    /// Writes the line that answers a scene, given by its hash; `Break` where nobody reads on.
+    /// Writes the line that answers a scene, given by its hash; `Break` if the reader has closed the output.
     pub fn write(&mut self, line: &[u8], scene: u64) -> Result<ControlFlow<()>, CliError> {
         self.waiting.extend_from_slice(line);
         if let Some(resume) = &mut self.resume {

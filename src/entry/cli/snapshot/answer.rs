@@ -45,7 +45,7 @@ pub(super) fn ask(
             page.words(&format!("{number} of {total}, {}: ", snapshot.name));
             page.ours("accept? y(es), n(o), s(kip), q(uit) ");
             terminal.print(&page).map_err(|c| vec![c])?;
-            // The end of the input is nobody's yes.
+            // The end of the input does not mean yes.
             let Some(Ok(answer)) = answers.next() else {
                 break 'all;
             };

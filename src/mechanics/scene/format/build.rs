@@ -1,7 +1,7 @@
 //! A scene file built in code: a method for every key, with the key's name, that gives back what it was called on.
 //!
 //! Nothing is checked before [`SceneFile::build`], which is the way of every scene: what a file may not say may not be said
-//! here either, and all that is wrong is told at once.
+//! here either, and all problems are reported at once.
 
 use super::{
     BlockEntry, CellEntry, FrictionPairEntry, GridEntry, GridKind, GripEntry, GroundEntry,

@@ -60,7 +60,7 @@ impl<'s, 't> Reader<'s, 't> {
 
     fn misfit(&mut self, at: &Trail<'_>, mark: Mark, wording: Wording) {
         if self.findings.is_full() {
-            // A file with so many misfits is not examined further.
+            // A file with this many wrong values is not examined further.
             self.doubt.paths = vec![Trail::Top.path()];
             return;
         }
@@ -268,7 +268,7 @@ impl<'s, 't> Reader<'s, 't> {
         None
     }
 
-    /// The list behind a key; empty where there is none.
+    /// The list of a key; empty if the key is absent.
     pub(super) fn list<T: Default>(
         &mut self,
         object: Object<'_, 't>,
@@ -300,7 +300,7 @@ impl<'s, 't> Reader<'s, 't> {
         Some(list)
     }
 
-    /// The object of names behind a key; empty where there is none.
+    /// The object of a key, by names; empty if the key is absent.
     pub(super) fn map<T: Default>(
         &mut self,
         object: Object<'_, 't>,

@@ -1,5 +1,5 @@
-//! The names that a line of a batch may be asked for, in the order in which results have them: those of the keys of a
-//! result, and beside them `verdict`, the worst of all frames.
+//! The names of fields that a line of a batch can have, in the order of the result: those of the keys of a
+//! result, and `verdict`, the worst of all frames.
 
 use std::sync::LazyLock;
 
@@ -13,10 +13,10 @@ pub(super) struct Name {
     pub parts: Vec<Name>,
 }
 
-/// Everything that may be asked for, `all` and `picture` apart. The file is part of every line.
+/// All fields that can be selected, except `all` and `picture`. The file is part of every line.
 pub(super) static NAMES: LazyLock<Vec<Name>> = LazyLock::new(|| {
     let mut names = Vec::new();
-    // What stands below a robot's own name is asked for together with all robots.
+    // Keys below a robot's own name are selected together with all robots.
     for key in KEYS
         .iter()
         .filter(|k| k.path != "file" && !k.path.contains('*'))
