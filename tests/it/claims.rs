@@ -6,6 +6,7 @@
 
 mod balance;
 mod force;
+mod interval;
 mod margin;
 mod motion;
 mod wedging;

@@ -14,7 +14,7 @@ use crate::wording::verdict::plain;
 use crate::wording::{failure, margin, proof};
 
 /// What the columns mean, and what a verdict says and what it does not, for under the tables.
-const LIMITS: [[&str; 2]; 7] = [
+const LIMITS: [[&str; 2]; 8] = [
     [
         "stands",
         "some set of admissible forces balances every block. Rigid blocks, laid dry, at rest; a wedged balance counts.",
@@ -30,6 +30,10 @@ const LIMITS: [[&str; 2]; 7] = [
     [
         "proof",
         "in parts of the forces on each block; of a motion in parts of the loads of what moves",
+    ],
+    [
+        "margins",
+        "at which values it stands, then the present one; first the factor on the loads, else the margin nearest to its end",
     ],
 ];
 /// Before the meanings, and in how many columns these are broken into lines on wide terminals.
@@ -270,9 +274,7 @@ fn remarks(scene: &Scene, frame: &FrameAnalysis) -> Vec<String> {
     if let Some(effect) = wedging.filter(|_| frame.only_by_wedging != Some(false)) {
         remarks.push(format!("wedging: {}", effect.why));
     }
-    if let Some(margins) = &frame.margins {
-        remarks.extend(margin::lines(scene, margins));
-    }
+    remarks.extend(margin::lines(scene, frame));
     remarks.extend(frame.notices.iter().map(|n| format!("note: {n}")));
     remarks
 }
@@ -300,7 +302,7 @@ mod tests {
 
     #[test]
     fn words_are_explained_beside_them_at_any_width() {
-        for (width, lines) in [(None, 9), (Some(100), 9), (Some(60), 11), (Some(40), 16)] {
+        for (width, lines) in [(None, 11), (Some(100), 11), (Some(60), 14), (Some(40), 20)] {
             let page = explained(width);
             let found: Vec<&str> = page.text().lines().collect();
             let widest = found.iter().map(|line| seen(line)).max();

@@ -178,7 +178,7 @@ fn step(
         files.push((name, svg.into_bytes()));
     }
     if !step.bullets.is_empty() {
-        let mut grid = Grid::new("Margins", &["margin", "in numbers"]);
+        let mut grid = Grid::new("Margins", &["margin", "in words"]);
         for bullet in &step.bullets {
             grid.add("", [bullet.name.clone(), bullet.words.clone()]);
         }

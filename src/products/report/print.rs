@@ -385,7 +385,7 @@ fn step(flow: &mut Flow, step: &Step) {
         flow.figure(&plate.drawing, &plate.caption);
     }
     if !step.bullets.is_empty() {
-        let mut grid = Grid::new("Margins", &["margin", "in numbers"]);
+        let mut grid = Grid::new("Margins", &["margin", "in words"]);
         for bullet in &step.bullets {
             grid.add("", [bullet.name.clone(), bullet.words.clone()]);
         }

@@ -134,7 +134,7 @@ fn margins_are_there_where_asked_for() {
             > 0.0
     );
     let told = bench.run("check --margins stands.json").out;
-    assert!(told.contains("least friction: "), "{told}");
+    assert!(told.contains("friction coefficient: stands "), "{told}");
 }
 
 #[test]
@@ -155,7 +155,7 @@ fn some_margins_can_be_asked_for_alone() {
     }
     let told = bench.run("check --margins kernel stands.json").out;
     assert!(
-        told.contains("largest kernel: ") && !told.contains("least friction: "),
+        told.contains("safety kernel: stands ") && !told.contains("friction coefficient: "),
         "{told}"
     );
     let wrong = bench.run("check --margins fricton,tilt stands.json");

@@ -1,6 +1,7 @@
 //! The sentence below the verdict: at which values of the parameter the frame stands.
 
 use crate::analysis::{Analysis, End, Interval, Toward, Verdict};
+use crate::wording::margin::{Parameter, stands};
 use crate::wording::number::digits;
 
 use super::super::words::{degrees, percent};
@@ -26,17 +27,30 @@ pub(super) fn sentence(analysis: &Analysis, frame: usize, toward: Toward) -> Str
     };
     match (found.verdict, interval) {
         (Verdict::Stable, _) => standing(analysis, frame, toward, interval),
-        (verdict, Interval::Between { low, high }) => {
+        (verdict, Interval::Between { .. }) => {
             let now = match verdict {
                 Verdict::Undecided => "undecided",
                 Verdict::Stable | Verdict::Unstable => "falls",
             };
-            format!("{now} as it is; stands {}", range(low, high, toward))
+            let what = match toward {
+                Toward::Tilt => "with gravity turned: ",
+                Toward::HorizontalLoad => "with a share of the weights across gravity: ",
+                Toward::LoadFactor => "",
+            };
+            format!("{now} as it is; {what}{}", stands(stated(toward), interval))
         }
         (_, Interval::Empty) => format!("falls at every {}", parameter(toward)),
         (_, Interval::Undecided) => {
             format!("at which {} it stands was not confirmed", parameter(toward))
         }
+    }
+}
+
+fn stated(toward: Toward) -> Parameter {
+    match toward {
+        Toward::Tilt => Parameter::Tilt,
+        Toward::HorizontalLoad => Parameter::HorizontalLoad,
+        Toward::LoadFactor => Parameter::LoadFactor,
     }
 }
 
@@ -102,46 +116,6 @@ fn is_open(end: &End) -> bool {
 fn least_factor(interval: &Interval) -> Option<f64> {
     let low = interval.low().and_then(End::value);
     low.filter(|low| *low > 0.0)
-}
-
-/// An interval in words, for behind `stands`.
-fn range(low: &End, high: &End, toward: Toward) -> String {
-    let least = known(low).filter(|low| toward != Toward::LoadFactor || *low > 0.0);
-    let most = known(high);
-    let value = |value: f64| {
-        let side = match value {
-            0.0 => "",
-            v if v > 0.0 => " right",
-            _ => " left",
-        };
-        match toward {
-            Toward::Tilt => format!("{}{side}", degrees(value.abs())),
-            Toward::HorizontalLoad => format!("{}{side}", percent_of(value)),
-            Toward::LoadFactor => digits(value),
-        }
-    };
-    let (what, unit) = match toward {
-        Toward::Tilt => ("with gravity turned", ""),
-        Toward::HorizontalLoad => ("with a push across gravity", " of each weight"),
-        Toward::LoadFactor => ("with its loads", " times as large"),
-    };
-    let range = match (least, most) {
-        (None, None) => return "at other values, which were not confirmed".to_owned(),
-        (Some(low), None) => format!("at least {}", value(low)),
-        (None, Some(high)) => format!("at most {}", value(high)),
-        (Some(low), Some(high)) if low == high => value(low),
-        (Some(low), Some(high)) => format!("from {} to {}", value(low), value(high)),
-    };
-    format!("{what} {range}{unit}")
-}
-
-/// The farthest value at which it is known to stand.
-fn known(end: &End) -> Option<f64> {
-    match end {
-        End::At { value, .. } => Some(*value),
-        End::Unconfirmed { stands, .. } => Some(*stands),
-        _ => None,
-    }
 }
 
 /// A share of gravity in percent, also beyond all of it.

@@ -1,199 +1,141 @@
-//! [`MarginBar`]: a margin as a bar: the range in which the structure stands, and its present value.
+//! [`MarginBar`]: a margin as a bar: the values at which it stands, and the present one.
 
-use crate::analysis::{FrameAnalysis, Margin, Margins, Sides};
+use crate::analysis::{End, FrameAnalysis, Interval};
 use crate::scene::Scene;
-use crate::text;
-use crate::wording::margin::{NONE, UNTURNED, value};
-use crate::wording::number::digits;
+use crate::wording::margin::{Parameter, Position, StatedMargin, confirmed, stated};
 
-/// A margin as a bar.
+/// How one end of a bar is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BarEnd {
+    /// The parameter itself begins or ends here.
+    Domain,
+    /// It falls beyond.
+    Edge,
+    /// No verdict confirms the end, which lies beyond.
+    Unconfirmed,
+    /// It stands at every value beyond.
+    Open,
+}
+
+/// A margin: the values at which the structure stands, and the place where it is.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MarginBar {
-    /// The quantity that varies, with its unit.
+    /// What varies.
     pub name: String,
-    /// A description of the range in which it stands.
+    /// At which values it stands and where it is now, in words.
     pub words: String,
     /// The ends of the scale.
     pub scale: (f64, f64),
-    /// The range in which it stands; `None` if there is none.
+    /// From where to where it stands; nowhere where `None`.
     pub safe: Option<(f64, f64)>,
-    /// The present value, if it is on the scale.
-    pub now: Option<f64>,
-    /// The remaining share up to the nearer limit: 0 at the limit, 1 without a limit.
+    /// How the ends of that are drawn.
+    pub ends: (BarEnd, BarEnd),
+    /// The least and the largest present value, where they have a place on the scale.
+    pub now: Option<(f64, f64)>,
+    /// Where the present value is.
+    pub position: Position,
+    /// Whether this is the factor on the loads.
+    pub is_load_factor: bool,
+    /// How much is left to the nearest end, in parts of what there is: 0 at the end, 1 where nothing limits it.
     pub reserve: f64,
-    /// A short description for the table of all scenes.
-    pub short: String,
 }
 
-/// The bars for the margins of a frame that were computed.
+/// The margins of a frame as bars, those that were asked for, the headline first.
 pub fn margin_bars(scene: &Scene, found: &FrameAnalysis) -> Vec<MarginBar> {
-    let Some(margins) = &found.margins else {
-        return Vec::new();
+    stated(scene, found).iter().map(MarginBar::new).collect()
+}
+
+/// The headline of several frames: of the bars of loads the one with the least reserve, else of all bars.
+pub fn headline(bars: &[MarginBar]) -> Option<&MarginBar> {
+    let least = |bars: &mut dyn Iterator<Item = &MarginBar>| -> Option<usize> {
+        let reserves = bars.map(|bar| bar.reserve).enumerate();
+        reserves
+            .min_by(|a, b| a.1.total_cmp(&b.1))
+            .map(|(first, _)| first)
     };
-    let share = &margins.horizontal_load;
-    let mut bars = vec![
-        friction(found, margins),
-        sided("tilt of gravity", "°", &margins.tilt, 90.0, UNTURNED),
-        sided("horizontal share of the weights", "", share, 1.0, NONE),
-        upwards("safety kernel", &margins.kernel, scene.kernel, Some(1.0)),
-    ];
-    if !scene.loads.is_empty() {
-        let factor = &margins.load_factor;
-        bars.push(upwards("factor on the loads", factor, 1.0, None));
+    let loads = || bars.iter().filter(|bar| bar.is_load_factor);
+    match least(&mut loads()) {
+        Some(first) => loads().nth(first),
+        None => least(&mut bars.iter()).and_then(|first| bars.get(first)),
     }
-    for robot in &margins.robots {
-        let arm = &scene.robots[robot.robot.0];
-        let id = text::line(&arm.id);
-        for (name, unit, margin, limit) in [
-            ("horizontal force", "N", &robot.fx, arm.limits.fx),
-            ("vertical force", "N", &robot.fy, arm.limits.fy),
-            ("torque", "N·m", &robot.torque, arm.limits.torque),
-        ] {
-            let name = format!("{name} of robot {id}, {unit}");
-            bars.push(needed(&name, unit, margin, limit));
+}
+
+/// The scale reaches this much farther than the farthest value on it.
+const BEYOND: f64 = 1.25;
+
+impl MarginBar {
+    fn new(margin: &StatedMargin<'_>) -> MarginBar {
+        let present = margin
+            .present
+            .filter(|(low, high)| low.is_finite() && high.is_finite());
+        let scale = scale(margin, present);
+        let (safe, ends) = match margin.interval {
+            Interval::Between { low, high } => {
+                let from = confirmed(low).unwrap_or(scale.0);
+                let to = confirmed(high).unwrap_or(scale.1);
+                let begins = !margin.parameter.is_signed() && from <= 0.0;
+                let lower = match bar_end(margin, low) {
+                    BarEnd::Edge if begins => BarEnd::Domain,
+                    end => end,
+                };
+                let ends = (lower, bar_end(margin, high));
+                (Some((from, to)), ends)
+            }
+            _ => (None, (BarEnd::Domain, BarEnd::Domain)),
+        };
+        MarginBar {
+            name: margin.name.clone(),
+            words: margin.sentence(),
+            scale,
+            safe,
+            ends,
+            now: present,
+            position: margin.position,
+            is_load_factor: margin.parameter == Parameter::LoadFactor,
+            reserve: margin.reserve(),
         }
     }
-    bars.into_iter().flatten().collect()
-}
 
-/// The value up to which a frame is known to stand: the margin, or the last confirmed value if the margin is not confirmed.
-fn known(margin: &Margin) -> Option<f64> {
-    match margin {
-        Margin::Value { at, .. } | Margin::Unconfirmed { stands: at, .. } => Some(*at),
-        Margin::None | Margin::Unbounded | Margin::NotAsked | Margin::NotApplicable => None,
+    /// The margin as a sentence of its own. That of the loads names them already.
+    pub fn short(&self) -> String {
+        if self.is_load_factor {
+            return self.words.clone();
+        }
+        format!("{}: {}", self.name, self.words)
     }
 }
 
-/// The bar with the smallest reserve.
-pub fn closest(bars: &[MarginBar]) -> Option<&MarginBar> {
-    bars.iter().min_by(|a, b| a.reserve.total_cmp(&b.reserve))
-}
-
-fn friction(found: &FrameAnalysis, margins: &Margins) -> Option<MarginBar> {
-    let all = found.contacts.iter().map(|c| c.interface.friction);
-    let least = all.fold(f64::INFINITY, f64::min);
-    let have = if least.is_finite() { least } else { 0.0 };
-    let needed = needed("friction coefficient, least", "", &margins.friction, have)?;
-    Some(MarginBar {
-        name: "friction coefficient".into(),
-        ..needed
-    })
-}
-
-/// A bar for a quantity that must not fall below a limit, such as friction.
-fn needed(name: &str, unit: &str, margin: &Margin, have: f64) -> Option<MarginBar> {
-    if *margin == Margin::NotAsked {
-        return None;
-    }
-    let gap = if unit.is_empty() { "" } else { " " };
-    let needed = known(margin);
-    let top = [Some(have), needed]
-        .into_iter()
-        .flatten()
+/// From 0, or to both sides of it, to somewhat beyond all values that are drawn; a kernel to 1.
+fn scale(margin: &StatedMargin<'_>, present: Option<(f64, f64)>) -> (f64, f64) {
+    let ends = [margin.interval.low(), margin.interval.high()];
+    let values = ends.into_iter().flatten().filter_map(confirmed);
+    let values = values.chain(present.map(|(_, high)| high));
+    let farthest = values
+        .map(f64::abs)
         .filter(|v| v.is_finite())
         .fold(0.0, f64::max);
-    let top = if top > 0.0 { 1.25 * top } else { 1.0 };
-    let unbounded = *margin == Margin::Unbounded;
-    let safe = needed.or(unbounded.then_some(0.0)).map(|from| (from, top));
-    let has = if have.is_finite() {
-        format!("has {}{gap}{unit}", digits(have))
-    } else {
-        "has no limit".into()
+    let top = match margin.parameter {
+        Parameter::Kernel => 1.0,
+        Parameter::Tilt if farthest == 0.0 => 90.0,
+        _ if farthest == 0.0 => 1.0,
+        _ => BEYOND * farthest,
     };
-    let reserve = match needed {
-        Some(needed) if needed <= 0.0 || have.is_infinite() => 1.0,
-        Some(needed) if have > 0.0 => (1.0 - needed / have).max(0.0),
-        Some(_) => 0.0,
-        None if unbounded => 1.0,
-        None => 0.0,
-    };
-    let shown = value(margin, &format!("{gap}{unit}"), NONE);
-    Some(MarginBar {
-        name: name.into(),
-        words: match margin {
-            Margin::None => format!("falls at any; {has}"),
-            _ => format!("needs {shown}; {has}"),
+    (
+        if margin.parameter.is_signed() {
+            -top
+        } else {
+            0.0
         },
-        scale: (0.0, top),
-        safe,
-        now: Some(have).filter(|v| v.is_finite()),
-        reserve,
-        short: format!(
-            "{}: needs {shown}, {has}",
-            name.split(',').next().unwrap_or(name)
-        ),
-    })
+        top,
+    )
 }
 
-/// A bar for a quantity that may grow from 0 to both sides, such as a tilt.
-fn sided(name: &str, unit: &str, sides: &Sides, all: f64, none: &str) -> Option<MarginBar> {
-    if sides.left == Margin::NotAsked {
-        return None;
+fn bar_end(margin: &StatedMargin<'_>, end: &End) -> BarEnd {
+    match end {
+        // There is no kernel above 1.
+        End::Unbounded if margin.parameter == Parameter::Kernel => BarEnd::Domain,
+        End::Unbounded => BarEnd::Open,
+        End::Unconfirmed { .. } => BarEnd::Unconfirmed,
+        End::At { .. } => BarEnd::Edge,
     }
-    let [left, right] = [&sides.left, &sides.right];
-    let most = [left, right]
-        .into_iter()
-        .filter_map(known)
-        .fold(0.0, f64::max);
-    let top = if most > 0.0 { 1.25 * most } else { all };
-    let ends = |margin: &Margin, endless: f64| match margin {
-        Margin::Unbounded => endless,
-        _ => known(margin).unwrap_or(0.0),
-    };
-    let falls = *left == Margin::None && *right == Margin::None;
-    let share = |margin: &Margin| (ends(margin, all) / all).min(1.0);
-    let (least, side) = if share(left) <= share(right) {
-        (left, "left")
-    } else {
-        (right, "right")
-    };
-    let [to_left, to_right] = [left, right].map(|m| value(m, unit, none));
-    Some(MarginBar {
-        name: if unit.is_empty() {
-            name.into()
-        } else {
-            format!("{name}, {unit}")
-        },
-        words: if falls {
-            "falls as it is".into()
-        } else {
-            format!("{to_left} to the left, {to_right} to the right")
-        },
-        scale: (-top, top),
-        safe: (!falls).then(|| (-ends(left, top), ends(right, top))),
-        now: Some(0.0),
-        reserve: share(least),
-        short: format!("{name}: {} {side}", value(least, unit, none)),
-    })
-}
-
-/// A bar for a quantity that may grow from its present value, such as a load.
-fn upwards(name: &str, margin: &Margin, now: f64, end: Option<f64>) -> Option<MarginBar> {
-    if matches!(margin, Margin::NotAsked | Margin::NotApplicable) {
-        return None;
-    }
-    let at = known(margin);
-    let top = end.unwrap_or_else(|| 1.25 * at.unwrap_or(now).max(now));
-    let reserve = match (at, end) {
-        (Some(at), Some(end)) => ((at - now) / (end - now).max(1e-9)).max(0.0),
-        (Some(at), None) => (1.0 - now / at.max(1e-300)).max(0.0),
-        (None, _) if *margin == Margin::Unbounded => 1.0,
-        (None, _) => 0.0,
-    };
-    let shown = value(margin, "", NONE);
-    Some(MarginBar {
-        name: name.into(),
-        words: match margin {
-            Margin::None => format!("falls at any; has {}", digits(now)),
-            _ => format!("up to {shown}; has {}", digits(now)),
-        },
-        scale: (0.0, top),
-        safe: match margin {
-            Margin::Unbounded => Some((0.0, top)),
-            _ => at.map(|at| (0.0, at)),
-        },
-        now: Some(now),
-        reserve: reserve.min(1.0),
-        short: format!("{name}: up to {shown}, has {}", digits(now)),
-    })
 }

@@ -13,7 +13,7 @@ mod row;
 mod step;
 mod touch;
 
-pub use bullet::MarginBar;
+pub use bullet::{BarEnd, MarginBar};
 pub use comparison::{Side, compared};
 pub use grid::{Grid, Line};
 pub use row::{Row, Thumbnail};

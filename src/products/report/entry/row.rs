@@ -29,7 +29,8 @@ pub struct Row {
     pub stand: (usize, usize),
     /// The number of blocks that its steps place.
     pub blocks: usize,
-    /// The smallest margin of all steps: a description, and the remaining share from 0 to 1.
+    /// The margin of all steps that matters most: of a scene with loads their factor, else the one nearest to its end. In
+    /// words, and what is left in parts of what there is.
     pub closest: Option<(String, f64)>,
     /// The largest share of the available friction that an interface uses, among the steps that stand. `None` if no step
     /// stands: the forces of a falling step include the missing forces.
@@ -86,10 +87,13 @@ impl Row {
             before: None,
             stand: (standing().count(), frames.len()),
             blocks: placed.len(),
-            closest: match (bullet::closest(&bullets), analysis.verdict()) {
+            closest: match (bullet::headline(&bullets), analysis.verdict()) {
                 (None, _) => None,
+                (Some(bar), _) if bar.is_load_factor => {
+                    Some((text::line(&bar.short()), bar.reserve))
+                }
                 (Some(_), Verdict::Unstable) => Some(("none: it falls".into(), -1.0)),
-                (Some(b), _) => Some((text::line(&b.short), b.reserve)),
+                (Some(bar), _) => Some((text::line(&bar.short()), bar.reserve)),
             },
             friction: standing()
                 .map(|f| f.contacts.iter().map(|c| c.friction_used))

@@ -171,7 +171,12 @@ fn remarks(found: &FrameAnalysis) -> Vec<String> {
     if let Some(wedging) = wedging.filter(|_| found.only_by_wedging != Some(false)) {
         remarks.push(format!("Wedging: {}.", line(&wedging.why)));
     }
-    remarks.extend(found.notices.iter().map(|n| format!("Note: {}.", line(n))));
+    let about_margins = found
+        .margins
+        .iter()
+        .flat_map(|margins| &margins.intervals.notes);
+    let notes = found.notices.iter().chain(about_margins);
+    remarks.extend(notes.map(|n| format!("Note: {}.", line(n))));
     remarks
 }
 

@@ -5,12 +5,15 @@ use maud::{Markup, PreEscaped, html};
 use super::{path, thumbnail, verdict, verdicts};
 use crate::chart;
 use crate::output::svg::{self, Options};
-use crate::report::entry::{Chart, Entry, Figure, Grid, MarginBar, Step, touched};
+use crate::report::entry::{BarEnd, Chart, Entry, Figure, Grid, MarginBar, Step, touched};
+use crate::wording::margin::Position;
 
 /// Tables of more lines are folded.
 const LONG: usize = 24;
 /// Width and height of a margin's bar.
-const BAR: (f64, f64) = (220.0, 16.0);
+const BAR: (f64, f64) = (220.0, 20.0);
+/// The scale ends this far from the bar's ends: marks and arrows there stay inside.
+const INSET: f64 = 7.0;
 
 /// A scene as a part of a page that unfolds.
 pub(crate) fn section(entry: &Entry, number: usize) -> String {
@@ -80,7 +83,11 @@ fn step(step: &Step, (number, place): (usize, usize), several: bool) -> Markup {
             }
             @if !step.bullets.is_empty() {
                 h4 { "Margins" }
+                @if let Some(first) = step.bullets.first() {
+                    p.headline { strong { bdi dir="ltr" { (first.short()) } } }
+                }
                 (bullets(&step.bullets))
+                p.small { (BAR_SHAPES) }
             }
             @for grid in &step.grids { (self::grid(grid)) }
             @if !step.proof.is_empty() { p.proof { strong { "What the proof means: " } (step.proof) } }
@@ -144,12 +151,17 @@ fn grid(of: &Grid) -> Markup {
     }
 }
 
+/// What the shapes of bars mean.
+const BAR_SHAPES: &str = "A bar covers the values at which it stands. Stroke at an end: it falls beyond; dashed: that was not \
+                          confirmed. Arrow: it stands at every value beyond. The present value is a disc inside, a cross \
+                          outside, a ring where it is undecided.";
+
 fn bullets(bullets: &[MarginBar]) -> Markup {
     html! {
         div.wide tabindex="0" role="region" aria-label="Margins" {
             table.margins {
-                caption { "How far it is from the edge: the bar is where it stands, the line where it is now." }
-                thead { tr { th scope="col" { "margin" } th scope="col" { "bar" } th scope="col" { "in numbers" } } }
+                caption { "At which values it stands, the most important margin first" }
+                thead { tr { th scope="col" { "margin" } th scope="col" { "bar" } th scope="col" { "in words" } } }
                 tbody {
                     @for bullet in bullets {
                         tr {
@@ -164,6 +176,9 @@ fn bullets(bullets: &[MarginBar]) -> Markup {
     }
 }
 
+/// A bar from the lower to the upper end of the interval, on a scale. Shapes tell what colours tell: a stroke at an end that
+/// was found, a dashed one where it was not confirmed, an arrow where there is no end; a disc for a present value inside, a
+/// cross for one outside, a ring where neither was shown.
 fn bar(bullet: &MarginBar) -> Markup {
     let (width, height) = BAR;
     let (low, high) = bullet.scale;
@@ -173,19 +188,45 @@ fn bar(bullet: &MarginBar) -> Markup {
         } else {
             0.0
         };
-        let x = (width * share.clamp(0.0, 1.0) * 10.0).round() / 10.0 + 0.0;
+        let room = width - 2.0 * INSET;
+        let x = ((INSET + room * share.clamp(0.0, 1.0)) * 10.0).round() / 10.0;
         if x.is_finite() { x } else { 0.0 }
+    };
+    let end = |end: BarEnd, at: f64, outward: f64| {
+        html! {
+            @match end {
+                BarEnd::Domain => {}
+                BarEnd::Edge => line.edge x1=(at) y1="2" x2=(at) y2="18" {},
+                BarEnd::Unconfirmed => line.edge.unconfirmed x1=(at) y1="2" x2=(at) y2="18" {},
+                BarEnd::Open => path.open d=(format!("M{at} 3l{} 7l{} 7z", outward * INSET, -outward * INSET)) {},
+            }
+        }
     };
     html! {
         svg.bar viewBox=(format!("0 0 {width} {height}")) width=(width) height=(height) role="img"
             aria-label=(format!("{}: {}", bullet.name, bullet.words)) {
-            rect.all x="0" y="4" width=(width) height="8" {}
+            rect.all x=(INSET) y="8.5" width=(width - 2.0 * INSET) height="3" {}
             @if let Some((from, to)) = bullet.safe {
-                rect.safe x=(at(from)) y="4" width=((at(to) - at(from)).max(1.0)) height="8" {}
+                rect.safe x=(at(from)) y="6" width=(((at(to) - at(from)) * 10.0).round() / 10.0) height="8" {}
+                (end(bullet.ends.0, at(from), -1.0))
+                (end(bullet.ends.1, at(to), 1.0))
             }
-            @if let Some(now) = bullet.now {
-                rect.now x=((at(now) - 1.5).clamp(0.0, width - 3.0)) y="0" width="3" height=(height) {}
+            @if let Some((least, most)) = bullet.now {
+                @if least < most { line.between x1=(at(least)) y1="10" x2=(at(most)) y2="10" {} }
+                (now(bullet.position, at(least)))
+                @if least < most { (now(bullet.position, at(most))) }
             }
+        }
+    }
+}
+
+/// The mark of the present value.
+fn now(position: Position, at: f64) -> Markup {
+    html! {
+        @match position {
+            Position::Inside => circle.now cx=(at) cy="10" r="4.5" {},
+            Position::Outside => path.now.outside d=(format!("M{} 5l10 10m0 -10l-10 10", at - 5.0)) {},
+            Position::Unknown => circle.now.unknown cx=(at) cy="10" r="4" {},
         }
     }
 }
