@@ -58,7 +58,7 @@ fn a_test_fails_with_words_until_it_is_updated_and_never_writes_in_ci() {
     ] {
         let (passed, said) = run(&folder, environment);
         assert!(
-            !passed && said.contains("CI is set: nothing was written"),
+            !passed && said.contains("CI is set, so nothing was written"),
             "{said}"
         );
         assert_eq!(folder.files(), before);

@@ -158,7 +158,7 @@ fn what_is_no_whole_png_has_words_of_its_own() {
         ),
         (&[0; 300], "it is not a PNG: all its bytes are zero"),
         (&bytes[..5], "it is truncated after 5 bytes"),
-        (&bytes[..bytes.len() / 2], "it is cut off"),
+        (&bytes[..bytes.len() / 2], "it is truncated after"),
         (&damaged, "it is a damaged PNG"),
     ] {
         assert!(refused(bytes).starts_with(words), "{}", refused(bytes));
