@@ -157,8 +157,11 @@ pub fn overlap(a: &ConvexPieces<'_>, b: &ConvexPieces<'_>, gap: f64) -> Option<O
     })
 }
 
+/// Two convex pieces that overlap.
+type PiecePair<'p> = (&'p Cow<'p, [Point]>, &'p Cow<'p, [Point]>);
+
 /// The total common area of pairs of convex pieces, and its first moment about `base`.
-fn common_area(pairs: &[(&Cow<'_, [Point]>, &Cow<'_, [Point]>)], base: Point) -> (f64, Vector) {
+fn common_area(pairs: &[PiecePair<'_>], base: Point) -> (f64, Vector) {
     let mut area = 0.0;
     let mut moment = Vector::zeros();
     for (one, two) in pairs {

@@ -5,7 +5,7 @@
 //! a program has shown that no forces balance: that of least residual, or that of least adhesion.
 
 use super::parallel_joints::LeastForce;
-use super::rebalance::{FallingPart, Outcome};
+use super::rebalance::Outcome;
 use super::strategy::{Attempt, Strategy};
 use super::{Component, Method};
 use crate::analysis::{UndecidedReason, Verdict};
@@ -50,7 +50,18 @@ struct Progress {
     /// A proved motion that does little work.
     weak: Option<(Vec<Motion>, Proof)>,
     adhesion: Option<LeastAdhesion>,
-    last: Option<(Decision, Attempt)>,
+    last: Option<(Strategy, Attempt)>,
+}
+
+impl Progress {
+    /// A decision by a strategy, to be filled in.
+    fn decision(&self, program: &Program, strategy: Strategy) -> Decision {
+        Decision {
+            no_status: self.no_status,
+            effort: self.effort,
+            ..Decision::new(program, strategy.method())
+        }
+    }
 }
 
 impl Component<'_> {
@@ -68,37 +79,27 @@ impl Component<'_> {
             progress.effort = progress.effort.and(attempt.effort);
             progress.no_status |=
                 strategy.is_least() && attempt.forces.is_none() && attempt.motion.is_none();
-            let decision = Decision {
-                no_status: progress.no_status,
-                ..Decision::new(program, strategy.method())
-            };
-            let decision = match self.stable_by(program, &attempt, decision, &mut progress) {
-                Ok(decided) => return decided,
-                Err(open) => open,
-            };
-            let decision =
-                match self.unstable_by(program, strategy, &attempt, decision, &mut progress) {
-                    Ok(decided) => return decided,
-                    Err(open) => open,
-                };
+            let decided = self
+                .decide_by_forces(program, strategy, &attempt, &mut progress)
+                .or_else(|| self.decide_by_motion(program, strategy, &attempt, &mut progress));
+            if let Some(decision) = decided {
+                return decision;
+            }
             progress.adhesion = attempt.adhesion.clone().or(progress.adhesion);
-            progress.last = Some((decision, attempt));
+            progress.last = Some((strategy, attempt));
         }
         self.without_proof(program, progress)
     }
 
-    /// Decides by the forces of an attempt: they balance every body, or some bodies are proved to fall by themselves. Gives the
-    /// decision back if neither is proved.
-    fn stable_by(
+    /// Decides by the forces of an attempt: they balance every body, or some bodies are proved to fall by themselves.
+    fn decide_by_forces(
         &self,
         program: &Program,
+        strategy: Strategy,
         attempt: &Attempt,
-        decision: Decision,
         progress: &mut Progress,
-    ) -> Result<Decision, Decision> {
-        let Some(amounts) = &attempt.forces else {
-            return Err(decision);
-        };
+    ) -> Option<Decision> {
+        let amounts = attempt.forces.as_ref()?;
         let proof = self.prove_forces(amounts).proof;
         let outcome = match self.believes(&proof) {
             true => Outcome::Stands(amounts.clone(), proof),
@@ -118,62 +119,62 @@ impl Component<'_> {
                 if !least_force && progress.no_status {
                     found = self.reduce_force_sum(program, found, &mut progress.effort);
                 }
-                Ok(Decision {
+                Some(Decision {
                     force_bound: found.force_bound,
                     least_force: found.least_force,
                     amounts: found.amounts,
                     proof: found.proof,
-                    effort: progress.effort,
-                    ..decision
+                    ..progress.decision(program, strategy)
                 })
             }
-            Outcome::Falls(part) => Ok(decision.with_falling_part(part, progress.effort)),
-            Outcome::Open => Err(decision),
+            Outcome::Falls(part) => Some(Decision {
+                verdict: Verdict::Unstable,
+                amounts: part.amounts,
+                // If no adhesion can hold these bodies, `complete` computes the failures of the whole component.
+                in_part: part.sticking.is_some(),
+                sticking: part.sticking,
+                mechanism: part.mechanism,
+                proof: part.proof,
+                ..progress.decision(program, strategy)
+            }),
+            Outcome::Open => None,
         }
     }
 
-    /// Decides by the motion of an attempt, or by an earlier weak one, if no forces can contradict it. Gives the decision back
-    /// otherwise.
-    fn unstable_by(
+    /// Decides by the motion of an attempt, or by an earlier weak one, if no forces can contradict it.
+    fn decide_by_motion(
         &self,
         program: &Program,
         strategy: Strategy,
         attempt: &Attempt,
-        decision: Decision,
         progress: &mut Progress,
-    ) -> Result<Decision, Decision> {
+    ) -> Option<Decision> {
         let motion = attempt.motion.as_ref();
         let proved = motion.and_then(|y| self.prove_motion(program, y, &mut progress.effort));
         let is_strong = proved
             .as_ref()
             .is_some_and(|(motion, proof)| self.exceeds_force_tolerance(motion, proof));
-        let Some((mechanism, proof)) = proved.or(progress.weak.take()) else {
-            return Err(decision);
-        };
-        if is_strong || strategy.excludes_balance(attempt) {
-            return Ok(Decision {
-                verdict: Verdict::Unstable,
-                mechanism,
-                proof,
-                adhesion: attempt.adhesion.clone().or(progress.adhesion.take()),
-                effort: progress.effort,
-                ..decision
-            });
+        let (mechanism, proof) = proved.or(progress.weak.take())?;
+        if !is_strong && !strategy.excludes_balance(attempt) {
+            progress.weak = Some((mechanism, proof));
+            return None;
         }
-        progress.weak = Some((mechanism, proof));
-        Err(decision)
+        Some(Decision {
+            verdict: Verdict::Unstable,
+            mechanism,
+            proof,
+            adhesion: attempt.adhesion.clone().or(progress.adhesion.take()),
+            ..progress.decision(program, strategy)
+        })
     }
 
     /// After the last strategy: unstable by a weak motion, since no forces were found; otherwise undecided.
     fn without_proof(&self, program: &Program, progress: Progress) -> Decision {
-        let (decision, attempt) = match progress.last {
-            Some((decision, attempt)) => (decision, Some(attempt)),
-            None => (Decision::new(program, Method::LeastForce), None),
+        let decision = match &progress.last {
+            Some((strategy, _)) => progress.decision(program, *strategy),
+            None => Decision::new(program, Method::LeastForce),
         };
-        let decision = Decision {
-            effort: progress.effort,
-            ..decision
-        };
+        let attempt = progress.last.map(|(_, attempt)| attempt);
         if let Some((mechanism, proof)) = progress.weak {
             return Decision {
                 verdict: Verdict::Unstable,
@@ -222,21 +223,6 @@ impl Decision {
             adhesion: None,
             in_part: false,
             effort: Effort::default(),
-        }
-    }
-
-    /// Unstable, because some bodies fall while all others rest.
-    fn with_falling_part(self, part: FallingPart, effort: Effort) -> Decision {
-        Decision {
-            verdict: Verdict::Unstable,
-            amounts: part.amounts,
-            // If no adhesion can hold these bodies, `complete` computes the failures of the whole component.
-            in_part: part.sticking.is_some(),
-            sticking: part.sticking,
-            mechanism: part.mechanism,
-            proof: part.proof,
-            effort,
-            ..self
         }
     }
 }
