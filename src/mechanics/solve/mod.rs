@@ -5,7 +5,7 @@
 //!
 //! | files | what they do |
 //! |---|---|
-//! | `solver`, `clarabel`, `normal`, `settings`, `answer`, `deadline` | solve one quadratic program |
+//! | `solver`, `clarabel_solver`, `normal`, `settings`, `answer`, `deadline` | solve one quadratic program |
 //! | `dual`, `face`, `amounts` | a linear program in terms of columns, and the face of its optima |
 //! | `balance`, `least_residual`, `least_adhesion`, `limit`, `tangent` | the programs of limit analysis |
 //! | `level`, `least_adhesion_levels` | their optima where loads span many sizes |
@@ -18,7 +18,7 @@ mod amounts;
 mod answer;
 mod balance;
 mod bounded_nnls;
-mod clarabel;
+mod clarabel_solver;
 mod deadline;
 mod determinate;
 mod dual;
@@ -49,7 +49,7 @@ pub use amounts::{Amounts, Effort};
 pub use answer::{Answer, Status};
 pub use balance::{Balance, balance, balance_at_first_look, balance_in};
 pub use bounded_nnls::{BoundedNnls, generators};
-pub use clarabel::by_clarabel;
+pub use clarabel_solver::by_clarabel;
 pub(crate) use deadline::{DeadlineGuard, deadline, is_late};
 pub use determinate::{collapse, determinate};
 pub use dual::{Dual, dual};

@@ -5,7 +5,7 @@
 //! conditioning. The solvers call NaN in the data "solved", so it is refused here.
 
 use super::answer::{Answer, is_finite};
-use super::clarabel::by_clarabel;
+use super::clarabel_solver::by_clarabel;
 use super::deadline::{deadline, is_late};
 use super::normal;
 use super::settings::{Conditioning, MAX_ITERATIONS, SolverSettings, StoppingCriteria};
