@@ -113,7 +113,7 @@ fn written(word: &str) -> (f64, f64) {
         .map_or(0, |(_, part)| part.len() as i32);
     let exponent: i32 = exponent.parse().expect("a power of ten");
     let value: f64 = word.parse().unwrap_or_else(|_| panic!("a number: {word}"));
-    (value, 0.5 * 10_f64.powi(exponent - decimals))
+    (value, 0.5 * libm::pow(10.0, f64::from(exponent - decimals)))
 }
 
 /// The values behind a name in a line of facts, such as `N 6.00000 N` or `N at its ends 3.0 3.0 N`.

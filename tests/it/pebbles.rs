@@ -270,7 +270,11 @@ fn stands(stone: &Outline, slack: f64) -> bool {
     rests.0 <= centre && centre <= rests.1
 }
 
+/// Number of a pebble, its verdict with the doubt or its problems, and whether it stands by hand: exactly and within rounding.
+type Answer = (u64, Result<(Verdict, String), String>, [bool; 2]);
+
 #[test]
+#[allow(clippy::print_stdout, reason = "the counts are the result of a long run")]
 fn hardly_any_pebble_is_undecided() {
     let number = |name: &str, usual: u64| {
         let value = std::env::var(name).ok();
@@ -278,7 +282,7 @@ fn hardly_any_pebble_is_undecided() {
     };
     let first = number("DRYSTONE_PEBBLES_FIRST", 0);
     let count = number("DRYSTONE_PEBBLES", 300);
-    let found: Vec<(u64, Result<(Verdict, String), String>, [bool; 2])> = (first..first + count)
+    let found: Vec<Answer> = (first..first + count)
         .into_par_iter()
         .map(|number| {
             let (file, stone, slack) = random(number);

@@ -130,7 +130,7 @@ fn the_terminals_table_says_what_the_result_says() {
 
 /// Rounded to one digit as `3e-12`.
 fn is_rough(written: f64, exact: f64) -> bool {
-    (written - exact).abs() <= 0.51 * 10_f64.powf(exact.abs().log10().floor()) || written == exact
+    (written - exact).abs() <= 0.51 * libm::pow(10.0, libm::log10(exact.abs()).floor()) || written == exact
 }
 
 fn says_proof(words: &str, proof: &Value) {
@@ -230,7 +230,7 @@ fn titles_of_arrows_tell_the_forces_of_the_result() {
             let fits = |force: [f64; 2]| {
                 let (written, at) = amount(told_amount);
                 let size = dot(force, force).sqrt();
-                let angle = force[1].atan2(force[0]).to_degrees();
+                let angle = libm::atan2(force[1], force[0]).to_degrees();
                 let off = at.map_or(0.0, |at: f64| {
                     (at - angle + 540.0).rem_euclid(360.0) - 180.0
                 });

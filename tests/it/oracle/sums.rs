@@ -23,7 +23,7 @@ const AXES: [[f64; 2]; 3] = [[1.0, 0.0], [1.0, 0.0], [0.5, 0.375]];
 
 /// A scene file, and whether a floating-point number holds its corners to the last bit.
 fn scene(number: u64) -> (Value, bool) {
-    if number % 2 == 0 {
+    if number.is_multiple_of(2) {
         return (piles(number), true);
     }
     // Every other scene is one of the everyday kinds with other weights.
@@ -245,6 +245,9 @@ fn compare_group(
     }
 }
 
+/// Number and file of a scene, what is wrong with its sums, and the worst relative error.
+type Comparison = (u64, Value, Vec<String>, f64);
+
 /// `DRYSTONE_ORACLE_SUMS=3000` looks at more of them, `DRYSTONE_ORACLE_FIRST` is the number of the first.
 #[test]
 #[expect(
@@ -254,7 +257,7 @@ fn compare_group(
 fn what_sticks_is_exact_for_every_component_and_block_whatever_the_others_weigh() {
     let wanted = number_of("DRYSTONE_ORACLE_SUMS", 100);
     let first = number_of("DRYSTONE_ORACLE_FIRST", 0);
-    let found: Vec<Option<(u64, Value, Vec<String>, f64)>> = (first..first + wanted)
+    let found: Vec<Option<Comparison>> = (first..first + wanted)
         .into_par_iter()
         .map(|number| {
             let (file, exact) = scene(number);
