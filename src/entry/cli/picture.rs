@@ -261,8 +261,8 @@ fn png_error(error: PngError) -> CliError {
 fn millimetres(typed: &str) -> Result<f64, String> {
     between(
         typed,
-        pdf::LEAST_MM,
-        pdf::MOST_MM,
+        pdf::MIN_SIDE_MM,
+        pdf::MAX_SIDE_MM,
         "a width in millimetres, such as 84 or 174",
     )
 }

@@ -8,10 +8,10 @@ mod tests;
 use super::colour::Colour;
 use super::difference::{contrast, lightness};
 
-/// A fill that is brighter than this wears dark seams and letters.
-const BRIGHT: f64 = 0.6;
-/// Least contrast of letters with what lies below them.
-const LEGIBLE: f64 = 4.55;
+/// A fill brighter than this has dark seams and letters.
+const BRIGHT_FILL: f64 = 0.6;
+/// Least contrast of letters with their background: WCAG 2 level AA asks for 4.5.
+const MIN_CONTRAST: f64 = 4.55;
 /// An arrow that is darker than a bright block by so much lightness stands off by itself, and keeps the usual seam.
 const STANDS_OFF: f64 = 53.0;
 
@@ -168,7 +168,8 @@ impl Theme {
     /// The seam that sets an arrow off from the block it acts on: dark on a bright block, where a bright one is lost,
     /// unless the arrow is far darker than the block.
     pub fn casing_on(&self, block: Colour, arrow: Colour) -> Colour {
-        let lost = block.brightness() > BRIGHT && lightness(block) - lightness(arrow) < STANDS_OFF;
+        let lost =
+            block.brightness() > BRIGHT_FILL && lightness(block) - lightness(arrow) < STANDS_OFF;
         if lost {
             arrow.mixed(self.darker(), 0.8)
         } else {
@@ -201,7 +202,7 @@ impl Theme {
         };
         // In steps of a twentieth towards black or white, one of which reads on any colour.
         let shade = |step: u32| from.mixed(ink, f64::from(step) / 20.0);
-        let legible = |colour: &Colour| contrast(*colour, below) >= LEGIBLE;
+        let legible = |colour: &Colour| contrast(*colour, below) >= MIN_CONTRAST;
         (least..=20).map(shade).find(legible).unwrap_or(ink)
     }
 

@@ -33,8 +33,8 @@ pub struct WriteError {
     pub why: io::Error,
 }
 
-/// A link may lead to a link; after so many of them it leads in a circle.
-const MOST_LINKS: usize = 40;
+/// Links that lead to links are followed this many times; more mean that they lead in a circle.
+const MAX_LINKS: usize = 40;
 
 /// The files that lie beside their places.
 static BESIDE: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
@@ -238,7 +238,7 @@ fn prepare(path: &Path, bytes: &[u8], existing: Existing) -> io::Result<Ready> {
 /// Where a path leads: the target of a link, which need not exist.
 fn followed(path: &Path) -> io::Result<PathBuf> {
     let mut path = path.to_owned();
-    for _ in 0..MOST_LINKS {
+    for _ in 0..MAX_LINKS {
         let link = fs::symlink_metadata(&path).is_ok_and(|m| m.is_symlink());
         if !link {
             return Ok(path);

@@ -28,7 +28,7 @@ use crate::text::line;
 pub enum PdfError {
     /// The page would be too large or too small.
     #[error(
-        "a page of {width:.4} × {height:.4} mm is out of range; each side must be {LEAST_MM} to {MOST_MM} mm long. \
+        "a page of {width:.4} × {height:.4} mm is out of range; each side must be {MIN_SIDE_MM} to {MAX_SIDE_MM} mm long. \
          Choose another width"
     )]
     Size {
@@ -43,9 +43,9 @@ pub enum PdfError {
 }
 
 /// Shortest side of a page, mm.
-pub const LEAST_MM: f64 = 2.0;
+pub const MIN_SIDE_MM: f64 = 2.0;
 /// Longest side of a page, mm: readers open no page of more than 14 400 points.
-pub const MOST_MM: f64 = 5080.0;
+pub const MAX_SIDE_MM: f64 = 5080.0;
 
 /// Points per inch.
 const POINTS_PER_INCH: f64 = 72.0;
@@ -53,7 +53,7 @@ const POINTS_PER_INCH: f64 = 72.0;
 /// A drawing as a PDF of one page, `width_mm` wide or, where nothing is given, a 96th of an inch per pixel.
 ///
 /// # Errors
-/// [`PdfError::Size`] where a side of the page would be shorter than [`LEAST_MM`] or longer than [`MOST_MM`].
+/// [`PdfError::Size`] where a side of the page would be shorter than [`MIN_SIDE_MM`] or longer than [`MAX_SIDE_MM`].
 ///
 /// # Example
 /// ```
@@ -171,7 +171,7 @@ fn document(
     let mut known = Vec::new();
     for sheet in sheets {
         let (width, height) = (mm_per_pixel * sheet.width, mm_per_pixel * sheet.height);
-        let fits = |side: f64| (LEAST_MM..=MOST_MM).contains(&side);
+        let fits = |side: f64| (MIN_SIDE_MM..=MAX_SIDE_MM).contains(&side);
         if !(fits(width) && fits(height)) {
             return Err(PdfError::Size { width, height });
         }

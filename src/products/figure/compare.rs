@@ -22,12 +22,13 @@ use crate::drawing::{Camera, Group, Item, Outline, PagePoint, PageRect, Path, St
 use crate::geometry::{Bounds, Vector};
 use crate::scene::{BlockId, BodyId};
 
-/// A force has changed where it differs by more than this share of the larger one.
-const CHANGED: f64 = 0.05;
-/// Radius of the ring around a change, unit edges, and between which radii it stays, pixels.
-const RING: (f64, f64, f64) = (0.16, 4.0, 9.0);
-/// So many blocks are named in a sentence.
-const MOST_NAMED: usize = 4;
+/// A force has changed if it differs by more than this share of the larger of the two. Where forces are not unique, smaller
+/// differences come from the solver.
+const CHANGE_TOL: f64 = 0.05;
+/// Radius of the ring around a change, unit edges; its least and its largest radius, pixels.
+const RING_RADIUS: (f64, f64, f64) = (0.16, 4.0, 9.0);
+/// A sentence names this many blocks at most.
+const MAX_NAMED_BLOCKS: usize = 4;
 
 /// An interface whose force changed.
 struct Change<'a> {
@@ -94,7 +95,7 @@ fn changes<'a>(analysis: &'a Analysis, frame: usize) -> (Vec<Change<'a>>, usize)
     let differs = |change: &Change<'_>| {
         let larger = size(change.now).max(size(change.before));
         let difference = (force(change.now) - force(change.before)).norm();
-        larger > noise && difference > CHANGED * larger
+        larger > noise && difference > CHANGE_TOL * larger
     };
     (shared.into_iter().filter(differs).collect(), count)
 }
@@ -180,7 +181,7 @@ impl PanelContent for Comparison {
         let mut before = Group::with_class("before");
         let mut changed = Group::with_class("changed");
         let metres = context.unit / context.marks[frame].newtons_per_unit.max(f64::MIN_POSITIVE);
-        let (share, least, most) = RING;
+        let (share, least, most) = RING_RADIUS;
         let newtons = context.marks[frame].newtons_per_unit;
         let true_lines = mark::marks(context.analysis, frame, context.options, newtons);
         let radius = (share * pen.unit()).clamp(least, most);
@@ -274,7 +275,7 @@ impl PanelContent for Comparison {
         ] {
             match names.len() {
                 0 => {}
-                n if n <= MOST_NAMED => stated.push(format!("{how}: {}", listed(&names))),
+                n if n <= MAX_NAMED_BLOCKS => stated.push(format!("{how}: {}", listed(&names))),
                 n => stated.push(format!("{how}: {n} blocks")),
             }
         }

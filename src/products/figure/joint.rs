@@ -7,8 +7,9 @@ use crate::analysis::{Analysis, Contact, FrameAnalysis, Motion};
 use crate::geometry::{Point, Vector};
 use crate::scene::{BlockId, BodyId};
 
-/// Speeds below this share of the largest between two bodies are noise of the solution.
-const NOISE: f64 = 2e-3;
+/// Relative speeds below this share of the largest one between two bodies count as zero: rounding of the solver, which is
+/// larger in motions than in forces.
+const SPEED_TOL: f64 = 2e-3;
 
 /// How the two bodies of an interface move against each other; they part where it neither is a hinge nor slips.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,7 +53,7 @@ pub(crate) fn joints(analysis: &Analysis, frame: usize) -> Vec<Joint> {
     let one = |(number, contact): (usize, &Contact)| {
         let [a, b] = contact.interface.bodies;
         let turning = (spin(a) - spin(b)).abs() * found.length;
-        let found = joint(contact, relative[number], turning, NOISE * largest)?;
+        let found = joint(contact, relative[number], turning, SPEED_TOL * largest)?;
         Some(Joint {
             contact: number,
             ..found

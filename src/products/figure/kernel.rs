@@ -15,10 +15,10 @@ use crate::analysis::{Contact, FrameAnalysis, Verdict};
 use crate::drawing::{Camera, Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
 use crate::geometry::{Bounds, Point};
 
-/// A resultant farther out than this lies beyond its safe stretch and not at its end, in half stretches.
-const BEYOND: f64 = 1.0 + 1e-6;
-/// Width of a safe stretch in unit edges; and between which widths it stays, pixels.
-const BOLD: (f64, f64, f64) = (0.085, 1.6, 4.6);
+/// A resultant farther from the middle than this, in half lengths of its safe stretch, lies beyond it and not at its end.
+const BEYOND_KERNEL: f64 = 1.0 + 1e-6;
+/// Width of the line of a safe stretch, unit edges; its least and its largest width, pixels.
+const STRETCH_WIDTH: (f64, f64, f64) = (0.085, 1.6, 4.6);
 
 /// The figure of kernels.
 pub(crate) struct Kernel;
@@ -142,7 +142,7 @@ fn at_end(bearing: &Bearing) -> bool {
 }
 
 fn bold(unit: f64) -> f64 {
-    let (width, least, most) = BOLD;
+    let (width, least, most) = STRETCH_WIDTH;
     (width * unit).clamp(least, most)
 }
 
@@ -256,7 +256,9 @@ fn sign(bearing: &Bearing, at: PagePoint, radius: f64, theme: &Theme) -> (Colour
         let r = 1.35 * radius;
         let corners = [(0.0, -r), (r, 0.0), (0.0, r), (-r, 0.0)];
         let diamond = Outline::ring(corners.map(|(x, y)| at.moved(x, y)));
-        let outside = bearing.eccentricity.is_some_and(|share| share > BEYOND);
+        let outside = bearing
+            .eccentricity
+            .is_some_and(|share| share > BEYOND_KERNEL);
         return (if outside { theme.falls } else { theme.ink }, diamond);
     }
     (theme.ink, Outline::circle(at, radius))

@@ -16,7 +16,7 @@ use spoken::names;
 
 use super::arrow::{ArrowKind, ForceArrow, TurnKind};
 use super::context::FigureContext;
-use super::pen::{DOT, Pen};
+use super::pen::{DOT_RADIUS, Pen};
 use super::view;
 use super::words::{counted, listed, quantity};
 use crate::drawing::placement::{Ink, LabelRequest, Placed, nearest, place_avoiding};
@@ -369,7 +369,7 @@ fn amounts(pen: &Pen<'_>) -> Vec<Label> {
         let wide = text::width(&words, Face::Sans, size);
         let request = LabelRequest {
             anchor: from.moved(0.5 * along.0, 0.5 * along.1),
-            first_ring: (0.5 * pen.width(arrow)).max(DOT) + 3.0,
+            first_ring: (0.5 * pen.width(arrow)).max(DOT_RADIUS) + 3.0,
             size: (0.0, 0.0),
             preferred: centres_along(from, along, pen.width(arrow), (wide, LINE_HEIGHT * size)),
             padding: 0.0,

@@ -8,7 +8,7 @@ use super::arrow::{ArrowKind, ForceArrow, LEAST_SEEN, TurnKind};
 use super::context::FigureContext;
 use super::description;
 use super::option::{ArrowScale, Options};
-use super::pen::{DOT, TEXTURE};
+use super::pen::{DOT_RADIUS, MIN_READABLE_UNIT_EDGE};
 use super::words::{counted, quantity, round_below};
 use crate::drawing::arrow::{HEAD_LENGTH, straight};
 use crate::drawing::{
@@ -17,10 +17,10 @@ use crate::drawing::{
 
 /// Height of a line of the key, in sizes of its letters.
 pub(crate) const LINE: f64 = 2.08;
-const BETWEEN: f64 = 28.0;
-const SIGN: f64 = 9.0;
+const ENTRY_GAP: f64 = 28.0;
+const SIGN_GAP: f64 = 9.0;
 /// Length of a line in the key, pixels.
-const STROKE: f64 = 26.0;
+const LINE_LENGTH: f64 = 26.0;
 
 /// One thing the key explains.
 pub(crate) enum Entry {
@@ -117,14 +117,14 @@ impl Entry {
                         .sum::<f64>()
             }
             Entry::Colours(colours) => 30.0 * colours.len() as f64 + wide(COLOURS),
-            Entry::Robot(_, id) => 2.0 * SIGN + 7.0 + wide(&robot(id)),
-            Entry::Planned(_) => 2.0 * SIGN + 7.0 + wide(PLANNED),
+            Entry::Robot(_, id) => 2.0 * SIGN_GAP + 7.0 + wide(&robot(id)),
+            Entry::Planned(_) => 2.0 * SIGN_GAP + 7.0 + wide(PLANNED),
             Entry::Missing => 34.0 + 7.0 + wide(MISSING),
             Entry::Amplitudes([low, high], what, _) => {
-                wide(low) + 7.0 + BAR + 7.0 + wide(high) + 8.0 + wide(what)
+                wide(low) + 7.0 + BAR_LENGTH + 7.0 + wide(high) + 8.0 + wide(what)
             }
             Entry::Scale(length, _, amount) => length + 7.0 + wide(amount),
-            Entry::Line(_, _, meaning) => STROKE + 7.0 + wide(meaning),
+            Entry::Line(_, _, meaning) => LINE_LENGTH + 7.0 + wide(meaning),
             Entry::Metres(length, amount) => length + 7.0 + wide(amount),
             Entry::Note(words) | Entry::Part(words) => wide(words),
             Entry::Sign(_, width, meaning) => width + 7.0 + wide(meaning),
@@ -170,10 +170,13 @@ impl Entry {
             }
             Entry::Robot(colour, id) => {
                 let edge = colour.mixed(theme.ink, 0.35);
-                let disc = Path::filled(Outline::circle(at.moved(SIGN, 0.0), 0.8 * SIGN), *colour);
+                let disc = Path::filled(
+                    Outline::circle(at.moved(SIGN_GAP, 0.0), 0.8 * SIGN_GAP),
+                    *colour,
+                );
                 vec![
                     disc.with_stroke(Stroke::new(edge, 0.8)).into(),
-                    words(2.0 * SIGN + 7.0, &robot(id)),
+                    words(2.0 * SIGN_GAP + 7.0, &robot(id)),
                 ]
             }
             Entry::Planned(colour) => {
@@ -185,12 +188,14 @@ impl Entry {
                     (0.5, 0.87),
                     (-0.5, 0.87),
                 ];
-                let corner = |(x, y): (f64, f64)| at.moved(SIGN + 0.85 * SIGN * x, 0.85 * SIGN * y);
+                let corner = |(x, y): (f64, f64)| {
+                    at.moved(SIGN_GAP + 0.85 * SIGN_GAP * x, 0.85 * SIGN_GAP * y)
+                };
                 let outline = Path::stroked(
                     Outline::ring(hexagon.map(corner)),
                     Stroke::new(*colour, 1.8),
                 );
-                vec![outline.into(), words(2.0 * SIGN + 7.0, PLANNED)]
+                vec![outline.into(), words(2.0 * SIGN_GAP + 7.0, PLANNED)]
             }
             Entry::Missing => {
                 let width = 4.0;
@@ -206,24 +211,24 @@ impl Entry {
                 let parts = 64;
                 for part in 0..parts {
                     // Each part reaches to the end and the next lies over it, so that no gap shows between them.
-                    let x = BAR * f64::from(part) / f64::from(parts);
+                    let x = BAR_LENGTH * f64::from(part) / f64::from(parts);
                     let rect = PageRect {
                         at: at.moved(start + x, -5.0),
-                        width: BAR - x,
+                        width: BAR_LENGTH - x,
                         height: 10.0,
                     };
                     let fill = ramp(theme, (f64::from(part) + 0.5) / f64::from(parts));
                     items.push(Path::filled(Outline::rounded(rect, 0.0), fill).into());
                 }
-                items.push(words(start + BAR + 7.0, high));
-                let beyond = start + BAR + 7.0 + text::width(high, Face::Sans, size) + 8.0;
+                items.push(words(start + BAR_LENGTH + 7.0, high));
+                let beyond = start + BAR_LENGTH + 7.0 + text::width(high, Face::Sans, size) + 8.0;
                 items.push(words(beyond, what));
                 items
             }
             Entry::Line(colour, width, meaning) => {
-                let line = Outline::line([at, at.moved(STROKE, 0.0)]);
+                let line = Outline::line([at, at.moved(LINE_LENGTH, 0.0)]);
                 let path = Path::stroked(line, Stroke::new(*colour, *width));
-                vec![path.into(), words(STROKE + 7.0, meaning)]
+                vec![path.into(), words(LINE_LENGTH + 7.0, meaning)]
             }
             Entry::Metres(length, amount) => {
                 let mut bar = Outline::line([at, at.moved(*length, 0.0)]);
@@ -263,14 +268,14 @@ pub(crate) fn joined(keys: Vec<Vec<Entry>>, theme: &Theme) -> Vec<Entry> {
     all
 }
 
-/// Above so many robots the key counts the rest.
-const MOST_ROBOTS: usize = 16;
+/// The key lists this many robots at most and counts the rest.
+const MAX_LISTED_ROBOTS: usize = 16;
 const COLOURS: &str = "the forces on a block share a colour";
 const PLANNED: &str = "planned block";
 const MISSING: &str = "missing force, without which it falls";
-/// A turning arrow has a least length, at which its sense can be read.
+/// A turning arrow has a least length, so that its sense can be read.
 const TURNING: &str = "turning loads by their amounts, small ones drawn larger";
-const BAR: f64 = 120.0;
+const BAR_LENGTH: f64 = 120.0;
 
 /// How the key names a robot: one that is called `robot` or `Robot 2` says already what it is.
 fn robot(id: &str) -> String {
@@ -338,7 +343,10 @@ pub(crate) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
         entries.push(Entry::Colours(theme.arrows.clone()));
     }
     // In small figures weights have no ring at their tails, by which they would be told from other forces.
-    if !context.options.printed() && unit >= TEXTURE && is_drawn(|kind| kind == ArrowKind::Weight) {
+    if !context.options.printed()
+        && unit >= MIN_READABLE_UNIT_EDGE
+        && is_drawn(|kind| kind == ArrowKind::Weight)
+    {
         let words = "weight, from the centroid".to_owned();
         entries.push(Entry::Sign(weight_sign, SAMPLE, words));
     }
@@ -359,11 +367,11 @@ pub(crate) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
     };
     if small(|kind| kind == ArrowKind::Load) {
         let words = "load too small for an arrow".to_owned();
-        entries.push(Entry::Sign(load_dot, 2.0 * DOT, words));
+        entries.push(Entry::Sign(load_dot, 2.0 * DOT_RADIUS, words));
     }
     if small(ArrowKind::is_failure) {
         let words = "missing force too small for an arrow".to_owned();
-        entries.push(Entry::Sign(missing_dot, 2.0 * DOT, words));
+        entries.push(Entry::Sign(missing_dot, 2.0 * DOT_RADIUS, words));
     }
     let painted = scene.blocks.iter().any(|b| b.body.fill.is_none());
     if painted && context.fills.vary() {
@@ -422,12 +430,12 @@ pub(crate) fn robots(context: &FigureContext<'_>) -> Vec<Entry> {
     };
     let busy = |number: &usize| holds(*number) || plans(*number);
     let busy: Vec<usize> = (0..scene.robots.len()).filter(busy).collect();
-    for number in busy.iter().take(MOST_ROBOTS) {
+    for number in busy.iter().take(MAX_LISTED_ROBOTS) {
         let id = scene.robots[*number].id.clone();
         entries.push(Entry::Robot(theme.robot(*number), id));
     }
-    if busy.len() > MOST_ROBOTS {
-        let left = busy.len() - MOST_ROBOTS;
+    if busy.len() > MAX_LISTED_ROBOTS {
+        let left = busy.len() - MAX_LISTED_ROBOTS;
         entries.push(Entry::Note(format!("and {}", counted(left, "more robot"))));
     }
     if let Some(number) = (0..scene.robots.len()).find(|n| plans(*n)) {
@@ -450,11 +458,11 @@ pub(crate) fn draw(
         let width = entry.width(theme);
         match lines.last_mut() {
             Some(line)
-                if line.0 + BETWEEN + width <= room
+                if line.0 + ENTRY_GAP + width <= room
                     && !entry.alone()
                     && !line.1.iter().any(|other| other.alone()) =>
             {
-                line.0 += BETWEEN + width;
+                line.0 += ENTRY_GAP + width;
                 line.1.push(entry);
             }
             _ => lines.push((width, vec![entry])),
@@ -468,7 +476,7 @@ pub(crate) fn draw(
         );
         for entry in line {
             group.items.extend(entry.draw(at, theme));
-            at = at.moved(entry.width(theme) + BETWEEN, 0.0);
+            at = at.moved(entry.width(theme) + ENTRY_GAP, 0.0);
         }
     }
     (group, lines.len() as f64 * line_height)

@@ -26,9 +26,9 @@ use crate::drawing::{Camera, Group, Outline, PagePoint, PageRect, Path, Stroke, 
 use crate::geometry::{Bounds, Point, Vector, quarter_turn, sin_cos_degrees};
 
 /// Length of the arrow of gravity, as a share of the structure's diagonal.
-const LONG: f64 = 0.16;
+const GRAVITY_LENGTH: f64 = 0.16;
 /// Its distance from the structure, as a share of the same.
-const APART: f64 = 0.12;
+const GRAVITY_DISTANCE: f64 = 0.12;
 
 /// The figure of a margin.
 pub(crate) struct CollapseMargin;
@@ -214,7 +214,7 @@ fn gravity(analysis: &Analysis, frame: usize, edge: f64, toward: Toward) -> Opti
         .map(|id| scene.blocks[id.0].body.polygon.bounds())
         .reduce(Bounds::union)?;
     let diagonal = structure.diagonal();
-    let down = scene.down() * (LONG * diagonal);
+    let down = scene.down() * (GRAVITY_LENGTH * diagonal);
     let there = match toward {
         Toward::Tilt => {
             let (sin, cos) = sin_cos_degrees(edge);
@@ -227,8 +227,8 @@ fn gravity(analysis: &Analysis, frame: usize, edge: f64, toward: Toward) -> Opti
     // An arrow to the right stays clear of the structure.
     let beyond = (down.x.max(there.x)).max(0.0);
     let left = structure.min.x
-        - APART * diagonal
-        - if beyond > 0.5 * LONG * diagonal {
+        - GRAVITY_DISTANCE * diagonal
+        - if beyond > 0.5 * GRAVITY_LENGTH * diagonal {
             beyond
         } else {
             0.0

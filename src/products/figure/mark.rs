@@ -14,14 +14,15 @@ use crate::drawing::{Colour, Theme};
 use crate::geometry::{Point, Vector, quarter_turn};
 use crate::scene::{BlockId, BodyId, Frame, Scene};
 
-/// Amounts below this share of the largest are noise of the solution, not forces.
-const NOISE: f64 = 1e-6;
-/// In [`Normalisation::Drawn`] arrows shorter than this, in unit edges, grow thinner with their head …
-const THINNER_BELOW: f64 = 0.35;
-/// … down to this share of the width: else many small forces are nothing but heads.
-const THINNEST: f64 = 0.65;
-/// The source draws what fails at this share of the scale of the block it acts on.
-const SOURCE_FAILURE: f64 = 0.4;
+/// Forces below this share of the largest are rounding of the solver, whose forces are accurate to about 1e-9, and are not
+/// drawn.
+const FORCE_TOL: f64 = 1e-6;
+/// In [`Normalisation::Drawn`] arrows shorter than this, unit edges, have a thinner shaft and head.
+const FULL_WIDTH_LENGTH: f64 = 0.35;
+/// The thinnest shaft, as a share of the full width. With the full width small forces would consist of heads only.
+const MIN_WIDTH_SHARE: f64 = 0.65;
+/// The source draws missing forces at this share of the scale of the block they act on.
+const SOURCE_FAILURE_SCALE: f64 = 0.4;
 
 /// The straight arrows of frame `frame` (from 0), as [`marks`] has them. No arrows for a frame there is not.
 pub fn arrows(analysis: &Analysis, frame: usize, options: &Options) -> Vec<ForceArrow> {
@@ -172,7 +173,7 @@ impl ArrowMaker<'_> {
         // A load is given and no noise, however small it is.
         let least = match kind {
             ArrowKind::Load => 0.0,
-            _ => NOISE * marks.newtons_per_unit,
+            _ => FORCE_TOL * marks.newtons_per_unit,
         };
         if force.norm() > least {
             let vector = force * self.metres_per_newton;
@@ -203,7 +204,7 @@ impl ArrowMaker<'_> {
             Normalisation::Source => 1.0,
             Normalisation::Drawn => {
                 let length = vector.norm() / self.edge;
-                libm::sqrt(length / THINNER_BELOW).clamp(THINNEST, 1.0)
+                libm::sqrt(length / FULL_WIDTH_LENGTH).clamp(MIN_WIDTH_SHARE, 1.0)
             }
         };
         full * share * self.edge
@@ -219,7 +220,7 @@ impl ArrowMaker<'_> {
         torque: f64,
         look: (Colour, f64),
     ) {
-        if torque.abs() <= NOISE * marks.newtons_per_unit * self.edge {
+        if torque.abs() <= FORCE_TOL * marks.newtons_per_unit * self.edge {
             return;
         }
         let source = self.options.printed();
@@ -394,12 +395,12 @@ impl ArrowMaker<'_> {
             };
             for (kind, on, at, force) in halves {
                 let BodyId::Block(block) = on else { continue };
-                if force.norm() <= NOISE * marks.newtons_per_unit {
+                if force.norm() <= FORCE_TOL * marks.newtons_per_unit {
                     continue;
                 }
                 let vector = match &source {
                     Some(acting) if acting[block.0] > 0.0 => {
-                        force * (SOURCE_FAILURE * self.edge / acting[block.0])
+                        force * (SOURCE_FAILURE_SCALE * self.edge / acting[block.0])
                     }
                     _ => force * self.metres_per_newton,
                 };

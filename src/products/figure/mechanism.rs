@@ -19,7 +19,7 @@ use super::label;
 use super::legend::{self, Entry};
 use super::option::Options;
 use super::panel::composed;
-use super::pen::{MOVED, Pen, TEXTURE};
+use super::pen::{DISPLACED_OPACITY, MIN_READABLE_UNIT_EDGE, Pen};
 use super::words::quantity;
 use crate::analysis::{Analysis, Contact, Motion, Verdict};
 use crate::drawing::placement::Ink;
@@ -27,12 +27,12 @@ use crate::drawing::{Camera, Group, Item, Outline, PagePoint, PageRect, Path, St
 use crate::geometry::{Bounds, Point, Vector};
 use crate::scene::{BlockId, BodyId};
 
-/// Radius of a hinge's ring in unit edges.
-const RING: f64 = 0.085;
-/// Length of a half-arrow in unit edges, and how far it lies from the interface.
-const ARROW: (f64, f64) = (0.5, 0.11);
-/// Length of a half-arrow's barb in parts of the arrow.
-const BARB: f64 = 0.34;
+/// Radius of the ring of a hinge, unit edges.
+const HINGE_RADIUS: f64 = 0.085;
+/// Length of a half-arrow and its distance from the interface, unit edges.
+const SLIP_ARROW: (f64, f64) = (0.5, 0.11);
+/// Length of the barb of a half-arrow, as a share of the arrow.
+const BARB_LENGTH: f64 = 0.34;
 
 /// A box around all blocks that move, where they are drawn.
 pub(crate) fn reach(analysis: &Analysis, displaced: &[Option<Displacement>]) -> Option<Bounds> {
@@ -137,9 +137,9 @@ impl PanelContent for Mechanism {
             .any(|f| !analysis.frames[f].mechanism.is_empty())
         {
             let stood = "where it stands now".to_owned();
-            entries.push(Entry::Sign(ghost_sign, SIGN, stood));
+            entries.push(Entry::Sign(ghost_sign, SIGN_WIDTH, stood));
             let goes = "how it begins to move, enlarged".to_owned();
-            entries.push(Entry::Sign(moved_sign, SIGN, goes));
+            entries.push(Entry::Sign(moved_sign, SIGN_WIDTH, goes));
         }
         if joints.iter().any(|j| j.hinge.is_some()) {
             entries.push(Entry::Sign(ring_sign, 10.0, "hinge".into()));
@@ -198,7 +198,11 @@ fn ghosts(pen: &Pen<'_>) -> Option<Item> {
     let width = pen.line.clamp(0.6, 1.1);
     let stroke = Stroke::new(theme.outline, width).dashed([3.6 * width, 2.8 * width]);
     // Many small outlines are a texture that must not drown what moves.
-    let opacity = if pen.unit() < TEXTURE { 0.6 } else { 1.0 };
+    let opacity = if pen.unit() < MIN_READABLE_UNIT_EDGE {
+        0.6
+    } else {
+        1.0
+    };
     let path = Path::stroked(outline, stroke).with_opacity(opacity);
     let ghosts = Group::with_class("ghosts").titled("Where the blocks that move stand now");
     (!path.outline.segments.is_empty()).then(|| ghosts.with(path).into())
@@ -209,7 +213,7 @@ fn displaced(pen: &Pen<'_>) -> Vec<Item> {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let edge = theme.motion.mixed(theme.ink, 0.25);
     let drawn = |group: Group, outline: Outline| -> Item {
-        let fill = Path::filled(outline.clone(), theme.motion).with_opacity(MOVED);
+        let fill = Path::filled(outline.clone(), theme.motion).with_opacity(DISPLACED_OPACITY);
         let line = Path::stroked(outline, Stroke::new(edge, pen.line));
         group.with(fill).with(line).into()
     };
@@ -255,7 +259,7 @@ fn taken(pen: &Pen<'_>, body: BodyId, at: Point) -> Point {
 }
 
 fn ring_radius(pen: &Pen<'_>) -> f64 {
-    (RING * pen.unit()).clamp(2.6, 6.0)
+    (HINGE_RADIUS * pen.unit()).clamp(2.6, 6.0)
 }
 
 /// A ring at the end that keeps contact.
@@ -284,8 +288,8 @@ fn slip(pen: &Pen<'_>, contact: &Contact, joint: &Joint, ink: &mut Ink) -> Item 
     let interface = &contact.interface;
     let unit = pen.context.unit;
     let length = match interface.length() {
-        l if l > 0.0 => f64::min(ARROW.0 * unit, 0.8 * l),
-        _ => ARROW.0 * unit,
+        l if l > 0.0 => f64::min(SLIP_ARROW.0 * unit, 0.8 * l),
+        _ => SLIP_ARROW.0 * unit,
     };
     let pair = description::pair(scene, interface.bodies);
     let mut group = Group::with_class("slip").titled(format!("Slip between {pair}"));
@@ -295,7 +299,7 @@ fn slip(pen: &Pen<'_>, contact: &Contact, joint: &Joint, ink: &mut Ink) -> Item 
             BodyId::Ground(_) => v,
         };
         let along = turned(interface.tangent()) * (side * joint.slip.signum() * length);
-        let aside = turned(interface.normal) * (side * ARROW.1 * unit);
+        let aside = turned(interface.normal) * (side * SLIP_ARROW.1 * unit);
         let middle = taken(pen, body, interface.middle());
         let from = middle + aside - along * 0.5;
         let (from, along, aside) = (
@@ -324,8 +328,8 @@ fn half_arrow(
     let reach =
         libm::hypot(along.0, along.1) / libm::hypot(aside.0, aside.1).max(f64::MIN_POSITIVE);
     let barb = tip.moved(
-        BARB * (0.55 * reach * aside.0 - along.0),
-        BARB * (0.55 * reach * aside.1 - along.1),
+        BARB_LENGTH * (0.55 * reach * aside.0 - along.0),
+        BARB_LENGTH * (0.55 * reach * aside.1 - along.1),
     );
     let line = Outline::line([from, tip, barb]);
     let seam = Stroke::new(theme.page, width + 2.0);
@@ -335,7 +339,7 @@ fn half_arrow(
     ]
 }
 
-const SIGN: f64 = 20.0;
+const SIGN_WIDTH: f64 = 20.0;
 
 fn ghost_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
     let stroke = Stroke::new(theme.outline, 1.2).dashed([4.0, 3.0]);
@@ -347,7 +351,7 @@ fn moved_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
     let edge = Stroke::new(theme.motion.mixed(theme.ink, 0.25), 1.2);
     vec![
         Path::filled(outline.clone(), theme.motion)
-            .with_opacity(MOVED)
+            .with_opacity(DISPLACED_OPACITY)
             .into(),
         Path::stroked(outline, edge).into(),
     ]
@@ -356,7 +360,7 @@ fn moved_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
 fn swatch(at: PagePoint) -> PageRect {
     PageRect {
         at: at.moved(0.0, -6.5),
-        width: SIGN,
+        width: SIGN_WIDTH,
         height: 13.0,
     }
 }

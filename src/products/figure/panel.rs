@@ -2,7 +2,7 @@
 
 use super::context::FigureContext;
 use super::label;
-use super::pen::{Pen, TEXTURE};
+use super::pen::{MIN_READABLE_UNIT_EDGE, Pen};
 use crate::drawing::placement::Ink;
 use crate::drawing::{Camera, Group, Item};
 use crate::geometry::Bounds;
@@ -36,7 +36,7 @@ pub(crate) fn picture(
         }
         .into(),
     );
-    if !many && !too_small && pen.unit() >= TEXTURE {
+    if !many && !too_small && pen.unit() >= MIN_READABLE_UNIT_EDGE {
         group.items.push(pen.heads().into());
     }
     group.items.push(pen.arrows(true).into());

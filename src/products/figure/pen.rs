@@ -12,18 +12,18 @@ use crate::geometry::{Bounds, Lattice, Point};
 use crate::scene::{BlockId, Body, Rgb};
 
 /// Radius of the ring at the tail of a weight, in widths of its shaft.
-pub(crate) const CENTROID: f64 = 1.25;
+pub(crate) const CENTROID_RADIUS: f64 = 1.25;
 /// Radius of the sign of a load or a missing force that is too small for an arrow, pixels.
-pub(crate) const DOT: f64 = 2.8;
+pub(crate) const DOT_RADIUS: f64 = 2.8;
 
-/// Where a unit edge is shorter than this, pixels, arrows are texture rather than signs.
-pub(crate) const TEXTURE: f64 = 20.0;
-/// How strongly a displaced block is coloured, 0 … 1.
-pub(crate) const MOVED: f64 = 0.38;
-/// Where a unit edge is at least this long, pixels, outlines have their full width.
-const LARGE: f64 = 1.5 / 0.028;
-/// And seams around arrows theirs.
-const LARGER: f64 = 0.9 / 0.012;
+/// If a unit edge is shorter than this, pixels, arrows are a texture and not read one by one: their small signs are left out.
+pub(crate) const MIN_READABLE_UNIT_EDGE: f64 = 20.0;
+/// Opacity of the fill of a displaced block.
+pub(crate) const DISPLACED_OPACITY: f64 = 0.38;
+/// If a unit edge is at least this long, pixels, outlines have their full width.
+const FULL_OUTLINE_UNIT_EDGE: f64 = 1.5 / 0.028;
+/// If a unit edge is at least this long, pixels, seams around arrows have their full width.
+const FULL_CASING_UNIT_EDGE: f64 = 0.9 / 0.012;
 /// Least width of a shaft, pixels, where blocks are large enough to bear it.
 const LEAST_SHAFT: f64 = 2.5;
 
@@ -89,10 +89,10 @@ impl<'a> Pen<'a> {
             context,
             number,
             camera,
-            line: (unit / LARGE).clamp(1.0 / 6.0, 1.0) * widths.outline,
-            casing: (unit / LARGER).clamp(1.0 / 9.0, 1.0) * widths.casing,
+            line: (unit / FULL_OUTLINE_UNIT_EDGE).clamp(1.0 / 6.0, 1.0) * widths.outline,
+            casing: (unit / FULL_CASING_UNIT_EDGE).clamp(1.0 / 9.0, 1.0) * widths.casing,
             // Texture would turn to soup.
-            wider: if unit < TEXTURE {
+            wider: if unit < MIN_READABLE_UNIT_EDGE {
                 1.0
             } else {
                 (LEAST_SHAFT / (widths.force * unit)).clamp(1.0, 1.35)
@@ -142,7 +142,7 @@ impl<'a> Pen<'a> {
         let scene = &self.context.analysis.scene;
         if self.displacement(id).is_some() {
             let theme = &self.context.options.theme;
-            return theme.page.mixed(theme.motion, MOVED);
+            return theme.page.mixed(theme.motion, DISPLACED_OPACITY);
         }
         match scene.blocks[id.0].body.fill {
             Some(fill) => colour(fill),

@@ -26,12 +26,13 @@ use crate::drawing::{Camera, Colour, Group, Item, Outline, PagePoint, Path, Stro
 use crate::geometry::{Bounds, Point, Vector};
 use crate::scene::BodyId;
 
-/// The polygon is about as large as this share of the structure.
-const SIZE: f64 = 0.75;
-/// Room between structure and polygon, as a share of the structure's diagonal, and at least so many unit edges.
-const APART: (f64, f64) = (0.12, 1.0);
-/// A polygon whose last tip misses its first tail by at most this share of the sum of all forces is closed.
-const CLOSED: f64 = 1e-6;
+/// Size of the polygon, as a share of the structure's size.
+const POLYGON_SIZE: f64 = 0.75;
+/// Gap between structure and polygon: a share of the structure's diagonal, and the least number of unit edges.
+const POLYGON_GAP: (f64, f64) = (0.12, 1.0);
+/// A polygon is closed if its last tip misses its first tail by at most this share of the sum of all forces. Rounding is far
+/// smaller; the forces that fail are far larger.
+const CLOSURE_TOL: f64 = 1e-6;
 
 /// Whether a force acts on the structure from outside: a side of the polygon.
 fn outside(arrow: &ForceArrow) -> bool {
@@ -219,10 +220,10 @@ impl PanelContent for ForcePolygon {
     }
 }
 
-/// What gives back lies beside what acts, not on it, where it is nearer than this share of the polygon's size …
-const NEAR: f64 = 0.03;
-/// … and by so much of it.
-const BESIDE: f64 = 0.09;
+/// Reactions are drawn next to the actions if they are nearer to them than this share of the polygon's size.
+const OVERLAP_SHARE: f64 = 0.03;
+/// The distance at which they are then drawn, as a share of the polygon's size.
+const REACTION_OFFSET: f64 = 0.09;
 
 /// A frame's polygon in the scene: where each arrow begins and ends, and how many times as large as on the structure
 /// forces are.
@@ -256,7 +257,7 @@ fn covers(acting: &[Point], answering: &[Point], size: f64) -> bool {
         let quarter = nalgebra::center(&short[0], &middle);
         [middle, quarter]
             .iter()
-            .all(|p| from(*long, *p) < NEAR * size)
+            .all(|p| from(*long, *p) < OVERLAP_SHARE * size)
     };
     acting.iter().any(|a| {
         let mut others = answering.iter();
@@ -282,7 +283,7 @@ fn chain(analysis: &Analysis, frame: usize, marks: &Marks) -> Option<Chain> {
     if size.is_nan() || size <= 0.0 {
         return None;
     }
-    let times = round_below(SIZE * structure.width().max(structure.height()) / size);
+    let times = round_below(POLYGON_SIZE * structure.width().max(structure.height()) / size);
     if times <= 0.0 {
         return None;
     }
@@ -290,11 +291,11 @@ fn chain(analysis: &Analysis, frame: usize, marks: &Marks) -> Option<Chain> {
     let acting = outer(marks).position(answers);
     let acting = acting.unwrap_or(corners.len() - 1);
     let aside = if covers(&corners[..=acting], &corners[acting..], size) {
-        BESIDE * size
+        REACTION_OFFSET * size
     } else {
         0.0
     };
-    let (share, least) = APART;
+    let (share, least) = POLYGON_GAP;
     let apart = (share * structure.diagonal()).max(least * unit(scene, None));
     // Its left edge beside the structure and the ground below it, its middle as high as the structure's.
     let right = view::ground_shown(scene, unit(scene, None))
@@ -337,7 +338,7 @@ fn larger(times: f64) -> String {
 fn closed(marks: &Marks) -> bool {
     let sum: Vector = outer(marks).map(|a| a.force).sum();
     let all: f64 = outer(marks).map(|a| a.force.norm()).sum();
-    sum.norm() <= CLOSED * all
+    sum.norm() <= CLOSURE_TOL * all
 }
 
 /// A missing force as a side of the polygon: nothing gives it.

@@ -23,14 +23,14 @@ use crate::drawing::{Camera, Colour, Group, Item, Outline, PagePoint, Path, Stro
 use crate::geometry::Bounds;
 use crate::scene::{BodyId, Frame, Scene};
 
-/// Width of the line of the largest force, in unit edges; and between which widths it stays, pixels.
-const WIDEST: (f64, f64, f64) = (0.13, 1.8, 6.5);
+/// Width of the line of the largest force, unit edges; its least and its largest width, pixels.
+const LARGEST_WIDTH: (f64, f64, f64) = (0.13, 1.8, 6.5);
 /// Width of the line of the smallest force, as a share of the widest.
-const THINNEST: f64 = 0.22;
-/// So many widths are told apart where lines are joined.
-const STEPS: f64 = 8.0;
-/// How much of the line shows where it is not one of equilibrium.
-const FAINT: f64 = 0.35;
+const MIN_WIDTH_SHARE: f64 = 0.22;
+/// Where lines of many blocks are joined into one path, their widths are rounded to this many steps.
+const WIDTH_STEPS: f64 = 8.0;
+/// Opacity of a line that is not one of equilibrium.
+const FAINT_OPACITY: f64 = 0.35;
 
 /// The figure of the line of thrust.
 pub(crate) struct ThrustLine;
@@ -187,7 +187,7 @@ fn colour(theme: &Theme) -> Colour {
 }
 
 fn widest(unit: f64) -> f64 {
-    let (width, least, most) = WIDEST;
+    let (width, least, most) = LARGEST_WIDTH;
     (width * unit).clamp(least, most)
 }
 
@@ -195,7 +195,7 @@ fn widest(unit: f64) -> f64 {
 fn width(pen: &Pen<'_>, segment: &ThrustSegment) -> f64 {
     let share = segment.force.norm() / largest(pen.context).max(f64::MIN_POSITIVE);
     let share = share.min(1.0);
-    widest(pen.unit()) * (THINNEST + (1.0 - THINNEST) * share)
+    widest(pen.unit()) * (MIN_WIDTH_SHARE + (1.0 - MIN_WIDTH_SHARE) * share)
 }
 
 /// Every interface as a line.
@@ -219,7 +219,7 @@ fn lines(pen: &Pen<'_>, scene: &Scene, found: &FrameAnalysis, segments: &[Thrust
     let theme = &pen.context.options.theme;
     let opacity = match found.verdict {
         Verdict::Stable => 1.0,
-        _ => FAINT,
+        _ => FAINT_OPACITY,
     };
     let mut group = Group::with_class("thrust");
     let line = |s: &ThrustSegment| Outline::line([s.from, s.to].map(|p| pen.camera.place(p)));
@@ -228,15 +228,15 @@ fn lines(pen: &Pen<'_>, scene: &Scene, found: &FrameAnalysis, segments: &[Thrust
         Path::stroked(outline, stroke).with_opacity(opacity)
     };
     if pen.many() {
-        let mut steps: Vec<Outline> = vec![Outline::default(); STEPS as usize + 1];
+        let mut steps: Vec<Outline> = vec![Outline::default(); WIDTH_STEPS as usize + 1];
         let most = widest(pen.unit());
         for segment in segments {
-            let step = (STEPS * width(pen, segment) / most).round() as usize;
-            steps[step.min(STEPS as usize)].extend(line(segment));
+            let step = (WIDTH_STEPS * width(pen, segment) / most).round() as usize;
+            steps[step.min(WIDTH_STEPS as usize)].extend(line(segment));
         }
         for (step, outline) in steps.into_iter().enumerate() {
             if !outline.segments.is_empty() {
-                let width = most * step as f64 / STEPS;
+                let width = most * step as f64 / WIDTH_STEPS;
                 group.items.push(path(outline, width).into());
             }
         }

@@ -2,12 +2,12 @@
 
 use crate::drawing::{Face, Theme, text};
 
-/// A title of more lines than this is set smaller …
-const FEW: usize = 3;
-/// … by these shares of its size, but no smaller than a caption …
-const SMALLER: [f64; 3] = [1.0, 0.85, 0.7];
-/// … and cut after so many lines.
-const MOST: usize = 5;
+/// A title of more lines than this is set in the next smaller size.
+const MAX_FULL_SIZE_LINES: usize = 3;
+/// The sizes tried, as shares of the full size; none is smaller than a caption.
+const SIZE_STEPS: [f64; 3] = [1.0, 0.85, 0.7];
+/// Longer titles are cut.
+const MAX_LINES: usize = 5;
 
 /// The face of titles.
 pub(crate) const FACE: Face = Face::SerifBold;
@@ -15,11 +15,13 @@ pub(crate) const FACE: Face = Face::SerifBold;
 /// A title in lines of at most `room` pixels, and the size of its letters.
 pub(crate) fn lines(title: &str, room: f64, theme: &Theme) -> (Vec<String>, f64) {
     let least = theme.sizes.caption.min(theme.sizes.title);
-    let sizes = SMALLER.map(|share| (share * theme.sizes.title).max(least));
+    let sizes = SIZE_STEPS.map(|share| (share * theme.sizes.title).max(least));
     let wrapped = |size: f64| text::wrap(title, FACE, size, room);
-    let fits = sizes.into_iter().find(|size| wrapped(*size).len() <= FEW);
-    let size = fits.unwrap_or(sizes[SMALLER.len() - 1]);
-    (text::balanced(title, FACE, size, room, MOST), size)
+    let fits = sizes
+        .into_iter()
+        .find(|size| wrapped(*size).len() <= MAX_FULL_SIZE_LINES);
+    let size = fits.unwrap_or(sizes[SIZE_STEPS.len() - 1]);
+    (text::balanced(title, FACE, size, room, MAX_LINES), size)
 }
 
 #[cfg(test)]
@@ -35,6 +37,9 @@ mod tests {
         let (set, smaller) = lines(long, 240.0, &theme);
         assert!(smaller < size && set.concat().replace(' ', "") == long.replace(' ', ""));
         let (cut, _) = lines(&long.repeat(9), 240.0, &theme);
-        assert!(cut.len() == MOST && cut[MOST - 1].ends_with('…'), "{cut:?}");
+        assert!(
+            cut.len() == MAX_LINES && cut[MAX_LINES - 1].ends_with('…'),
+            "{cut:?}"
+        );
     }
 }

@@ -3,8 +3,8 @@
 use super::view;
 use crate::scene::{Block, BlockId, Scene};
 
-/// Where blocks are on average, by area, so many times as large as the middle one, they are uneven.
-const UNEVEN: f64 = 3.0;
+/// Blocks are uneven in size if their mean area is more than this many times the median area.
+const UNEVEN_RATIO: f64 = 3.0;
 
 /// The unit edge in metres: the lattice's side, unless blocks are far larger than cells; off the lattice a typical size,
 /// 0.6·√area of the middle block, which is about the edge of a regular hexagon of that area, or of a block of the mean
@@ -26,7 +26,7 @@ pub(crate) fn unit(scene: &Scene, zoom: Option<BlockId>) -> f64 {
     let middle = if zoom.is_some() { 0 } else { sizes.len() / 2 };
     let middle = sizes.get(middle).copied().unwrap_or(1.0);
     // Pebbles beside a boulder: arrows as long as a pebble would all but vanish.
-    let uneven = zoom.is_none() && mean > UNEVEN * middle;
+    let uneven = zoom.is_none() && mean > UNEVEN_RATIO * middle;
     let typical = 0.6 * if uneven { mean } else { middle };
     match scene.lattice {
         Some(lattice) if typical < 1.5 * lattice.side => lattice.side,

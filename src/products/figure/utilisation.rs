@@ -18,10 +18,10 @@ use crate::drawing::{Camera, Colour, Group, Item, Outline, PagePoint, Path, Stro
 use crate::geometry::Bounds;
 use crate::scene::Scene;
 
-/// Width of an interface's line in unit edges; and between which widths it stays, pixels.
-const BOLD: (f64, f64, f64) = (0.11, 1.8, 6.0);
+/// Width of the line of an interface, unit edges; its least and its largest width, pixels.
+const LINE_WIDTH: (f64, f64, f64) = (0.11, 1.8, 6.0);
 /// Length of the bar across an interface that uses all its friction, in widths of its line.
-const BAR: f64 = 3.2;
+const BAR_LENGTH: f64 = 3.2;
 
 /// The figure of friction used.
 pub(crate) struct Utilisation;
@@ -92,14 +92,14 @@ impl PanelContent for Utilisation {
             } else {
                 "all of it: at the edge of sliding".to_owned()
             };
-            entries.push(Entry::Sign(full_sign, WIDE, all));
+            entries.push(Entry::Sign(full_sign, SIGN_WIDTH, all));
         }
         if all.iter().flatten().any(|b| b.friction.is_none()) {
             let smooth = "no friction available".to_owned();
-            entries.push(Entry::Sign(smooth_sign, WIDE, smooth));
+            entries.push(Entry::Sign(smooth_sign, SIGN_WIDTH, smooth));
         }
         if all.iter().any(Option::is_none) {
-            entries.push(Entry::Sign(idle_sign, WIDE, "no force".into()));
+            entries.push(Entry::Sign(idle_sign, SIGN_WIDTH, "no force".into()));
         }
         entries.extend(legend::robots(context));
         entries
@@ -183,7 +183,7 @@ fn most_used(scene: &Scene, found: &FrameAnalysis) -> String {
 }
 
 fn bold(unit: f64) -> f64 {
-    let (width, least, most) = BOLD;
+    let (width, least, most) = LINE_WIDTH;
     (width * unit).clamp(least, most)
 }
 
@@ -282,7 +282,7 @@ fn rimmed(line: Outline, bold: f64, rim: f64, theme: &Theme) -> Path {
 /// The ends of the bar across an interface.
 fn across(pen: &Pen<'_>, contact: &Contact) -> [PagePoint; 2] {
     let middle = pen.camera.place(contact.interface.middle());
-    let half = 0.5 * BAR * bold(pen.unit());
+    let half = 0.5 * BAR_LENGTH * bold(pen.unit());
     // A unit normal is as long on the page as the scale makes it.
     let (x, y) = (
         contact.interface.normal.x * half,
@@ -320,11 +320,11 @@ fn robots(pen: &Pen<'_>, found: &FrameAnalysis) -> Group {
     group
 }
 
-const WIDE: f64 = 26.0;
+const SIGN_WIDTH: f64 = 26.0;
 
 fn full_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    let line = Outline::line([at, at.moved(WIDE, 0.0)]);
-    let middle = at.moved(WIDE / 2.0, 0.0);
+    let line = Outline::line([at, at.moved(SIGN_WIDTH, 0.0)]);
+    let middle = at.moved(SIGN_WIDTH / 2.0, 0.0);
     let bar = Outline::line([middle.moved(0.0, -7.0), middle.moved(0.0, 7.0)]);
     vec![
         rimmed(line.clone(), 4.5, 0.7, theme).into(),
@@ -334,7 +334,7 @@ fn full_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
 }
 
 fn smooth_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    let line = Outline::line([at, at.moved(WIDE, 0.0)]);
+    let line = Outline::line([at, at.moved(SIGN_WIDTH, 0.0)]);
     vec![
         rimmed(line.clone(), 4.5, 0.7, theme).into(),
         Path::stroked(line, Stroke::new(theme.page, 4.5)).into(),
@@ -342,6 +342,6 @@ fn smooth_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
 }
 
 fn idle_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    let line = Outline::line([at, at.moved(WIDE, 0.0)]);
+    let line = Outline::line([at, at.moved(SIGN_WIDTH, 0.0)]);
     vec![Path::stroked(line, idle_stroke(theme, 4.5)).into()]
 }

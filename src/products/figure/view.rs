@@ -6,13 +6,13 @@ use crate::geometry::{Bounds, Point, Vector};
 use crate::scene::{BlockId, Frame, Scene};
 
 /// Ground is shown this far beyond the blocks, as a share of the structure's diagonal, and at least one unit edge.
-const BEYOND: f64 = 0.12;
-/// A piece of ground of at most so many unit edges each way, near the structure, is shown whole.
-const PIECE: f64 = 3.0;
-/// How far beyond a block its neighbourhood reaches, in its larger side.
-const NEIGHBOURS: f64 = 1.1;
-/// Room around all that is shown, in unit edges.
-const ROOM: f64 = 0.08;
+const GROUND_BEYOND: f64 = 0.12;
+/// A piece of ground near the structure is shown whole if neither side is longer than this, unit edges.
+const WHOLE_GROUND: f64 = 3.0;
+/// A zoomed view reaches this far beyond its block, as a share of the block's larger side.
+const ZOOM_REACH: f64 = 1.1;
+/// Space around everything that is shown, unit edges.
+const PADDING: f64 = 0.08;
 
 /// For each frame that has `marks` a box around its blocks, plans, arrows, robots, what its kind of picture shows beside
 /// them, and the ground near any frame's blocks.
@@ -40,7 +40,7 @@ pub(crate) fn shown(
             .chain(*reach);
         all.reduce(Bounds::union)
             .unwrap_or(near(Point::origin(), unit))
-            .grown(ROOM * unit)
+            .grown(PADDING * unit)
     };
     scene
         .frames
@@ -73,10 +73,10 @@ pub(crate) fn ground_shown(scene: &Scene, unit: f64) -> Option<Bounds> {
         return ground().reduce(Bounds::union);
     };
     let reach = structure.diagonal().max(unit);
-    let near = structure.grown((BEYOND * reach).max(unit));
+    let near = structure.grown((GROUND_BEYOND * reach).max(unit));
     let far = structure.grown(reach);
     let shown = |part: Bounds| {
-        let small = part.width() <= PIECE * unit && part.height() <= PIECE * unit;
+        let small = part.width() <= WHOLE_GROUND * unit && part.height() <= WHOLE_GROUND * unit;
         if small && far.intersects(part) {
             Some(part)
         } else {
@@ -89,7 +89,7 @@ pub(crate) fn ground_shown(scene: &Scene, unit: f64) -> Option<Bounds> {
 /// A block's neighbourhood: a box that reaches beyond it by as much as it is large.
 pub(crate) fn around(scene: &Scene, block: BlockId) -> Bounds {
     let bounds = scene.blocks[block.0].body.polygon.bounds();
-    bounds.grown(NEIGHBOURS * bounds.width().max(bounds.height()))
+    bounds.grown(ZOOM_REACH * bounds.width().max(bounds.height()))
 }
 
 /// Whether a point lies in a box.

@@ -96,23 +96,23 @@ fn alike(row: &[PremultipliedColorU8], first: PremultipliedColorU8) -> usize {
     whole + row[whole..].iter().take_while(|p| **p == first).count()
 }
 
-/// Colours that a byte can number.
-const MOST_COLOURS: usize = 256;
-/// Places for them, most of which stay free: a power of two.
-const PLACES: usize = 4 * MOST_COLOURS;
+/// Most colours of a palette: a pixel is one byte.
+const MAX_COLOURS: usize = 256;
+/// Size of the hash table of colours, a power of two, so that most places stay free.
+const TABLE_SIZE: usize = 4 * MAX_COLOURS;
 
 /// Colours in the order in which they were found.
 struct Table {
     found: Vec<PremultipliedColorU8>,
     /// Numbers of colours, each at the place that its bits say or behind it.
-    places: [Option<u8>; PLACES],
+    places: [Option<u8>; TABLE_SIZE],
 }
 
 impl Default for Table {
     fn default() -> Table {
         Table {
             found: Vec::new(),
-            places: [None; PLACES],
+            places: [None; TABLE_SIZE],
         }
     }
 }
@@ -128,7 +128,7 @@ impl Table {
             if self.found[usize::from(number)] == colour {
                 return Some(number);
             }
-            place = (place + 1) % PLACES;
+            place = (place + 1) % TABLE_SIZE;
         }
         let number = u8::try_from(self.found.len()).ok()?;
         self.places[place] = Some(number);

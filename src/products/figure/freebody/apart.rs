@@ -8,11 +8,11 @@ use crate::drawing::Camera;
 use crate::drawing::arrow::HEAD_WIDTH;
 
 /// Arrows whose directions differ by less than this, rad, run side by side.
-const PARALLEL: f64 = 0.12;
-/// Arrows that share less of their line than this touch end to end, pixels.
-const SHARED: f64 = 2.0;
-/// How far apart two axes are set, pixels: their heads and a little room.
-const STEP: f64 = (HEAD_WIDTH + 0.8) * WIDTH;
+const PARALLEL_ANGLE: f64 = 0.12;
+/// Arrows that overlap along their line by less than this, pixels, touch end to end and stay on it.
+const END_TO_END: f64 = 2.0;
+/// Distance of two axes, pixels: the heads and a small gap.
+const AXIS_DISTANCE: f64 = (HEAD_WIDTH + 0.8) * WIDTH;
 
 /// Moves each arrow that runs along an earlier one beside it.
 pub(super) fn apart(arrows: &mut [Arrow], camera: &Camera) {
@@ -27,7 +27,7 @@ pub(super) fn apart(arrows: &mut [Arrow], camera: &Camera) {
             continue;
         }
         let true_place = camera.place(arrow.at);
-        let (across_x, across_y) = (-y / length * STEP, x / length * STEP);
+        let (across_x, across_y) = (-y / length * AXIS_DISTANCE, x / length * AXIS_DISTANCE);
         let places =
             [0.0, 1.0, -1.0, 2.0, -2.0].map(|k| true_place.moved(k * across_x, k * across_y));
         let clear = places.into_iter().find(|place| {
@@ -59,10 +59,10 @@ fn one_line(first: (f64, f64), second: (f64, f64), offset: (f64, f64)) -> bool {
     let (ux, uy) = (first.0 / long, first.1 / long);
     let cross = |(x, y): (f64, f64)| ux * y - uy * x;
     let along = |(x, y): (f64, f64)| ux * x + uy * y;
-    let parallel = (cross(second) / other).abs() < PARALLEL;
+    let parallel = (cross(second) / other).abs() < PARALLEL_ANGLE;
     let (a, b) = (along(offset), along(offset) + along(second));
     let shared = long.min(a.max(b)) - a.min(b).max(0.0);
-    parallel && cross(offset).abs() < STEP - 0.1 && shared > SHARED
+    parallel && cross(offset).abs() < AXIS_DISTANCE - 0.1 && shared > END_TO_END
 }
 
 #[cfg(test)]

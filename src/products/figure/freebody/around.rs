@@ -1,6 +1,6 @@
 //! What lies around a block: the bodies it touches, the points at which forces act, and how much of it all is shown.
 
-use super::force::{Arrow, LONG};
+use super::force::{Arrow, MAX_LENGTH};
 use crate::analysis::{Analysis, Contact};
 use crate::drawing::{Camera, PageRect};
 use crate::geometry::{Bounds, Point, Vector, quarter_turn};
@@ -160,8 +160,8 @@ pub(super) fn around_arrows(shown: &PageRect, arrows: &[Arrow], camera: &Camera)
         let from = camera.place(arrow.at);
         let ends = match arrow.turn {
             Some(_) => vec![
-                from.moved(-LONG / 2.0, -LONG / 2.0),
-                from.moved(LONG / 2.0, LONG / 2.0),
+                from.moved(-MAX_LENGTH / 2.0, -MAX_LENGTH / 2.0),
+                from.moved(MAX_LENGTH / 2.0, MAX_LENGTH / 2.0),
             ],
             None => vec![from, from.moved(arrow.along.0, arrow.along.1)],
         };

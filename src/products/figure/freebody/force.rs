@@ -10,22 +10,23 @@ use crate::drawing::{Camera, Colour, PagePoint};
 use crate::geometry::{Point, Vector, cross, quarter_turn};
 use crate::scene::{BlockId, BodyId};
 
-/// Length of the longest arrow, pixels; of one that names a force whatever its amount; of friction's and of ŝ.
-pub(super) const LONG: f64 = 64.0;
-const NAMING: f64 = 52.0;
-const FRICTION: f64 = 42.0;
-const THIN: f64 = 30.0;
+/// Lengths in pixels: of the longest arrow; of an arrow that names a force whatever its amount; of a friction arrow; of the
+/// unit vector ŝ.
+pub(super) const MAX_LENGTH: f64 = 64.0;
+const NAMING_LENGTH: f64 = 52.0;
+const FRICTION_LENGTH: f64 = 42.0;
+const UNIT_VECTOR_LENGTH: f64 = 30.0;
 /// Widths of shafts, pixels.
 pub(super) const WIDTH: f64 = 2.4;
 const THIN_WIDTH: f64 = 1.2;
 /// Friction arrows of one interface reach at most so far towards each other, as a share of its length.
-const APART: f64 = 0.30;
+const FRICTION_REACH: f64 = 0.30;
 /// Radius of a turning arrow, pixels.
-const TURN: f64 = 24.0;
-/// Most interfaces whose corners are drawn one by one where nothing else is asked for.
-const MOST: usize = 3;
-/// Forces below this share of the largest are noise of the solution.
-const NOISE: f64 = 1e-9;
+const TURN_RADIUS: f64 = 24.0;
+/// With at most this many interfaces the forces at both ends of each are drawn, unless the options say otherwise.
+const MAX_INTERFACES_BY_CORNER: usize = 3;
+/// Forces below this share of the largest are rounding of the solver.
+const FORCE_TOL: f64 = 1e-9;
 
 /// A force on the block.
 #[derive(Clone, Debug)]
@@ -134,7 +135,7 @@ pub(super) fn detail(count: usize, options: &Options) -> Detail {
     match (options.corners, count) {
         (_, 0..=1) => Detail::Parts,
         (Corners::All, _) => Detail::Corners,
-        (Corners::Few, n) if n <= MOST => Detail::Corners,
+        (Corners::Few, n) if n <= MAX_INTERFACES_BY_CORNER => Detail::Corners,
         (Corners::Few, _) => Detail::Resultants,
     }
 }
@@ -203,7 +204,7 @@ pub(super) fn forces(
     }
     let detail = detail(contacts.len(), options);
     let carried = contacts.iter().flat_map(|c| c.normal_forces);
-    let noise = NOISE * carried.fold(body.weight, f64::max);
+    let noise = FORCE_TOL * carried.fold(body.weight, f64::max);
     for (number, contact) in contacts.iter().enumerate() {
         let given = corners(contact, block);
         let (normal, left) = (inward(contact, block), quarter_turn(inward(contact, block)));
@@ -350,7 +351,7 @@ pub(super) fn largest(forces: &[Force], edge: f64, options: &Options) -> f64 {
 
 /// Length of the longest arrow, pixels: on a small block long arrows would reach across each other.
 pub(super) fn longest(analysis: &Analysis, block: BlockId, camera: &Camera) -> f64 {
-    shorter(analysis, block, camera) * LONG
+    shorter(analysis, block, camera) * MAX_LENGTH
 }
 
 fn shorter(analysis: &Analysis, block: BlockId, camera: &Camera) -> f64 {
@@ -401,18 +402,18 @@ pub(super) fn arrows(
             let sweep = if naming {
                 3.4
             } else {
-                shorter * LONG * share / TURN
+                shorter * MAX_LENGTH * share / TURN_RADIUS
             };
             arrows.push(Arrow {
-                along: (TURN, 0.0),
+                along: (TURN_RADIUS, 0.0),
                 turn: Some(sweep * force.torque.signum()),
                 ..straight
             });
         } else if force.force.norm() > 0.0 {
             let length = if naming {
-                shorter * NAMING
+                shorter * NAMING_LENGTH
             } else {
-                shorter * LONG * force.force.norm() / largest
+                shorter * MAX_LENGTH * force.force.norm() / largest
             };
             arrows.push(Arrow {
                 along: turned(force.force, length),
@@ -426,12 +427,18 @@ pub(super) fn arrows(
         let left = quarter_turn(normal);
         if naming {
             let [a, b] = contact.application_points;
-            let reach = (APART * camera.length((b - a).norm())).clamp(14.0, shorter * FRICTION);
+            let reach = (FRICTION_REACH * camera.length((b - a).norm()))
+                .clamp(14.0, shorter * FRICTION_LENGTH);
             let given = corners(contact, block);
             for (k, corner) in given.iter().enumerate().take(distinct(contact).len()) {
                 let k = k + 1;
                 let drawn = [
-                    (normal, shorter * NAMING, format!("s{k}"), "Normal force"),
+                    (
+                        normal,
+                        shorter * NAMING_LENGTH,
+                        format!("s{k}"),
+                        "Normal force",
+                    ),
                     (left, reach, format!("fl{k}"), "Friction force"),
                     (-left, reach, format!("fr{k}"), "Friction force"),
                 ];
@@ -464,12 +471,12 @@ pub(super) fn arrows(
                 (number + 1).to_string()
             };
             let symbol = Symbol::new("s", Accent::Hat, &below);
-            let clear = camera.metres(FRICTION + 1.2 * shorter * THIN);
+            let clear = camera.metres(FRICTION_LENGTH + 1.2 * shorter * UNIT_VECTOR_LENGTH);
             arrows.push(Arrow {
                 title: format!("Unit normal {} into block {name}", symbol.stated()),
                 symbol: Some(symbol),
                 at: super::around::aside(&analysis.scene, contact, block, clear, single),
-                along: turned(normal, THIN),
+                along: turned(normal, UNIT_VECTOR_LENGTH),
                 turn: None,
                 width: THIN_WIDTH,
                 colour: options.theme.faint,

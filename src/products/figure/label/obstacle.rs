@@ -3,7 +3,7 @@
 use crate::drawing::PagePoint;
 use crate::drawing::placement::Ink;
 use crate::figure::arrow::{ArrowKind, TurnArrow};
-use crate::figure::pen::{CENTROID, DOT, Pen};
+use crate::figure::pen::{CENTROID_RADIUS, DOT_RADIUS, Pen};
 use crate::geometry::Polygon;
 
 /// The ink of ground, blocks, plans, discs and arrows.
@@ -28,11 +28,11 @@ pub(crate) fn ink(pen: &Pen<'_>) -> Ink {
         let (from, along) = (pen.camera.place(arrow.at), pen.camera.turn(arrow.reach()));
         ink.arrow(from, along, pen.width(arrow));
         if arrow.kind == ArrowKind::Weight {
-            ink.disc(from, CENTROID * pen.width(arrow) + 1.0);
+            ink.disc(from, CENTROID_RADIUS * pen.width(arrow) + 1.0);
         }
     }
     for arrow in pen.dots() {
-        ink.disc(pen.camera.place(arrow.at), DOT + 0.5);
+        ink.disc(pen.camera.place(arrow.at), DOT_RADIUS + 0.5);
     }
     for turn in marks.turns.iter().filter(|t| pen.turn_seen(t)) {
         turning(&mut ink, pen, turn);

@@ -2,7 +2,7 @@
 
 use core::f64::consts::FRAC_PI_2;
 
-use super::{CENTROID, DOT, Pen, TEXTURE};
+use super::{CENTROID_RADIUS, DOT_RADIUS, MIN_READABLE_UNIT_EDGE, Pen};
 use crate::drawing::arrow::{head, straight, turning};
 use crate::drawing::{Colour, Group, Item, Outline, Path, Stroke};
 use crate::figure::arrow::{ArrowKind, ForceArrow, LEAST_SEEN, TurnArrow, TurnKind, from_arrow};
@@ -37,7 +37,7 @@ impl Pen<'_> {
     }
 
     fn dot(&self, arrow: &ForceArrow) -> Group {
-        let outline = Outline::circle(self.camera.place(arrow.at), DOT);
+        let outline = Outline::circle(self.camera.place(arrow.at), DOT_RADIUS);
         let theme = &self.context.options.theme;
         let dot = if arrow.kind == ArrowKind::Load {
             Path::filled(outline, theme.page).with_stroke(Stroke::new(arrow.colour, 1.2))
@@ -68,9 +68,9 @@ impl Pen<'_> {
     fn centroid(&self, arrow: &ForceArrow) -> Option<Path> {
         let marked = arrow.kind == ArrowKind::Weight
             && !self.context.options.printed()
-            && self.unit() >= TEXTURE;
+            && self.unit() >= MIN_READABLE_UNIT_EDGE;
         let width = self.width(arrow);
-        let ring = Outline::circle(self.camera.place(arrow.at), CENTROID * width);
+        let ring = Outline::circle(self.camera.place(arrow.at), CENTROID_RADIUS * width);
         let edge = Stroke::new(arrow.colour, (0.45 * width).clamp(0.8, 2.0));
         marked.then(|| Path::filled(ring, self.context.options.theme.page).with_stroke(edge))
     }
