@@ -274,7 +274,10 @@ fn stands(stone: &Outline, slack: f64) -> bool {
 type Answer = (u64, Result<(Verdict, String), String>, [bool; 2]);
 
 #[test]
-#[allow(clippy::print_stdout, reason = "the counts are the result of a long run")]
+#[allow(
+    clippy::print_stdout,
+    reason = "the counts are the result of a long run"
+)]
 fn hardly_any_pebble_is_undecided() {
     let number = |name: &str, usual: u64| {
         let value = std::env::var(name).ok();

@@ -130,7 +130,8 @@ fn the_terminals_table_says_what_the_result_says() {
 
 /// Rounded to one digit as `3e-12`.
 fn is_rough(written: f64, exact: f64) -> bool {
-    (written - exact).abs() <= 0.51 * libm::pow(10.0, libm::log10(exact.abs()).floor()) || written == exact
+    (written - exact).abs() <= 0.51 * libm::pow(10.0, libm::log10(exact.abs()).floor())
+        || written == exact
 }
 
 fn says_proof(words: &str, proof: &Value) {
