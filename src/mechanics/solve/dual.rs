@@ -62,6 +62,7 @@ pub(super) fn of_velocities(
     answer: &Answer,
 ) -> Dual {
     let n = columns.len();
+    // The multipliers of the rows are the amounts, their slacks the columns' slacks.
     let mut solved = Dual {
         status: answer.status,
         y: vec![0.0; loads.len()],
@@ -90,6 +91,7 @@ pub(super) fn of_velocities(
     for (k, multiplier) in limited.zip(&answer.x[loads.len()..]) {
         solved.multipliers[k] = multiplier.max(0.0);
     }
+    // The solver minimizes, the dual maximizes.
     solved.objective = -conic
         .linear
         .iter()
@@ -140,6 +142,7 @@ pub(super) fn in_forces(
     if answer.x.is_empty() {
         return solved;
     }
+    // Multipliers of the balance have the other sign.
     for (y, multiplier) in solved.y.iter_mut().zip(&answer.z) {
         *y = -multiplier;
     }

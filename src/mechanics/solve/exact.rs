@@ -39,6 +39,7 @@ pub(super) fn unique_balance(loads: &[f64], columns: &[Column]) -> Option<Vec<f6
         table[row * width + n] = *value;
     }
     eliminate(&mut table, rows, n)?;
+    // Back substitution.
     let mut amounts = vec![0.0; n];
     for j in (0..n).rev() {
         let known: f64 = (j + 1..n).map(|k| table[j * width + k] * amounts[k]).sum();
@@ -62,6 +63,7 @@ fn eliminate(table: &mut [f64], rows: usize, n: usize) -> Option<()> {
         if size(&best) < PIVOT_TOL {
             return None;
         }
+        // Row exchange, then elimination below the pivot.
         if best != j {
             for k in j..width {
                 table.swap(best * width + k, j * width + k);
@@ -157,6 +159,7 @@ const SEMIDEFINITE_PIVOT_TOL: f64 = 1e-11;
 fn solve_semidefinite(mut a: Vec<f64>, b: &[f64]) -> Option<Vec<f64>> {
     let n = b.len();
     let has_pivot = factor_semidefinite(&mut a, n);
+    // Forward and backward substitution.
     let mut x = b.to_vec();
     for j in 0..n {
         if has_pivot[j] {

@@ -51,6 +51,7 @@ impl IncrementalCholesky {
     ///
     /// Returns false, and appends nothing, if the new pivot is at most `min_pivot`.
     pub fn append(&mut self, mut products: Vec<f64>, square: f64, min_pivot: f64) -> bool {
+        // The new row of L solves L·row = products; zeros at its beginning stay zeros.
         let first = products.iter().position(|v| *v != 0.0);
         let first = first.unwrap_or(products.len());
         self.forward_from(&mut products, first);
@@ -71,6 +72,7 @@ impl IncrementalCholesky {
         self.rows.remove(place);
         for k in place..self.rows.len() {
             let (a, b) = (self.rows[k].at(k), self.rows[k].at(k + 1));
+            // The rotation that moves the entry right of the diagonal onto it.
             let length = libm::hypot(a, b);
             let (c, s) = (a / length, b / length);
             for row in &mut self.rows[k..] {

@@ -68,6 +68,7 @@ pub(super) fn refine_balance(
             .zip(&answer.x)
             .map(|(a, d)| (a + d * size).max(0.0))
             .collect();
+        // Keep a correction only if it improves the balance.
         if largest(&remainder(loads, columns, &better)) >= size {
             break;
         }

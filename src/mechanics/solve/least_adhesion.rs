@@ -15,8 +15,8 @@ use super::limit::columns_in;
 use super::slanted::Slanted;
 use super::{
     Amounts, Conditioning, CrossoverTolerance, Dual, Effort, Face, LeastAdhesion, SolverSettings,
-    Status, determinate, dual, in_forces, largest, least_adhesion_levels, least_squares_amounts,
-    of_velocities, once, refine_balance,
+    Status, TOLERANCE, determinate, dual, in_forces, largest, least_adhesion_levels,
+    least_squares_amounts, of_velocities, once, refine_balance,
 };
 use crate::program::{Column, Program, kinematic_dual, sticking_columns};
 
@@ -241,7 +241,8 @@ fn later_stages(
         Size::Many => (SUM_TOL_MANY, &MARGINS[..1]),
         Size::Few => (SUM_TOL, &MARGINS[..]),
     };
-    let slight = 1e-9 * largest(&whole.loads);
+    // Sums below the solver's tolerance are all the same.
+    let slight = TOLERANCE * largest(&whole.loads);
     let unchanged = |face: &Face, amounts: &[f64]| {
         (sticking_sum(face, amounts) - least).abs() <= same * least + slight
     };
@@ -254,26 +255,12 @@ fn later_stages(
     if size == Size::Many && slack > MAX_BASIC_SLACK * (same * least + slight) {
         return from_first_stage();
     }
-    let mut face = None;
-    for margin in margins {
-        let narrow = whole.narrowed(first, *margin);
-        let second = solve_stage(&narrow, size, settings, effort, |c| c.cost);
-        if second.status == Status::Solved && unchanged(&narrow, &second.amounts) {
-            let narrower = narrow.narrowed(&second, 1.0);
-            face = Some(if unchanged(&narrower, &narrower.amounts) {
-                narrower
-            } else {
-                narrow.with(second.amounts)
-            });
-            break;
-        }
-    }
-    let face = match face {
-        Some(face) => face,
-        None if size == Size::Many => return from_first_stage(),
-        None => from_first_stage(),
+    let Some(face) = least_force_face(whole, first, margins, &unchanged, size, settings, effort)
+        .or_else(|| (size == Size::Few).then(from_first_stage))
+    else {
+        return from_first_stage();
     };
-    // With many blocks few columns are left, hardly more than a unique balance has. Plain conditioning ends there without a
+    // Stages 3 and 4. With many blocks few columns are left, hardly more than a unique balance has. Plain conditioning ends there without a
     // status.
     let squares = match size {
         Size::Many => SolverSettings {
@@ -297,6 +284,31 @@ fn later_stages(
         }
     }
     face
+}
+
+/// Stage 2: the face of least force among balances of least adhesion; `None` if no margin gives one with the same adhesion.
+fn least_force_face(
+    whole: &Face,
+    first: &Dual,
+    margins: &[f64],
+    unchanged: &impl Fn(&Face, &[f64]) -> bool,
+    size: Size,
+    settings: SolverSettings,
+    effort: &mut Effort,
+) -> Option<Face> {
+    margins.iter().find_map(|margin| {
+        let narrow = whole.narrowed(first, *margin);
+        let second = solve_stage(&narrow, size, settings, effort, |c| c.cost);
+        if second.status != Status::Solved || !unchanged(&narrow, &second.amounts) {
+            return None;
+        }
+        let narrower = narrow.narrowed(&second, 1.0);
+        Some(if unchanged(&narrower, &narrower.amounts) {
+            narrower
+        } else {
+            narrow.with(second.amounts)
+        })
+    })
 }
 
 /// Solves the dual of a later stage.
@@ -344,6 +356,7 @@ fn concentrate(
         {
             break;
         }
+        // Cost 1/amount, limited to a thousand times that of the largest amount.
         let most = sticking_amounts(&face, &face.amounts).fold(0.0, f64::max);
         for (column, amount) in face.columns.iter_mut().zip(&face.amounts) {
             if column.force.is_sticking() {
@@ -361,6 +374,7 @@ fn concentrate(
             break;
         }
         face.amounts = solved.amounts;
+        // Drop what has become small; stop when nothing does.
         let most = sticking_amounts(&face, &face.amounts).fold(0.0, f64::max);
         let before = face.columns.len();
         face = face.only(|c, a| !c.force.is_sticking() || a > drop_tolerance * most);

@@ -126,6 +126,7 @@ fn factor_along(program: &Program, direction: &[f64], extremum: Extremum) -> Ext
             (Status::Solved, Some(factor)) => {
                 let total = loads.iter().zip(&along).map(|(n, t)| n + factor * t);
                 let total: Vec<f64> = total.collect();
+                // The forces at the limit, freed of the solver's error.
                 let amounts = amounts_of_rows(&answer, &row_of);
                 let mut amounts = rebalanced(&total, &columns, amounts);
                 amounts.iter_mut().for_each(|amount| *amount *= load);
@@ -178,6 +179,7 @@ pub(super) fn columns_in(program: &Program, unit: f64) -> Vec<Column> {
 
 /// The least limit of one component of one grip with which admissible forces balance; the other limits are as they are.
 pub fn least_grip_limit(program: &Program, grip: usize, component: usize) -> Extreme {
+    // Without a limit and at cost 1, the least cost is the least amount.
     let mut free = program.clone();
     free.grips[grip].limits[component] = f64::INFINITY;
     let is_own = |force: &Force| matches!(force, Force::Grip { grip: g, component: c, .. } if *g == grip && *c == component);

@@ -24,6 +24,12 @@ const MAX_ROUNDS: usize = 4;
 /// imbalance would be kept; ten times larger, the system loses digits.
 const IMBALANCE_WEIGHT: f64 = 1e8;
 
+/// A relative residual below this is rounding.
+const ROUNDING: f64 = 1e-14;
+
+/// Rounds go on as long as the blocks together gain this number of decimal digits: one block whose residual is halved.
+const MIN_DIGITS_GAINED: f64 = 0.3;
+
 /// Amounts larger than this multiple of the residual cannot become negative by the change: for them no bound is stated. On a
 /// support of a millionth of a block, forces must change by a million times the residual to make up for its moment; then the
 /// second value serves.
@@ -163,36 +169,12 @@ pub fn rebalance_relative(
         let (left, total) = residual(program, &best);
         let scales = row_scales(program, &total);
         let size = largest_scaled(&left, &scales);
-        if size <= 1e-14 {
+        if size <= ROUNDING {
             break;
         }
         let weights = ray_amounts(program, &list, &best);
         let used: Vec<usize> = (0..list.len()).filter(|k| weights[*k] > 0.0).collect();
-        let rows = left.len();
-        let mut conic = QuadraticProgram {
-            unknowns: used.len() + rows,
-            quadratic: Vec::with_capacity(used.len() + rows),
-            linear: vec![0.0; used.len() + rows],
-            matrix: Vec::with_capacity(6 * used.len() + rows),
-            bound: left
-                .iter()
-                .zip(&scales)
-                .map(|(v, d)| v * d / size)
-                .collect(),
-            equalities: rows,
-        };
-        for (unknown, k) in used.iter().enumerate() {
-            conic.quadratic.push((unknown, unknown, 1.0));
-            for (row, value) in list[*k].entries() {
-                let entry = value * weights[*k] * scales[row];
-                conic.matrix.push((row, unknown, entry));
-            }
-        }
-        for row in 0..rows {
-            let unknown = used.len() + row;
-            conic.quadratic.push((unknown, unknown, IMBALANCE_WEIGHT));
-            conic.matrix.push((row, unknown, 1.0));
-        }
+        let conic = relative_changes(&list, &used, &weights, &scales, &left, size);
         // Relative to loads near the smallest number of f64, scales are infinite.
         if !all_finite(&conic) {
             break;
@@ -209,12 +191,49 @@ pub fn rebalance_relative(
         let next = apply(&best, &list, &changes);
         let (after, total) = residual(program, &next);
         // Some blocks may have no balance; the others have gained digits all the same.
-        if digits(&after, &row_scales(program, &total)) < digits(&left, &scales) + 0.3 {
+        if digits(&after, &row_scales(program, &total)) < digits(&left, &scales) + MIN_DIGITS_GAINED
+        {
             break;
         }
         (best, better) = (next, true);
     }
     better.then_some(best)
+}
+
+/// The program of the relative changes ε of the columns `used`, and of the imbalance v that remains; `left` is the residual, of
+/// scaled size `size`.
+fn relative_changes(
+    list: &[Column],
+    used: &[usize],
+    weights: &[f64],
+    scales: &[f64],
+    left: &[f64],
+    size: f64,
+) -> QuadraticProgram {
+    let rows = left.len();
+    let unknowns = used.len() + rows;
+    let scaled = left.iter().zip(scales).map(|(v, d)| v * d / size);
+    let mut conic = QuadraticProgram {
+        unknowns,
+        quadratic: Vec::with_capacity(unknowns),
+        linear: vec![0.0; unknowns],
+        matrix: Vec::with_capacity(6 * used.len() + rows),
+        bound: scaled.collect(),
+        equalities: rows,
+    };
+    for (unknown, k) in used.iter().enumerate() {
+        conic.quadratic.push((unknown, unknown, 1.0));
+        for (row, value) in list[*k].entries() {
+            let entry = value * weights[*k] * scales[row];
+            conic.matrix.push((row, unknown, entry));
+        }
+    }
+    for row in 0..rows {
+        let unknown = used.len() + row;
+        conic.quadratic.push((unknown, unknown, IMBALANCE_WEIGHT));
+        conic.matrix.push((row, unknown, 1.0));
+    }
+    conic
 }
 
 /// The sum over the blocks of the decimal digits to which each balances.

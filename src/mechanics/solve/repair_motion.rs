@@ -63,6 +63,7 @@ fn open_contacts(
     let mut motion = motion.to_vec();
     let small = if extra == 0.0 { ROUNDING } else { 0.5 * extra };
     for round in 0..=MAX_ROUNDS {
+        // Convergence test: the worst violation.
         let torn = held.iter().map(|c| c.dot(&motion).abs());
         let closing = contacts.iter().map(|c| extra - c.dot(&motion));
         let worst = torn.chain(closing).fold(0.0, f64::max);
@@ -86,6 +87,7 @@ fn open_contacts(
                 rows.push((column, wanted));
             }
         }
+        // The shortest change, scaled, and added.
         let conic = least_change(motion.len(), &rows, held.len());
         let settings = SolverSettings {
             tolerance: (TOLERANCE_SHARE * small / worst).clamp(TOLERANCE, MAX_TOLERANCE),

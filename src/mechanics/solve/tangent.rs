@@ -34,6 +34,7 @@ impl Tangent {
             load => load,
         };
         let loads: Vec<f64> = program.loads.iter().map(|v| v / load).collect();
+        // A largest load of 1, as in `least_residual`.
         let columns = Slanted::new(&columns_in(program, load)).columns;
         let (conic, row_of) = least_residual_dual(&loads, &columns);
         let answer = solved_with_retry(&conic, Conditioning::Plain, &mut Effort::default());
@@ -86,6 +87,7 @@ impl Tangent {
                 continue;
             };
             let contact = &program.contacts[contact];
+            // The speed of the contact's point apart from its partner's.
             let speed = |(block, arms): (usize, [Vector; 2])| {
                 let [u, v, spin] = [0, 1, 2].map(|row| self.y[3 * block + row]);
                 Vector::new(u, v) + quarter_turn(arms[point]) * spin

@@ -50,6 +50,7 @@ impl Joint<'_> {
         let across = self.sign * normal.dot(&wrench.force);
         let along = self.sign * quarter_turn(normal).dot(&wrench.force);
         let moment = self.sign * wrench.moment - lever * along;
+        // The normal forces share `across` so that their moments, and that of T, add up.
         let by = 1.0 / (levers[1] - levers[0]);
         let first = (levers[1] * across - moment) * by;
         let second = (moment - levers[0] * across) * by;
@@ -67,6 +68,7 @@ impl Joint<'_> {
         });
         let across = [0, 1].map(|k| normal.dot(&below[k]) + self.sign * opens[k]);
         let along = tangent.dot(&below[0]) + self.sign * slides;
+        // The spin from the difference of the two openings, then the centroid's velocity from the first point.
         let (levers, lever) = self.levers();
         let spin = (across[1] - across[0]) / (levers[1] - levers[0]);
         let velocity = normal * (across[0] - spin * levers[0]) + tangent * (along - spin * lever);
@@ -93,6 +95,7 @@ pub(super) fn joints(program: &Program) -> Option<Vec<Joint<'_>>> {
     }
     let mut found = vec![false; program.blocks];
     let mut joints = Vec::with_capacity(program.blocks);
+    // Depth first from the ground. A body that is reached twice has two ways to it: not a tree.
     while let Some((number, below)) = queue.pop() {
         let contact = &program.contacts[number];
         let both = [

@@ -44,6 +44,7 @@ fn needed_forces(program: &Program, joints: &[Joint]) -> Vec<ContactForces> {
             moment: load[2],
         })
         .collect();
+    // From the ends towards the ground: what a joint carries acts on the body below it.
     for joint in joints.iter().rev() {
         let wrench = needed[joint.body];
         if let Some((below, between)) = joint.below {
@@ -69,6 +70,7 @@ pub fn collapse(program: &Program) -> Option<(Vec<f64>, LeastAdhesion)> {
     let mut moves = vec![false; program.blocks];
     let mut speeds = Vec::with_capacity(joints.len());
     for joint in &joints {
+        // A joint on a moving body stays closed, and its body moves along.
         let rests = joint.below.is_none_or(|(below, _)| !moves[below]);
         let (opens, slides) = match rests {
             true => split.speeds(joint),
@@ -124,6 +126,7 @@ impl Split {
             if !(first.is_finite() && second.is_finite() && along.is_finite()) {
                 return None;
             }
+            // The contact gives what is inside its friction cone; the rest has to stick.
             let pressed = [first.max(0.0), second.max(0.0)];
             let limit = joint.contact.friction * (pressed[0] + pressed[1]);
             let friction = along.clamp(-limit, limit);

@@ -122,6 +122,7 @@ impl Cholesky {
             let (width, below) = (node.width, rows.len());
             let height = width + below;
             let values = &mut self.values[self.begin[p]..self.begin[p + 1]];
+            // Step 1: assemble the front.
             values.fill(0.0);
             for k in 0..width {
                 local[node.first + k] = k as u32;
@@ -158,7 +159,9 @@ impl Cholesky {
                 front.extend_add(rows.len(), &children[at..end], runs);
                 at = end;
             }
+            // Step 2: factor the supernode's own columns.
             factor_columns(front.values, height, width, packed);
+            // Step 3: the update matrix is the front's lower part less L₂₁·L₂₁ᵀ.
             if below > 0 {
                 packed.pack(front.values, height, width);
                 packed.subtract_gram(front.update, below, |c| packed_begin(below, c));
@@ -186,6 +189,7 @@ impl Cholesky {
             sums.resize(height, [0.0; N]);
             for (k, column) in values.chunks_exact(height).enumerate() {
                 let at = node.first + k;
+                // `column[k]` is the inverse of the pivot.
                 for n in 0..N {
                     x[at][n] = (x[at][n] - sums[k][n]) * column[k];
                 }
@@ -196,6 +200,7 @@ impl Cholesky {
                     }
                 }
             }
+            // Scatter what the supernode contributes to the rows below.
             for (row, sum) in rows.iter().zip(&sums[width..]) {
                 for n in 0..N {
                     x[*row as usize][n] -= sum[n];
@@ -211,6 +216,7 @@ impl Cholesky {
             let rows = &self.supernodes.rows[node.rows.clone()];
             let (width, height) = (node.width, node.width + rows.len());
             let values = &self.values[self.begin[p]..self.begin[p + 1]];
+            // Gather the unknowns of the supernode and those below it, which are known.
             for (n, list) in lists.iter_mut().enumerate() {
                 list.clear();
                 list.extend(x[node.first..node.first + width].iter().map(|x| x[n]));

@@ -37,6 +37,7 @@ impl Graph {
             list: Vec::new(),
         };
         graph.starts.push(0);
+        // The union of the rows of these groups; `seen` marks what the current unknown has already.
         let mut seen = vec![usize::MAX; n];
         for unknown in 0..n {
             let first = graph.list.len();
@@ -122,6 +123,7 @@ impl<'a> OrderedGraph<'a> {
         let (mut parent, mut ancestor) = (vec![None; n], vec![None; n]);
         for k in 0..n {
             for mut i in self.row(k).filter(|i| *i < k) {
+                // Up to the root of the subtree, which becomes a child of k.
                 while i < k {
                     match ancestor[i].replace(k) {
                         Some(up) => i = up,
@@ -181,6 +183,7 @@ fn postorder(parent: &[Option<usize>]) -> Vec<usize> {
         next[k] = head.replace(k);
     }
     let (mut post, mut stack) = (Vec::with_capacity(n), Vec::new());
+    // Depth first, without recursion: chains are as deep as they are long.
     while let Some(root) = roots {
         roots = next[root];
         stack.push(root);

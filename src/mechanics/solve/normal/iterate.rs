@@ -56,6 +56,7 @@ impl Iterate {
             &vec![1.0; columns],
             REGULARIZATION + lp.velocity_weight,
         );
+        // One pass for both: A·Aᵀ·multipliers = loads gives f, A·Aᵀ·y = A·cost gives y and z.
         let mut weighted_cost = vec![0.0; lp.loads.len()];
         lp.columns.add_product(lp.cost, &mut weighted_cost);
         let sides = lp.loads.iter().zip(&weighted_cost);
@@ -73,6 +74,7 @@ impl Iterate {
         for (z, c) in at.z.iter_mut().zip(lp.cost) {
             *z = c - *z;
         }
+        // Shift.
         for list in [&mut at.f, &mut at.z] {
             let least = list.iter().fold(f64::INFINITY, |a, b| a.min(*b));
             let mean = list.iter().filter(|v| **v > 0.0).sum::<f64>() / columns as f64;

@@ -82,6 +82,7 @@ impl Newton {
         residuals: &Residuals,
         optimality: &Optimality,
     ) -> bool {
+        // 0 if τ stays 1.
         let is_homogeneous = 1.0 - lp.velocity_weight;
         for (weight, (f, z)) in self.weight.iter_mut().zip(at.f.iter().zip(&at.z)) {
             *weight = f / z;
@@ -126,21 +127,37 @@ impl Newton {
         }
         self.solve_candidate(&system, at, sides);
         std::mem::swap(&mut self.direction, &mut self.candidate);
-        let mut max_step = at.max_step(&self.direction);
+        let max_step = self.correct_centrality(&system, at, sides, centre);
 
-        // Gondzio's correctors: products that a longer step would push off centre are brought back.
+        // Step length: one for all variables, as the homogeneous form requires.
+        let step = f64::min(STEP_TO_BOUNDARY * max_step, 1.0);
+        at.advance(&self.direction, step);
+        step > MIN_STEP
+    }
+
+    /// Gondzio's correctors: products that a longer step would push off centre are brought back. Improves `direction`, and
+    /// returns its longest step.
+    fn correct_centrality(
+        &mut self,
+        system: &System,
+        at: &Iterate,
+        mut sides: Sides,
+        centre: f64,
+    ) -> f64 {
+        let mut max_step = at.max_step(&self.direction);
         for _ in 0..MAX_CORRECTORS {
+            // A full step is near enough.
             if max_step > 1.0 - MIN_SHARE_OF_INCREASE * STEP_INCREASE {
                 break;
             }
             let aim = f64::min(max_step + STEP_INCREASE, 1.0);
-            let pair = is_homogeneous * self.recentre(at, aim, centre);
+            let pair = (1.0 - system.lp.velocity_weight) * self.recentre(at, aim, centre);
             std::mem::swap(&mut self.target, &mut self.next_target);
             let next = Sides {
                 pair: sides.pair + pair,
                 ..sides
             };
-            self.solve_candidate(&system, at, next);
+            self.solve_candidate(system, at, next);
             let step = at.max_step(&self.candidate);
             if step < max_step + MIN_SHARE_OF_INCREASE * STEP_INCREASE {
                 break;
@@ -148,11 +165,7 @@ impl Newton {
             std::mem::swap(&mut self.direction, &mut self.candidate);
             (max_step, sides) = (step, next);
         }
-
-        // Step length: one for all variables, as the homogeneous form requires.
-        let step = f64::min(STEP_TO_BOUNDARY * max_step, 1.0);
-        at.advance(&self.direction, step);
-        step > MIN_STEP
+        max_step
     }
 
     /// Writes into `next_target` the products that a corrector aims at: those that a step of this length would bring out of
@@ -185,6 +198,7 @@ impl Newton {
         let mut both: Vec<[f64; 2]> = tau_side.iter().zip(&side).map(|(a, b)| [*a, *b]).collect();
         system.factor.solve(&mut both);
 
+        // First right-hand side: the velocities, amounts and pivot that belong to dτ = 1.
         let part = &mut self.tau_direction;
         part.y.iter_mut().zip(&both).for_each(|(y, v)| *y = v[0]);
         lp.columns.transpose_product(&part.y, &mut part.f);
@@ -194,6 +208,7 @@ impl Newton {
         }
         system.pivot = dot(lp.loads, &part.y) - dot(lp.cost, &part.f) + at.kappa / at.tau;
 
+        // Second: the predictor.
         let velocities = self.candidate.y.iter_mut().zip(&both);
         velocities.for_each(|(y, v)| *y = v[1]);
         self.complete_candidate(system, at, sides);
@@ -234,10 +249,12 @@ impl Newton {
         {
             *f = weight * (*f - side);
         }
+        // The last equation gives dτ.
         let gap = sides.residual_share * system.gap - dot(lp.loads, &to.y)
             + dot(lp.cost, &to.f)
             + sides.pair / at.tau;
         to.tau = (1.0 - lp.velocity_weight) * gap / system.pivot;
+        // dy, df and dz with the part that goes with dτ; dz from the linearized product.
         for (y, part) in to.y.iter_mut().zip(&tau_part.y) {
             *y += part * to.tau;
         }

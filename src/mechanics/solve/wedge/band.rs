@@ -55,6 +55,7 @@ impl Band {
                 }
             }
             self.pivot_rows.push(best);
+            // Row exchange.
             if best != k {
                 for column in k..=end {
                     let (a, b) = (self.at(k, column), self.at(best, column));
@@ -65,6 +66,7 @@ impl Band {
             if self.rows[diagonal].abs() < MIN_PIVOT {
                 self.rows[diagonal] = MIN_PIVOT;
             }
+            // Elimination; the factors are kept in place of the zeros.
             for row in k + 1..=last {
                 let at = self.at(row, k);
                 if self.rows[at] == 0.0 {
@@ -84,6 +86,7 @@ impl Band {
     /// Solves with the LU factors for one right-hand side.
     pub(super) fn solve(&self, right: &[f64]) -> Vec<f64> {
         let mut x = right.to_vec();
+        // L, with the row exchanges of the factorization.
         for k in 0..self.size {
             x.swap(k, self.pivot_rows[k]);
             let known = x[k];
@@ -94,6 +97,7 @@ impl Band {
                 }
             }
         }
+        // U.
         for k in (0..self.size).rev() {
             let end = (k + 2 * self.bandwidth).min(self.size - 1);
             for column in k + 1..=end {

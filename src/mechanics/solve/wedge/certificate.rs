@@ -42,6 +42,7 @@ fn largest_gain(conic: &QuadraticProgram) -> Option<Vec<f64>> {
     if size == 0.0 {
         return None;
     }
+    // Unknowns are the multipliers. Rows: Aᵀz = 0, then z ≤ 1 and −z ≤ 1 or 0.
     let equal = conic.matrix.iter();
     let mut matrix: Vec<(usize, usize, f64)> = equal
         .map(|(row, column, value)| (*column, *row, *value))
@@ -95,6 +96,7 @@ fn correct_multipliers(conic: &QuadraticProgram, z: &[f64]) -> Option<Vec<f64>> 
     if size == 0.0 {
         return None;
     }
+    // Only multipliers that are not 0 may change.
     let rows: Vec<usize> = (0..z.len()).filter(|row| z[*row] != 0.0).collect();
     let mut number = vec![usize::MAX; z.len()];
     rows.iter()

@@ -111,6 +111,7 @@ pub fn check_self_stress(program: &Program, given: &[[f64; 3]]) -> SelfStressChe
             _ => None,
         })
         .collect();
+    // Quick attempts at a rest, with robots' springs around their given forces, then around 0, then by fixed friction.
     let motion = match Springs::around(program, &given, 1.0).find_rest() {
         Ok(_) => return SelfStressCheck::FromRest,
         Err(motion) => motion,
@@ -124,6 +125,7 @@ pub fn check_self_stress(program: &Program, given: &[[f64; 3]]) -> SelfStressChe
     {
         return SelfStressCheck::FromRest;
     }
+    // The search for a proof that there is none.
     let found = search(program);
     if found == Search::Rests {
         return SelfStressCheck::FromRest;
@@ -150,6 +152,7 @@ fn self_stress(program: &Program, motion: Vec<f64>, cases: Vec<RuledOut>) -> Sel
             || springs.tangents[point.contact].dot(&motion).abs() > VELOCITY_TOL;
     }
     let contacts: Vec<usize> = (0..moved.len()).filter(|k| moved[*k]).collect();
+    // The least sum of normal forces at the contacts that the motion opens or slides.
     let cost = |column: &Column| match column.force {
         Force::Ray {
             contact, normal, ..

@@ -41,6 +41,7 @@ impl Springs<'_> {
             if self.balances(&rest, &residual) {
                 return self.obeys(&rest, &gap, &slip).then_some(rest);
             }
+            // Refine by the displacements that the residual causes.
             let change = self.displacements(&stiffness, &residual);
             if change.iter().any(|v| !v.is_finite()) {
                 return None;
@@ -152,6 +153,7 @@ impl Springs<'_> {
             .iter()
             .enumerate()
             .map(|(k, c)| {
+                // Relative to the lighter of the two bodies.
                 let lighter = c
                     .from
                     .as_ref()

@@ -174,6 +174,7 @@ impl<'a> Springs<'a> {
                 normal[point.contact] -= gap;
             }
         }
+        // Faces: the spring's force against the friction limit.
         for (k, slides) in found.slides.iter_mut().enumerate() {
             let slip = self.tangents[k].dot(u);
             let limit = self.program.contacts[k].friction * normal[k].max(0.0);
@@ -186,6 +187,7 @@ impl<'a> Springs<'a> {
                 *slides = Slide::Back;
             }
         }
+        // Robots: the spring's force against the limit.
         for (grip, limit) in self.grips.iter().zip(&mut found.limits) {
             let force = grip.given - grip.column.dot(u);
             *limit = if force.abs() > grip.limit {
@@ -233,6 +235,7 @@ impl<'a> Springs<'a> {
                 enter(&grip.column, &grip.column, 1.0);
             }
         }
+        // Springs to the ground.
         for row in 0..3 * self.program.blocks {
             band.add(row, row, ground);
         }
