@@ -11,7 +11,6 @@ use crate::source::{bare, collect, names_after, without_groups};
 const KNOWN_CYCLES: &[&str] = &[
     "mechanics/analysis/margin",
     "mechanics/scene",
-    "products/figure/freebody",
     "products/report",
     "products/snapshot",
     "products/study",

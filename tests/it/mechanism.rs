@@ -184,5 +184,5 @@ fn a_margin_shows_the_structure_and_the_ghost_of_its_fall() {
     );
     // Without margins there is nothing to show, and that is said.
     let plain = figure::draw(&Analysis::new(&scene), Kind::Margin, &Options::default());
-    assert!(drystone::output::svg::write(&plain).contains("its margins were not asked for"));
+    assert!(drystone::output::svg::write(&plain).contains("its margins were not computed"));
 }

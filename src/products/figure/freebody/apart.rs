@@ -3,7 +3,7 @@
 //! A stone in the middle of a pile is pushed up on the line along which its weight pulls it down: drawn there, the two
 //! heads would run into each other. Only where an arrow is drawn changes; the list keeps the line along which it acts.
 
-use super::force::{Arrow, WIDTH};
+use super::arrow::{Arrow, WIDTH};
 use crate::drawing::Camera;
 use crate::drawing::arrow::HEAD_WIDTH;
 

@@ -1,6 +1,6 @@
 //! What lies around a block: the bodies it touches, the points at which forces act, and how much of it all is shown.
 
-use super::force::{Arrow, MAX_LENGTH};
+use super::arrow::{Arrow, MAX_LENGTH};
 use crate::analysis::{Analysis, Contact};
 use crate::drawing::{Camera, PageRect};
 use crate::geometry::{Bounds, Point, Vector, quarter_turn};

@@ -1,6 +1,8 @@
 //! The foot of a free-body diagram: the verdict, the scale, notes on what is left out, and the list of forces.
 
-use super::force::{WIDTH, largest, longest};
+use super::arrow::WIDTH;
+use super::diagram::longest;
+use super::force::largest;
 use super::table::Table;
 use super::value::{self, Piece, rows};
 use super::{AMOUNT, MARGIN, Sheet};

@@ -1,28 +1,14 @@
 //! [`Force`]: a force on the block as it is listed, with its name, and [`Arrow`]: how it is drawn.
 
 use super::super::option::{Corners, Options};
-use super::super::unit::unit;
 use super::super::words::{force as amount, quantity};
 use super::around::{corners, distinct, inward, other};
 use crate::analysis::{Analysis, Contact, Failure};
+use crate::drawing::Colour;
 use crate::drawing::symbol::{Accent, Symbol};
-use crate::drawing::{Camera, Colour, PagePoint};
 use crate::geometry::{Point, Vector, cross, quarter_turn};
 use crate::scene::{BlockId, BodyId};
 
-/// Lengths in pixels: of the longest arrow; of an arrow that names a force whatever its amount; of a friction arrow; of the
-/// unit vector ŝ.
-pub(super) const MAX_LENGTH: f64 = 64.0;
-const NAMING_LENGTH: f64 = 52.0;
-const FRICTION_LENGTH: f64 = 42.0;
-const UNIT_VECTOR_LENGTH: f64 = 30.0;
-/// Widths of shafts, pixels.
-pub(super) const WIDTH: f64 = 2.4;
-const THIN_WIDTH: f64 = 1.2;
-/// Friction arrows of one interface reach at most so far towards each other, as a share of its length.
-const FRICTION_REACH: f64 = 0.30;
-/// Radius of a turning arrow, pixels.
-const TURN_RADIUS: f64 = 24.0;
 /// With at most this many interfaces the forces at both ends of each are drawn, unless the options say otherwise.
 const MAX_INTERFACES_BY_CORNER: usize = 3;
 /// Forces below this share of the largest are rounding of the solver.
@@ -65,57 +51,6 @@ impl Force {
             self.what,
             self.symbol.stated()
         )
-    }
-}
-
-/// An arrow on the page.
-#[derive(Clone, Debug)]
-pub(super) struct Arrow {
-    /// Its name; `None` where another arrow bears it.
-    pub symbol: Option<Symbol>,
-    /// What it is, in words.
-    pub title: String,
-    /// Where it begins, metres.
-    pub at: Point,
-    /// Where it goes from there, pixels; of a turning arrow the radius.
-    pub along: (f64, f64),
-    /// The angle of a turning arrow, radians.
-    pub turn: Option<f64>,
-    /// Width of its shaft, pixels.
-    pub width: f64,
-    /// Its colour.
-    pub colour: Colour,
-    /// Whether it is drawn hollow, as loads are.
-    pub hollow: bool,
-}
-
-impl Arrow {
-    /// Middles of a name of this size beside the arrow's tip and shaft; `from` is where it begins on the page.
-    pub(super) fn beside(&self, from: PagePoint, wide: f64, high: f64) -> Vec<PagePoint> {
-        let (x, y) = self.along;
-        let length = libm::hypot(x, y).max(1e-9);
-        let (ux, uy) = (x / length, y / length);
-        let reach = |x: f64, y: f64| x.abs() * wide / 2.0 + y.abs() * high / 2.0;
-        if self.turn.is_some() {
-            let off = |x: f64, y: f64| {
-                let far = length + 3.0 * self.width + 2.0 + reach(x, y);
-                from.moved(x * far, y * far)
-            };
-            return vec![off(1.0, 0.0), off(0.0, -1.0), off(-1.0, 0.0), off(0.0, 1.0)];
-        }
-        let mut middles = Vec::new();
-        for share in [0.8, 1.0, 0.55, 0.3] {
-            // Above the shaft first: that is where a reader looks.
-            let up = if -ux > 0.0 { 1.0 } else { -1.0 };
-            for side in [up, -up] {
-                let (nx, ny) = (-uy * side, ux * side);
-                let off = 1.5 * self.width + 3.0 + reach(nx, ny);
-                middles.push(from.moved(x * share + nx * off, y * share + ny * off));
-            }
-        }
-        let beyond = length + 3.0 + reach(ux, uy);
-        middles.push(from.moved(ux * beyond, uy * beyond));
-        middles
     }
 }
 
@@ -347,145 +282,6 @@ pub(super) fn largest(forces: &[Force], edge: f64, options: &Options) -> f64 {
         Corners::All => 0.0,
         Corners::Few => forces.iter().map(size).fold(0.0, f64::max),
     }
-}
-
-/// Length of the longest arrow, pixels: on a small block long arrows would reach across each other.
-pub(super) fn longest(analysis: &Analysis, block: BlockId, camera: &Camera) -> f64 {
-    shorter(analysis, block, camera) * MAX_LENGTH
-}
-
-fn shorter(analysis: &Analysis, block: BlockId, camera: &Camera) -> f64 {
-    let bounds = analysis.scene.blocks[block.0].body.polygon.bounds();
-    (camera.length(bounds.diagonal()) / 300.0).clamp(0.5, 1.0)
-}
-
-/// The arrows of the forces listed, as long as their forces; with [`Corners::All`] every force that may act, all of a
-/// kind equally long, for they only name it.
-pub(super) fn arrows(
-    analysis: &Analysis,
-    block: BlockId,
-    contacts: &[&Contact],
-    forces: &[Force],
-    camera: &Camera,
-    options: &Options,
-) -> Vec<Arrow> {
-    let name = &analysis.scene.blocks[block.0].id;
-    let detail = detail(contacts.len(), options);
-    let edge = unit(&analysis.scene, None);
-    let largest = largest(forces, edge, options);
-    let naming = options.corners == Corners::All;
-    let shorter = shorter(analysis, block, camera);
-    let mut arrows = Vec::new();
-    let turned = |direction: Vector, length: f64| {
-        let (x, y) = camera.turn(direction);
-        let scale = length / libm::hypot(x, y).max(1e-300);
-        (x * scale, y * scale)
-    };
-    for force in forces {
-        let interface = matches!(force.what, "Normal force" | "Friction force" | "Force")
-            && force.colour == options.theme.ink;
-        if naming && interface {
-            continue;
-        }
-        let straight = Arrow {
-            symbol: Some(force.symbol.clone()),
-            title: force.title(name),
-            at: force.at,
-            along: (0.0, 0.0),
-            turn: None,
-            width: WIDTH,
-            colour: force.colour,
-            hollow: matches!(force.what, "Load" | "Torque of a load"),
-        };
-        if force.torque != 0.0 {
-            let share = force.torque.abs() / (edge * largest.max(f64::MIN_POSITIVE));
-            let sweep = if naming {
-                3.4
-            } else {
-                shorter * MAX_LENGTH * share / TURN_RADIUS
-            };
-            arrows.push(Arrow {
-                along: (TURN_RADIUS, 0.0),
-                turn: Some(sweep * force.torque.signum()),
-                ..straight
-            });
-        } else if force.force.norm() > 0.0 {
-            let length = if naming {
-                shorter * NAMING_LENGTH
-            } else {
-                shorter * MAX_LENGTH * force.force.norm() / largest
-            };
-            arrows.push(Arrow {
-                along: turned(force.force, length),
-                ..straight
-            });
-        }
-    }
-    let single = contacts.len() == 1;
-    for (number, contact) in contacts.iter().enumerate() {
-        let normal = inward(contact, block);
-        let left = quarter_turn(normal);
-        if naming {
-            let [a, b] = contact.application_points;
-            let reach = (FRICTION_REACH * camera.length((b - a).norm()))
-                .clamp(14.0, shorter * FRICTION_LENGTH);
-            let given = corners(contact, block);
-            for (k, corner) in given.iter().enumerate().take(distinct(contact).len()) {
-                let k = k + 1;
-                let drawn = [
-                    (
-                        normal,
-                        shorter * NAMING_LENGTH,
-                        format!("s{k}"),
-                        "Normal force",
-                    ),
-                    (left, reach, format!("fl{k}"), "Friction force"),
-                    (-left, reach, format!("fr{k}"), "Friction force"),
-                ];
-                for (part, (direction, length, below, what)) in drawn.into_iter().enumerate() {
-                    let own = Symbol::new("F", Accent::Arrow, &below);
-                    let common = Symbol::new("x", Accent::None, &k.to_string());
-                    let common = common.raised(&format!("({})", number + 1));
-                    let symbol = match detail {
-                        Detail::Parts => own,
-                        _ => common,
-                    };
-                    let title = format!("{what} {} on block {name}", symbol.stated());
-                    arrows.push(Arrow {
-                        symbol: (detail == Detail::Parts || part == 0).then_some(symbol),
-                        title,
-                        at: corner.at,
-                        along: turned(direction, length),
-                        turn: None,
-                        width: WIDTH,
-                        colour: options.theme.ink,
-                        hollow: false,
-                    });
-                }
-            }
-        }
-        if naming || detail == Detail::Parts {
-            let below = if single {
-                String::new()
-            } else {
-                (number + 1).to_string()
-            };
-            let symbol = Symbol::new("s", Accent::Hat, &below);
-            let clear = camera.metres(FRICTION_LENGTH + 1.2 * shorter * UNIT_VECTOR_LENGTH);
-            arrows.push(Arrow {
-                title: format!("Unit normal {} into block {name}", symbol.stated()),
-                symbol: Some(symbol),
-                at: super::around::aside(&analysis.scene, contact, block, clear, single),
-                along: turned(normal, UNIT_VECTOR_LENGTH),
-                turn: None,
-                width: THIN_WIDTH,
-                colour: options.theme.faint,
-                hollow: false,
-            });
-        }
-    }
-    super::apart::apart(&mut arrows, camera);
-    arrows
 }
 
 /// The name of a weight.

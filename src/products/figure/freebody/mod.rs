@@ -10,6 +10,8 @@
 
 mod apart;
 mod around;
+mod arrow;
+mod diagram;
 mod foot;
 mod force;
 mod heading;
@@ -17,10 +19,11 @@ mod table;
 mod value;
 
 use around::{around_arrows, corners, distinct, guided, neighbours, runs_on, view};
-use force::{Arrow, Force, arrows, forces};
+use arrow::Arrow;
+use diagram::arrows;
+use force::{Force, forces};
 use heading::heading;
 
-use super::arrow::LEAST_SEEN;
 use super::option::Options;
 use crate::analysis::{Analysis, Contact};
 use crate::drawing::arrow::{straight, turning};
@@ -31,6 +34,7 @@ use crate::drawing::{
     Anchor, Camera, Drawing, Face, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Text,
     text,
 };
+use crate::figure::arrow::LEAST_SEEN;
 use crate::geometry::{Bounds, Point, Polygon};
 use crate::scene::{BlockId, BodyId};
 

@@ -1,0 +1,61 @@
+//! [`Arrow`]: an arrow of a free-body diagram, before it is drawn.
+
+use crate::drawing::symbol::Symbol;
+use crate::drawing::{Colour, PagePoint};
+use crate::geometry::Point;
+
+/// Length of the longest arrow, pixels.
+pub(super) const MAX_LENGTH: f64 = 64.0;
+/// Width of a shaft, pixels.
+pub(super) const WIDTH: f64 = 2.4;
+
+/// An arrow on the page.
+#[derive(Clone, Debug)]
+pub(super) struct Arrow {
+    /// Its name; `None` where another arrow bears it.
+    pub symbol: Option<Symbol>,
+    /// What it is, in words.
+    pub title: String,
+    /// Where it begins, metres.
+    pub at: Point,
+    /// Where it goes from there, pixels; of a turning arrow the radius.
+    pub along: (f64, f64),
+    /// The angle of a turning arrow, radians.
+    pub turn: Option<f64>,
+    /// Width of its shaft, pixels.
+    pub width: f64,
+    /// Its colour.
+    pub colour: Colour,
+    /// Whether it is drawn hollow, as loads are.
+    pub hollow: bool,
+}
+
+impl Arrow {
+    /// Middles of a name of this size beside the arrow's tip and shaft; `from` is where it begins on the page.
+    pub(super) fn beside(&self, from: PagePoint, wide: f64, high: f64) -> Vec<PagePoint> {
+        let (x, y) = self.along;
+        let length = libm::hypot(x, y).max(1e-9);
+        let (ux, uy) = (x / length, y / length);
+        let reach = |x: f64, y: f64| x.abs() * wide / 2.0 + y.abs() * high / 2.0;
+        if self.turn.is_some() {
+            let off = |x: f64, y: f64| {
+                let far = length + 3.0 * self.width + 2.0 + reach(x, y);
+                from.moved(x * far, y * far)
+            };
+            return vec![off(1.0, 0.0), off(0.0, -1.0), off(-1.0, 0.0), off(0.0, 1.0)];
+        }
+        let mut middles = Vec::new();
+        for share in [0.8, 1.0, 0.55, 0.3] {
+            // Above the shaft first: that is where a reader looks.
+            let up = if -ux > 0.0 { 1.0 } else { -1.0 };
+            for side in [up, -up] {
+                let (nx, ny) = (-uy * side, ux * side);
+                let off = 1.5 * self.width + 3.0 + reach(nx, ny);
+                middles.push(from.moved(x * share + nx * off, y * share + ny * off));
+            }
+        }
+        let beyond = length + 3.0 + reach(ux, uy);
+        middles.push(from.moved(ux * beyond, uy * beyond));
+        middles
+    }
+}

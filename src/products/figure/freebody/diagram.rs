@@ -1,0 +1,215 @@
+//! [`arrows`]: the arrows of a free-body diagram, in three groups: the forces on the block, the forces that may act at each
+//! corner, and the unit normals.
+
+use super::super::option::{Corners, Options};
+use super::super::unit::unit;
+use super::apart::apart;
+use super::around::{aside, corners, distinct, inward};
+use super::arrow::{Arrow, MAX_LENGTH, WIDTH};
+use super::force::{Detail, Force, detail, largest};
+use crate::analysis::{Analysis, Contact};
+use crate::drawing::Camera;
+use crate::drawing::symbol::{Accent, Symbol};
+use crate::geometry::{Vector, quarter_turn};
+use crate::scene::BlockId;
+
+/// Length of an arrow that names a force whatever its amount, pixels.
+const NAMING_LENGTH: f64 = 52.0;
+/// Longest friction arrow of those, pixels.
+const FRICTION_LENGTH: f64 = 42.0;
+/// Length and width of the arrow of a unit normal ŝ, pixels.
+const UNIT_NORMAL_LENGTH: f64 = 30.0;
+const UNIT_NORMAL_WIDTH: f64 = 1.2;
+/// Friction arrows of one interface reach at most this far towards each other, as a share of its length.
+const FRICTION_REACH: f64 = 0.30;
+/// Radius of a turning arrow, pixels.
+const TURN_RADIUS: f64 = 24.0;
+/// Angle of a turning arrow that names a torque whatever its amount, radians.
+const NAMING_SWEEP: f64 = 3.4;
+/// A block whose diagonal is at least this long on the page, pixels, has arrows of full length.
+const FULL_LENGTH_DIAGONAL: f64 = 300.0;
+
+/// Length of the longest arrow, pixels: on a small block long arrows would reach across each other.
+pub(super) fn longest(analysis: &Analysis, block: BlockId, camera: &Camera) -> f64 {
+    length_factor(analysis, block, camera) * MAX_LENGTH
+}
+
+/// The factor by which arrows on a small block are shorter.
+fn length_factor(analysis: &Analysis, block: BlockId, camera: &Camera) -> f64 {
+    let bounds = analysis.scene.blocks[block.0].body.polygon.bounds();
+    (camera.length(bounds.diagonal()) / FULL_LENGTH_DIAGONAL).clamp(0.5, 1.0)
+}
+
+/// The arrows of the forces, as long as their amounts. With [`Corners::All`] every force that may act, all arrows of one
+/// kind of one length, because they only name forces.
+pub(super) fn arrows(
+    analysis: &Analysis,
+    block: BlockId,
+    contacts: &[&Contact],
+    forces: &[Force],
+    camera: &Camera,
+    options: &Options,
+) -> Vec<Arrow> {
+    let diagram = Diagram {
+        analysis,
+        block,
+        contacts,
+        camera,
+        options,
+        detail: detail(contacts.len(), options),
+        naming: options.corners == Corners::All,
+        shorter: length_factor(analysis, block, camera),
+    };
+    let mut arrows = diagram.force_arrows(forces);
+    for (number, contact) in contacts.iter().enumerate() {
+        if diagram.naming {
+            arrows.extend(diagram.corner_arrows(number, contact));
+        }
+        if diagram.naming || diagram.detail == Detail::Parts {
+            arrows.push(diagram.unit_normal(number, contact));
+        }
+    }
+    apart(&mut arrows, camera);
+    arrows
+}
+
+/// What all arrows of a diagram depend on.
+struct Diagram<'a> {
+    analysis: &'a Analysis,
+    block: BlockId,
+    contacts: &'a [&'a Contact],
+    camera: &'a Camera,
+    options: &'a Options,
+    detail: Detail,
+    /// Whether arrows name forces and their lengths show no amounts.
+    naming: bool,
+    /// See [`length_factor`].
+    shorter: f64,
+}
+
+impl Diagram<'_> {
+    fn block_name(&self) -> &str {
+        &self.analysis.scene.blocks[self.block.0].id
+    }
+
+    /// A direction of the scene as a vector of this length on the page, pixels.
+    fn on_page(&self, direction: Vector, length: f64) -> (f64, f64) {
+        let (x, y) = self.camera.turn(direction);
+        let scale = length / libm::hypot(x, y).max(1e-300);
+        (x * scale, y * scale)
+    }
+
+    /// The forces as straight arrows, the torques as turning ones.
+    fn force_arrows(&self, forces: &[Force]) -> Vec<Arrow> {
+        let edge = unit(&self.analysis.scene, None);
+        let largest = largest(forces, edge, self.options);
+        let mut arrows = Vec::new();
+        for force in forces {
+            // Where arrows name forces, `corner_arrows` draws those of interfaces.
+            let of_interface = matches!(force.what, "Normal force" | "Friction force" | "Force")
+                && force.colour == self.options.theme.ink;
+            if self.naming && of_interface {
+                continue;
+            }
+            let straight = Arrow {
+                symbol: Some(force.symbol.clone()),
+                title: force.title(self.block_name()),
+                at: force.at,
+                along: (0.0, 0.0),
+                turn: None,
+                width: WIDTH,
+                colour: force.colour,
+                hollow: matches!(force.what, "Load" | "Torque of a load"),
+            };
+            if force.torque != 0.0 {
+                let share = force.torque.abs() / (edge * largest.max(f64::MIN_POSITIVE));
+                let sweep = if self.naming {
+                    NAMING_SWEEP
+                } else {
+                    self.shorter * MAX_LENGTH * share / TURN_RADIUS
+                };
+                arrows.push(Arrow {
+                    along: (TURN_RADIUS, 0.0),
+                    turn: Some(sweep * force.torque.signum()),
+                    ..straight
+                });
+            } else if force.force.norm() > 0.0 {
+                let length = if self.naming {
+                    self.shorter * NAMING_LENGTH
+                } else {
+                    self.shorter * MAX_LENGTH * force.force.norm() / largest
+                };
+                arrows.push(Arrow {
+                    along: self.on_page(force.force, length),
+                    ..straight
+                });
+            }
+        }
+        arrows
+    }
+
+    /// At each corner of an interface the normal force and the friction forces to both sides, by name.
+    fn corner_arrows(&self, number: usize, contact: &Contact) -> Vec<Arrow> {
+        let normal = inward(contact, self.block);
+        let left = quarter_turn(normal);
+        let [a, b] = contact.application_points;
+        let friction = (FRICTION_REACH * self.camera.length((b - a).norm()))
+            .clamp(14.0, self.shorter * FRICTION_LENGTH);
+        let naming = self.shorter * NAMING_LENGTH;
+        let mut arrows = Vec::new();
+        let given = corners(contact, self.block);
+        for (corner, k) in given.iter().take(distinct(contact).len()).zip(1..) {
+            let parts = [
+                (normal, naming, format!("s{k}"), "Normal force"),
+                (left, friction, format!("fl{k}"), "Friction force"),
+                (-left, friction, format!("fr{k}"), "Friction force"),
+            ];
+            for (part, (direction, length, below, what)) in parts.into_iter().enumerate() {
+                let symbol = match self.detail {
+                    Detail::Parts => Symbol::new("F", Accent::Arrow, &below),
+                    _ => Symbol::new("x", Accent::None, &k.to_string())
+                        .raised(&format!("({})", number + 1)),
+                };
+                arrows.push(Arrow {
+                    title: format!("{what} {} on block {}", symbol.stated(), self.block_name()),
+                    // The parts of one unknown share its name, which one of them has.
+                    symbol: (self.detail == Detail::Parts || part == 0).then_some(symbol),
+                    at: corner.at,
+                    along: self.on_page(direction, length),
+                    turn: None,
+                    width: WIDTH,
+                    colour: self.options.theme.ink,
+                    hollow: false,
+                });
+            }
+        }
+        arrows
+    }
+
+    /// The unit normal of an interface, into the block, next to the arrows of its forces.
+    fn unit_normal(&self, number: usize, contact: &Contact) -> Arrow {
+        let single = self.contacts.len() == 1;
+        let below = if single {
+            String::new()
+        } else {
+            (number + 1).to_string()
+        };
+        let symbol = Symbol::new("s", Accent::Hat, &below);
+        let clear = FRICTION_LENGTH + 1.2 * self.shorter * UNIT_NORMAL_LENGTH;
+        let clear = self.camera.metres(clear);
+        Arrow {
+            title: format!(
+                "Unit normal {} into block {}",
+                symbol.stated(),
+                self.block_name()
+            ),
+            symbol: Some(symbol),
+            at: aside(&self.analysis.scene, contact, self.block, clear, single),
+            along: self.on_page(inward(contact, self.block), UNIT_NORMAL_LENGTH),
+            turn: None,
+            width: UNIT_NORMAL_WIDTH,
+            colour: self.options.theme.faint,
+            hollow: false,
+        }
+    }
+}
