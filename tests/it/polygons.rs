@@ -94,7 +94,7 @@ fn a_margin_of_loads_is_drawn_where_the_verdict_changes() {
     let analysis = Analysis::with(&falls, &asked);
     let drawing = figure::draw(&analysis, Kind::Margin, &options);
     let (words, _) = said(&drawing);
-    let would_stand = "falls as it is; stands with its loads at most 0.75 times as large";
+    let would_stand = "falls as it is; stands with its loads times at most 0.75";
     assert!(words.contains(would_stand), "{words}");
     assert!(classes(&drawing.items, &["ghosts"]).is_empty());
     assert!(!words.contains("how it would begin to fall"), "{words}");

@@ -419,7 +419,10 @@ const WRITERS: &[(&str, &[&str])] = &[
     ),
     ("fs::write", &[]),
     // A batch grows line by line, so that an interrupted run can go on.
-    ("File::create", &["cli/batch/output.rs"]),
+    (
+        "File::create",
+        &["cli/batch/output.rs", "cli/batch/resume.rs"],
+    ),
     (
         "to_writer",
         &["result/", "scene/format.rs", "scene/format/"],

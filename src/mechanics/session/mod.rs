@@ -246,7 +246,7 @@ impl Session {
     /// ```
     /// use drystone::scene::format::BlockEntry;
     /// use drystone::{Scene, analysis::MarginKinds, session::Session};
-    /// let brick = BlockEntry::new("a").polygon([[0, 0], [3, 0], [3, 2], [0, 2]]);
+    /// let brick = BlockEntry::new("a").polygon([[0.0, 0.0], [3.0, 0.0], [3.0, 2.0], [0.0, 2.0]]);
     /// let floor = [[-9.0, -1.0], [9.0, -1.0], [9.0, 0.0], [-9.0, 0.0]];
     /// let session = Session::new(Scene::builder().friction(0.5).ground(floor).block(brick))?;
     /// let margins = session.margins(MarginKinds::ALL).expect("a session has one frame");
