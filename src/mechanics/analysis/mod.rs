@@ -2,7 +2,7 @@
 //!
 //! Everything here is in the scene's own units (metres, newtons) and axes (x right, y up). Pictures and reports read
 //! this and nothing deeper. Components of a frame's assembly, which cannot influence each other, are solved apart, and a
-//! component that has been solved in an earlier frame is not solved again; [`decide`] decides one component, and this
+//! component that has been solved in an earlier frame is not solved again; `decide` decides one component, and this
 //! file combines them.
 
 mod decide;

@@ -276,7 +276,7 @@ pub type CostCap<'a> = (&'a dyn Fn(&Column) -> f64, f64);
 /// The primal form with the forces as unknowns: min Σ cost·amount  s.t.  they balance `loads`, 0 ≤ amount ≤ limit.
 ///
 /// A [`CostCap`] (cost, max) adds the constraint Σ cost·amount ≤ max: the second stage of a lexicographic program.
-/// Used, like [`vallat_program`], only to measure what the kinematic dual saves.
+/// Used, like `vallat_program`, only to measure what the kinematic dual saves.
 pub fn force_primal(
     loads: &[f64],
     columns: &[Column],

@@ -8,7 +8,7 @@
 //! |---|---|---|
 //! | [`setting`] | the settings: layers, widths, tolerances | `drystone-snapshots.toml` |
 //! | [`discovery`] | the scenes, and orphaned references | folders |
-//! | [`reference`] | the reference files of a scene | settings |
+//! | [`reference`](mod@reference) | the reference files of a scene | settings |
 //! | [`fact`] | differences in verdict and forces | an analysis and a text |
 //! | [`element`] | differences in the drawing | two SVG texts |
 //! | [`picture`] | differences in the pixels | two pictures |

@@ -10,7 +10,7 @@ const MAX_FAILURES_IN_SENTENCE: usize = 4;
 /// The line below a figure has less space, and names at most this many.
 const MAX_FAILURES_BELOW_FIGURE: usize = 3;
 
-/// The word for a verdict in JSON results: `stable`, `unstable`, `undecided`. Readers see [`plain`] and [`counted`].
+/// The word for a verdict in JSON results: `stable`, `unstable`, `undecided`. Readers see `plain` and `counted`.
 pub fn word(verdict: Verdict) -> &'static str {
     verdict.word()
 }

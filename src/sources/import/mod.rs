@@ -2,7 +2,7 @@
 //!
 //! | step | file |
 //! |---|---|
-//! | 1. read the drawing into a [`Draft`]: subpaths in metres, y up; transforms are applied, layers give the roles | `svg`, `geojson`, `wkt` |
+//! | 1. read the drawing into a `Draft`: subpaths in metres, y up; transforms are applied, layers give the roles | `svg`, `geojson`, `wkt` |
 //! | 2. flatten curves into chords, and close open ends | `subpath` |
 //! | 3. find regions and their holes by the fill rule | `region` |
 //! | 4. refuse drawings with too many overlapping outlines | `limit` |

@@ -1,15 +1,15 @@
 //! Effects: each thing that may be simulated in a frame, such as friction or robots, and whether the frame needs it.
 //!
-//! An effect that acts on the assembly is one file with a type that implements [`Effect`]: its
-//! [`applicability`](Effect::applicability) says whether the frame needs it, with a reason in words, and
-//! [`contribute`](Effect::contribute) adds its loads, contacts, friction or grips to the [`Assembly`]. An effect that is
+//! An effect that acts on the assembly is one file with a type that implements `Effect`: its
+//! `applicability` says whether the frame needs it, with a reason in words, and
+//! `contribute` adds its loads, contacts, friction or grips to the [`Assembly`]. An effect that is
 //! skipped contributes nothing, so that the linear program has no row or column for it. The number of unknowns of each
 //! effect is counted later, from the columns of the programs that were solved.
 //!
 //! Sticking, mechanism, margins and wedging depend on the verdict or on the user's options. They contribute to no
 //! assembly; the `report` functions of their files are called after the frame is solved.
 //!
-//! To add an effect, write its file, and add it to [`EffectName`] and to [`EFFECTS`] here and to `wording/effect.rs`.
+//! To add an effect, write its file, and add it to [`EffectName`] and to `EFFECTS` here and to `wording/effect.rs`.
 
 mod contact;
 mod corner_contact;

@@ -1,8 +1,8 @@
 //! [`changes`]: describes the differences between two SVG drawings.
 //!
-//! 1. [`tree`] reads both files into trees of elements.
-//! 2. [`pairing`] pairs the elements of both trees.
-//! 3. [`shape`] and the functions below describe what changed in each pair: position, rotation, outline, colour, text.
+//! 1. `tree` reads both files into trees of elements.
+//! 2. `pairing` pairs the elements of both trees.
+//! 3. `shape` and the functions below describe what changed in each pair: position, rotation, outline, colour, text.
 //!
 //! It works for SVG of any program. A shape that another program writes with other elements is reported as changed, though.
 //! Attributes that depend on the whole content (`id`) are ignored. Positions are compared with a tolerance of 0.025 pixels,
